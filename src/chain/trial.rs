@@ -1,0 +1,273 @@
+//! One trial of a family, in buffers that are allocated once and reused for a whole block.
+
+use super::family::{Branch, Course, Family, Source, Stage};
+use crate::detect::{Pooled, Samples};
+use crate::rng::{Generator, Stream};
+use crate::signal::Digitiser;
+use crate::whiten::{Fitter, whiten};
+use rand::Rng;
+
+/// The buffers of a trial. Times run from the first observation of the record, or, where named
+/// `motion`, from the first after X.
+pub(super) struct Trial<'a> {
+    family: &'a Family,
+    fitters: Vec<Fitter>,
+    noise: NoiseRecord,
+    motion: MotionBuffers,
+    ties: Ties<'a>,
+}
+
+/// The sensor's noise, as drawn and as observed.
+struct NoiseRecord {
+    /// Raw samples, burn-in first.
+    raw: Vec<f64>,
+    burn_in: usize,
+    /// Digitised block means.
+    observed: Vec<f64>,
+    /// Whitened observations from the first of X.
+    whitened: Vec<f64>,
+}
+
+/// What a motion adds.
+struct MotionBuffers {
+    /// One 64-bit draw for each raw observation.
+    draws: Vec<u64>,
+    /// λ/θ for each raw observation.
+    pattern: Vec<f64>,
+    /// The raw record with the motion in it.
+    raw: Vec<f64>,
+    /// Block means of a shape or pattern.
+    observed: Vec<f64>,
+    /// Whitened step and impulses; noise and impulses; all three.
+    step: Vec<f64>,
+    impulse: Vec<f64>,
+    without_step: Vec<f64>,
+    whitened: Vec<f64>,
+}
+
+/// Random keys for a trial's ties, drawn when first asked for.
+struct Ties<'a> {
+    stream: &'a Stream,
+    trial: u64,
+    keys: Vec<u64>,
+    drawn: bool,
+}
+
+impl<'a> Trial<'a> {
+    pub fn new(family: &'a Family) -> Self {
+        let source = &family.source;
+        let after = source.motion_observations();
+        let raw_after = after * source.samples.decimation();
+        let fitter = |branch: &Branch| Fitter::new(branch.whitening, source.sensor.ar());
+        Self {
+            family,
+            fitters: family.branches.iter().map(fitter).collect(),
+            noise: NoiseRecord {
+                raw: vec![0.0; source.burn_in() + source.raw_length()],
+                burn_in: source.burn_in(),
+                observed: vec![0.0; source.observations()],
+                whitened: vec![0.0; source.samples.span()],
+            },
+            motion: MotionBuffers {
+                draws: vec![0; raw_after],
+                pattern: vec![0.0; raw_after],
+                raw: vec![0.0; raw_after],
+                observed: vec![0.0; after],
+                step: vec![0.0; after],
+                impulse: vec![0.0; after],
+                without_step: vec![0.0; after],
+                whitened: vec![0.0; after],
+            },
+            ties: Ties {
+                stream: &family.ties,
+                trial: 0,
+                keys: vec![0; source.samples.span()],
+                drawn: false,
+            },
+        }
+    }
+
+    /// Draws the noise of trial `index` and decides every point of the family on it.
+    pub fn run(
+        &mut self,
+        index: u64,
+        noise: &mut Generator,
+        impulses: &mut Generator,
+        counters: &mut [u64],
+    ) {
+        let source = &self.family.source;
+        self.ties.start(index);
+        self.noise.draw(source, noise);
+        for draw in &mut self.motion.draws {
+            *draw = impulses.next_u64();
+        }
+        for (branch, fitter) in self.family.branches.iter().zip(&mut self.fitters) {
+            self.noise
+                .observe(&branch.digitiser, source.samples.decimation());
+            let coefficients = fitter.fit(self.noise.training(branch, source));
+            whiten(
+                coefficients,
+                &self.noise.observed,
+                source.lead,
+                &mut self.noise.whitened,
+            );
+            for course in &branch.courses {
+                course.impulses.pattern(
+                    &self.motion.draws[course.first_impulse(&source.samples)..],
+                    {
+                        let first = course.first_impulse(&source.samples);
+                        let (silent, acting) = self.motion.pattern.split_at_mut(first);
+                        silent.fill(0.0);
+                        acting
+                    },
+                );
+                if branch.digitiser.is_transparent() {
+                    self.motion
+                        .respond(course, coefficients, source, &self.noise.whitened);
+                }
+                for stage in &course.stages {
+                    if branch.digitiser.is_transparent() {
+                        self.motion.add_step(stage.delta);
+                    } else {
+                        self.motion.record_anew(
+                            branch,
+                            course,
+                            stage,
+                            coefficients,
+                            source,
+                            &mut self.noise,
+                        );
+                    }
+                    let samples = &source.samples;
+                    let pooled = pool(samples, &self.noise.whitened, &self.motion.whitened);
+                    let statistics = pooled.statistics(|| self.ties.keys());
+                    for verdict in &stage.verdicts {
+                        counters[verdict.counter] += u64::from(verdict.region.contains(statistics));
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl NoiseRecord {
+    /// Stationary noise of the sensor.
+    fn draw(&mut self, source: &Source, generator: &mut Generator) {
+        source.noise.fill(generator, &mut self.raw);
+        source.sensor.colour(&mut self.raw);
+    }
+
+    /// The record of rest as the sensor writes it down.
+    fn observe(&mut self, digitiser: &Digitiser, decimation: usize) {
+        observe(
+            &self.raw[self.burn_in..],
+            digitiser,
+            decimation,
+            &mut self.observed,
+        );
+    }
+
+    /// The observations the filter is fitted to.
+    fn training(&self, branch: &Branch, source: &Source) -> &[f64] {
+        let end = match branch.whitening.includes_reference() {
+            true => source.lead + source.samples.reference(),
+            false => source.lead,
+        };
+        &self.observed[end - branch.whitening.training()..end]
+    }
+}
+
+impl MotionBuffers {
+    /// Whitened responses to a unit step and to the impulses, and the whitened record without step.
+    fn respond(&mut self, course: &Course, coefficients: &[f64], source: &Source, noise: &[f64]) {
+        let decimation = source.samples.decimation();
+        block_means(&course.shape, decimation, &mut self.observed);
+        whiten(coefficients, &self.observed, 0, &mut self.step);
+        block_means(&self.pattern, decimation, &mut self.observed);
+        whiten(coefficients, &self.observed, 0, &mut self.impulse);
+        let theta = course.impulses.theta();
+        let noise = &noise[source.samples.reference()..];
+        for ((sum, xi), impulse) in self.without_step.iter_mut().zip(noise).zip(&self.impulse) {
+            *sum = xi + theta * impulse;
+        }
+    }
+
+    /// Adds Δ times the step response.
+    fn add_step(&mut self, delta: f64) {
+        for ((y, rest), step) in self
+            .whitened
+            .iter_mut()
+            .zip(&self.without_step)
+            .zip(&self.step)
+        {
+            *y = rest + delta * step;
+        }
+    }
+
+    /// Writes the record with the motion in it, digitises it and whitens it.
+    fn record_anew(
+        &mut self,
+        branch: &Branch,
+        course: &Course,
+        stage: &Stage,
+        coefficients: &[f64],
+        source: &Source,
+        noise: &mut NoiseRecord,
+    ) {
+        let theta = course.impulses.theta();
+        let rest = &noise.raw[noise.raw.len() - self.raw.len()..];
+        for (i, r) in self.raw.iter_mut().enumerate() {
+            *r = rest[i] + stage.delta * course.shape[i] + theta * self.pattern[i];
+        }
+        let start = source.lead + source.samples.reference();
+        let decimation = source.samples.decimation();
+        observe(
+            &self.raw,
+            &branch.digitiser,
+            decimation,
+            &mut noise.observed[start..],
+        );
+        whiten(coefficients, &noise.observed, start, &mut self.whitened);
+    }
+}
+
+impl Ties<'_> {
+    fn start(&mut self, trial: u64) {
+        self.trial = trial;
+        self.drawn = false;
+    }
+
+    fn keys(&mut self) -> &[u64] {
+        if !self.drawn {
+            let mut generator = self.stream.at(self.trial);
+            for key in &mut self.keys {
+                *key = generator.next_u64();
+            }
+            self.drawn = true;
+        }
+        &self.keys
+    }
+}
+
+/// X from the whitened rest, Y₁ and Y₂ from what follows it.
+fn pool<'a>(samples: &Samples, rest: &'a [f64], motion: &'a [f64]) -> Pooled<'a> {
+    let after = |range: std::ops::Range<usize>| {
+        &motion[range.start - samples.reference()..range.end - samples.reference()]
+    };
+    Pooled {
+        reference: &rest[samples.reference_range()],
+        shift: after(samples.shift_range()),
+        scale: after(samples.scale_range()),
+    }
+}
+
+/// Digitises raw samples and takes block means.
+fn observe(raw: &[f64], digitiser: &Digitiser, decimation: usize, observed: &mut [f64]) {
+    for (mean, block) in observed.iter_mut().zip(raw.chunks_exact(decimation)) {
+        *mean = block.iter().map(|&x| digitiser.step(x)).sum::<f64>() / decimation as f64;
+    }
+}
+
+fn block_means(raw: &[f64], decimation: usize, observed: &mut [f64]) {
+    observe(raw, &Digitiser::default(), decimation, observed);
+}

@@ -1,0 +1,285 @@
+//! The x axis: one parameter and the values it takes.
+
+use super::error::{Problem, Refusal, nearest};
+use super::file::{AxisTable, Sections};
+use super::value::Number;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use std::ops::Range;
+use toml::{Spanned, Value};
+
+/// A parameter that an axis can sweep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// Δ/σ_ξ.
+    Delta,
+    /// Length of the acceleration.
+    Duration,
+    /// Start of the acceleration after X.
+    Offset,
+    /// ν.
+    Nu,
+    /// θ/σ_ξ.
+    Theta,
+    /// Step of the sensor.
+    Quantum,
+    /// Limit of the sensor.
+    Range,
+    /// Training samples.
+    Training,
+    /// m.
+    Order,
+    /// N, M₁ and M₂ together.
+    AllSamples,
+    /// N.
+    Reference,
+    /// M₁.
+    Shift,
+    /// M₂.
+    Scale,
+    /// Samples skipped between X, Y₁ and Y₂.
+    Gap,
+    /// Observations in a block mean.
+    Decimation,
+    /// α.
+    Alpha,
+    /// The decision rule.
+    Rule,
+}
+
+/// One value of an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AxisValue {
+    value: Value,
+}
+
+/// A parameter and its values.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    /// What is swept.
+    pub parameter: Parameter,
+    /// At least one.
+    pub values: Vec<AxisValue>,
+    span: Range<usize>,
+}
+
+/// More points than this on one axis are a mistake.
+const MOST_POINTS: usize = 10_000;
+
+impl Parameter {
+    /// All of them, by the name they have in a config and, where they have a column, in results.
+    pub const ALL: [(&'static str, Self); 17] = [
+        ("delta", Self::Delta),
+        ("duration", Self::Duration),
+        ("offset", Self::Offset),
+        ("nu", Self::Nu),
+        ("theta", Self::Theta),
+        ("quantum", Self::Quantum),
+        ("range", Self::Range),
+        ("training", Self::Training),
+        ("order", Self::Order),
+        ("all_samples", Self::AllSamples),
+        ("reference", Self::Reference),
+        ("shift", Self::Shift),
+        ("scale", Self::Scale),
+        ("gap", Self::Gap),
+        ("decimation", Self::Decimation),
+        ("alpha", Self::Alpha),
+        ("rule", Self::Rule),
+    ];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        let named = Self::ALL.iter().find(|(_, parameter)| *parameter == self);
+        named.map_or("", |(name, _)| name)
+    }
+}
+
+impl AxisValue {
+    /// The number, where it is one.
+    pub fn number(&self) -> Option<f64> {
+        match self.value {
+            Value::Float(number) => Some(number),
+            Value::Integer(number) => Some(number as f64),
+            _ => None,
+        }
+    }
+}
+
+impl Axis {
+    pub(super) fn new(table: &AxisTable) -> Result<Self, (Option<Range<usize>>, Problem)> {
+        let entries = table.get_ref();
+        if entries.len() != 1 {
+            // The second key is the one too many.
+            let span = entries.keys().nth(1).map_or(table.span(), Spanned::span);
+            return Err((Some(span), Problem::AxisKeys(entries.len())));
+        }
+        let (key, value) = entries.iter().next().expect("one entry");
+        let known = || Parameter::ALL.iter().map(|(name, _)| *name);
+        let Some(&(name, parameter)) = Parameter::ALL
+            .iter()
+            .find(|(name, _)| name == key.get_ref())
+        else {
+            let problem = Problem::UnknownParameter {
+                got: key.get_ref().clone(),
+                hint: nearest(key.get_ref(), known()),
+                known: known().collect::<Vec<_>>().join(", "),
+            };
+            return Err((Some(key.span()), problem));
+        };
+        let span = value.span();
+        match values(name, value.get_ref()) {
+            Ok(values) => Ok(Self {
+                parameter,
+                values,
+                span,
+            }),
+            Err(problem) => Err((Some(span), problem)),
+        }
+    }
+
+    /// Where the values stand in the file.
+    pub(super) fn span(&self) -> Range<usize> {
+        self.span.clone()
+    }
+
+    /// Puts `value` in the place of what the sections say.
+    pub(super) fn set(&self, value: &AxisValue, sections: &mut Sections) -> Result<(), Problem> {
+        let name = self.parameter.name();
+        let Sections {
+            motion,
+            noise,
+            impulses,
+            whitening,
+            samples,
+            detector,
+            ..
+        } = sections;
+        match self.parameter {
+            Parameter::Delta => motion.delta = self.read(name, value)?,
+            Parameter::Duration => motion.duration = self.read(name, value)?,
+            Parameter::Offset => motion.offset = self.read(name, value)?,
+            Parameter::Nu => impulses.nu = self.read(name, value)?,
+            Parameter::Theta => impulses.theta = self.read(name, value)?,
+            Parameter::Quantum => noise.quantum = self.read(name, value)?,
+            Parameter::Range => noise.range = self.read(name, value)?,
+            Parameter::Training => whitening.training = self.read(name, value)?,
+            Parameter::Order => whitening.order = self.read(name, value)?,
+            Parameter::AllSamples => {
+                samples.reference = self.read(name, value)?;
+                samples.shift = self.read(name, value)?;
+                samples.scale = self.read(name, value)?;
+            }
+            Parameter::Reference => samples.reference = self.read(name, value)?,
+            Parameter::Shift => samples.shift = self.read(name, value)?,
+            Parameter::Scale => samples.scale = self.read(name, value)?,
+            Parameter::Gap => samples.gap = self.read(name, value)?,
+            Parameter::Decimation => samples.decimation = self.read(name, value)?,
+            Parameter::Alpha => detector.alpha = self.read(name, value)?,
+            Parameter::Rule => detector.rule = self.read(name, value)?,
+        }
+        Ok(())
+    }
+
+    fn read<T: DeserializeOwned>(
+        &self,
+        name: &'static str,
+        value: &AxisValue,
+    ) -> Result<Option<Spanned<T>>, Problem> {
+        let value: T = value.value.clone().try_into().map_err(|error| {
+            let refusal = Refusal::new("", error);
+            Problem::AxisValue { name, refusal }
+        })?;
+        Ok(Some(Spanned::new(self.span(), value)))
+    }
+}
+
+/// `{ from, to, step }`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Steps {
+    from: Number,
+    to: Number,
+    step: Number,
+}
+
+/// The values of a list, or of a range.
+fn values(name: &'static str, value: &Value) -> Result<Vec<AxisValue>, Problem> {
+    let values: Vec<Value> = match value {
+        Value::Array(list) => list.clone(),
+        Value::Table(_) => {
+            let steps = value.clone().try_into().map_err(|error| {
+                let refusal = Refusal::new("", error);
+                Problem::AxisValue { name, refusal }
+            })?;
+            range(name, &steps)?
+        }
+        single => vec![single.clone()],
+    };
+    match values.is_empty() {
+        true => Err(Problem::EmptyAxis(name)),
+        false => Ok(values
+            .into_iter()
+            .map(|value| AxisValue { value })
+            .collect()),
+    }
+}
+
+/// from, from + step, …, to; whole numbers stay whole.
+fn range(name: &'static str, steps: &Steps) -> Result<Vec<Value>, Problem> {
+    let (from, to, step) = (steps.from.0, steps.to.0, steps.step.0);
+    if step <= 0.0 {
+        return Err(Problem::Step { name, step });
+    }
+    if from > to {
+        return Err(Problem::Reversed { name, from, to });
+    }
+    // A billionth of a step forgives the rounding of (to − from)/step.
+    let points = ((to - from) / step + 1e-9).floor() + 1.0;
+    if points > MOST_POINTS as f64 {
+        let limit = MOST_POINTS;
+        return Err(Problem::TooManyPoints {
+            name,
+            points,
+            limit,
+        });
+    }
+    let value = |i: usize| {
+        let value = twelve_digits(from + i as f64 * step);
+        match value.fract() == 0.0
+            && value.abs() < 1e15
+            && from.fract() == 0.0
+            && step.fract() == 0.0
+        {
+            true => Value::Integer(value as i64),
+            false => Value::Float(value),
+        }
+    };
+    Ok((0..points as usize).map(value).collect())
+}
+
+/// The nearest number of twelve significant digits: 0.1 + 2 · 0.1 is meant to be 0.3.
+fn twelve_digits(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(value: &str) -> Vec<f64> {
+        let table: toml::Table = format!("x = {value}").parse().unwrap();
+        let values = values("delta", &table["x"]).unwrap();
+        values.iter().map(|value| value.number().unwrap()).collect()
+    }
+
+    #[test]
+    fn ranges_are_what_they_say() {
+        let range = numbers("{ from = 0.0, to = 3.0, step = 0.1 }");
+        assert_eq!(range.len(), 31);
+        assert_eq!((range[3], range[30]), (0.3, 3.0));
+        assert_eq!(numbers("{ from = 2, to = 9, step = 3 }"), [2.0, 5.0, 8.0]);
+        assert_eq!(numbers("{ from = 1.0, to = 1.0, step = 0.5 }"), [1.0]);
+        assert_eq!(numbers("[1, 2.5]"), [1.0, 2.5]);
+    }
+}

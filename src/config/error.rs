@@ -1,0 +1,268 @@
+//! Errors that point: file, line and column, what is wrong, what was got, what to do.
+
+use crate::chain::RecordTooLong;
+use crate::detect::{RegionError, SamplesError};
+use crate::signal::{DigitiserError, ImpulsesError, LawError, MotionError, SensorError};
+use crate::whiten::WhiteningError;
+use std::fmt;
+use std::io;
+use std::ops::Range;
+
+/// Why a config was refused, and where.
+#[derive(Debug, thiserror::Error)]
+pub struct ConfigError {
+    file: String,
+    place: Option<Place>,
+    #[source]
+    problem: Problem,
+}
+
+/// A line of the file with the offending part underlined.
+#[derive(Clone, Debug)]
+struct Place {
+    line: usize,
+    column: usize,
+    text: String,
+    width: usize,
+}
+
+/// What is wrong with a config.
+#[derive(Debug, thiserror::Error)]
+pub enum Problem {
+    /// The file cannot be read.
+    #[error("cannot be read: {0} (check the path)")]
+    Unreadable(#[source] io::Error),
+    /// The file is no TOML, or holds something that does not belong there.
+    #[error("{0}")]
+    Toml(Refusal),
+    /// Neither a sweep nor anything else.
+    #[error("axis: exactly one key says what is swept, got {0} (for instance delta = [0.0, 1.0])")]
+    AxisKeys(usize),
+    /// An axis that is no parameter.
+    #[error("axis: unknown parameter `{got}`{} (one of {known})", did_you_mean(.hint))]
+    UnknownParameter {
+        /// As written.
+        got: String,
+        /// The nearest one known.
+        hint: Option<String>,
+        /// All that are.
+        known: String,
+    },
+    /// An axis without values.
+    #[error("axis.{0}: no values (list some, or give from, to and step)")]
+    EmptyAxis(&'static str),
+    /// A value that the parameter cannot take.
+    #[error("axis.{name}: {refusal}")]
+    AxisValue {
+        /// The parameter.
+        name: &'static str,
+        /// Why not.
+        refusal: Refusal,
+    },
+    /// A step of zero or below.
+    #[error("axis.{name}: step must be positive, got {step}")]
+    Step {
+        /// The parameter.
+        name: &'static str,
+        /// As given.
+        step: f64,
+    },
+    /// A range that ends before it starts.
+    #[error("axis.{name}: from = {from} lies above to = {to} (exchange them)")]
+    Reversed {
+        /// The parameter.
+        name: &'static str,
+        /// Its start.
+        from: f64,
+        /// Its end.
+        to: f64,
+    },
+    /// More points than anyone wants.
+    #[error("axis.{name}: {points:.0} points, more than {limit} (raise step)")]
+    TooManyPoints {
+        /// The parameter.
+        name: &'static str,
+        /// Their number.
+        points: f64,
+        /// What is allowed.
+        limit: usize,
+    },
+    /// A confidence that is none.
+    #[error("confidence must lie strictly between 0 and 1, got {0}")]
+    Confidence(f64),
+    /// A half-width out of reach.
+    #[error("half_width must lie in [0.000001, 0.5), got {0}")]
+    HalfWidth(f64),
+    /// Two ways of saying how many trials.
+    #[error("trials and half_width both fix the number of trials (leave one of them out)")]
+    TrialsTwice,
+    /// No trials.
+    #[error("trials must be at least 1, got 0")]
+    NoTrials,
+    /// Two sensors.
+    #[error("sensor: model, ar and transfer exclude each other, got {0} of them (leave one)")]
+    SensorTwice(usize),
+    /// See there.
+    #[error("sensor: {0}")]
+    Sensor(#[from] SensorError),
+    /// See there.
+    #[error("noise: {0}")]
+    Law(#[from] LawError),
+    /// See there.
+    #[error("noise: {0}")]
+    Digitiser(#[from] DigitiserError),
+    /// See there.
+    #[error("motion: {0}")]
+    Motion(#[from] MotionError),
+    /// See there.
+    #[error("impulses: {0}")]
+    Impulses(#[from] ImpulsesError),
+    /// See there.
+    #[error("whitening: {0}")]
+    Whitening(#[from] WhiteningError),
+    /// See there.
+    #[error("samples: {0}")]
+    Samples(#[from] SamplesError),
+    /// See there.
+    #[error("detector: {0}")]
+    Region(#[from] RegionError),
+    /// See there.
+    #[error("samples: {0}")]
+    Record(#[from] RecordTooLong),
+}
+
+/// What the TOML reader refused, in its words, with a hint where a name was nearly right.
+#[derive(Debug)]
+pub struct Refusal {
+    path: String,
+    error: toml::de::Error,
+}
+
+impl Refusal {
+    pub(super) fn new(path: &str, error: toml::de::Error) -> Self {
+        Self {
+            path: path.to_owned(),
+            error,
+        }
+    }
+
+    /// For an unknown name: what was written, then every name that would do.
+    fn unknown_name(&self) -> Option<(String, Vec<String>)> {
+        let message = self.error.message();
+        if !(message.starts_with("unknown field") || message.starts_with("unknown variant")) {
+            return None;
+        }
+        let mut names = message.split('`').skip(1).step_by(2).map(str::to_owned);
+        Some((names.next()?, names.collect()))
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let path = self.path.trim_matches('.');
+        if !path.is_empty() {
+            write!(f, "{path}: ")?;
+        }
+        match self.unknown_name() {
+            Some((got, known)) => {
+                let kind = if self.error.message().starts_with("unknown field") {
+                    "key"
+                } else {
+                    "value"
+                };
+                let hint = nearest(&got, known.iter().map(String::as_str));
+                let known = known.join(", ");
+                write!(
+                    f,
+                    "unknown {kind} `{got}`{} (one of {known})",
+                    did_you_mean(&hint)
+                )
+            }
+            None => f.write_str(self.error.message().lines().next().unwrap_or_default()),
+        }
+    }
+}
+
+/// The known name nearest to `got`, if it is near.
+pub(super) fn nearest<'a>(got: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
+    known
+        .map(|name| (strsim::damerau_levenshtein(got, name), name))
+        .min()
+        .filter(|&(distance, name)| distance <= name.len().div_ceil(3))
+        .map(|(_, name)| name.to_owned())
+}
+
+fn did_you_mean(hint: &Option<String>) -> String {
+    hint.as_ref()
+        .map_or(String::new(), |name| format!(", did you mean `{name}`?"))
+}
+
+/// A config's text and the name its messages give it.
+#[derive(Clone, Debug)]
+pub(super) struct Source {
+    name: String,
+    text: String,
+}
+
+impl Source {
+    pub fn new(name: &str, text: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            text: text.to_owned(),
+        }
+    }
+
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// `problem` at `span`.
+    pub fn at(&self, span: Option<Range<usize>>, problem: Problem) -> ConfigError {
+        ConfigError {
+            file: self.name.clone(),
+            place: span.map(|span| self.place(span)),
+            problem,
+        }
+    }
+
+    /// What the TOML reader refused at `path`.
+    pub fn toml(&self, path: &str, error: toml::de::Error) -> ConfigError {
+        self.at(error.span(), Problem::Toml(Refusal::new(path, error)))
+    }
+
+    fn place(&self, span: Range<usize>) -> Place {
+        let before = &self.text[..span.start.min(self.text.len())];
+        let start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let text = self.text[start..].lines().next().unwrap_or_default();
+        let column = before[start..].chars().count() + 1;
+        let marked = self.text[span.start.min(self.text.len())..span.end.min(self.text.len())]
+            .lines()
+            .next();
+        Place {
+            line: before.matches('\n').count() + 1,
+            column,
+            text: text.to_owned(),
+            width: marked.map_or(1, |marked| marked.chars().count().max(1)),
+        }
+    }
+}
+
+impl fmt::Display for ConfigError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(place) = &self.place else {
+            return write!(f, "{}: {}", self.file, self.problem);
+        };
+        let Place { line, column, .. } = place;
+        writeln!(f, "{}:{line}:{column}: {}", self.file, self.problem)?;
+        let number = line.to_string();
+        let blank = " ".repeat(number.len());
+        writeln!(f, " {blank} |")?;
+        writeln!(f, " {number} | {}", place.text)?;
+        let indent = " ".repeat(column - 1);
+        write!(f, " {blank} | {indent}{}", "^".repeat(place.width))
+    }
+}

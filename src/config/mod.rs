@@ -1,0 +1,142 @@
+//! The experiment as its author wrote it: a TOML file, read strictly.
+//!
+//! [`file`] mirrors the file, with the place of every value. A [`Config`] is that file once its
+//! parts have been checked against each other; [`Config::scenario`] resolves one point of one curve,
+//! by laying the curve over the file's own sections and the axis value over both. Every refusal is a
+//! [`ConfigError`] that points at the value to change.
+
+mod axis;
+mod error;
+mod file;
+mod resolve;
+mod value;
+
+pub use axis::{Axis, AxisValue, Parameter};
+pub use error::{ConfigError, Problem};
+
+use crate::tally;
+use error::Source;
+use file::{File, Sections};
+use std::ops::Range;
+use std::path::Path;
+
+/// An experiment: what it asks, how often, along which axis, for which curves.
+#[derive(Clone, Debug)]
+pub struct Config {
+    /// What the experiment is for.
+    pub question: String,
+    /// Where every draw starts from.
+    pub seed: u64,
+    /// Trials per point.
+    pub trials: u64,
+    /// Of the intervals.
+    pub confidence: f64,
+    /// Whether one noise realisation serves every point that can share it.
+    pub common_random_numbers: bool,
+    /// What the x axis sweeps.
+    pub axis: Axis,
+    /// At least one.
+    pub curves: Vec<Curve>,
+    source: Source,
+}
+
+/// One curve: a label and what it changes.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// As in the legend.
+    pub label: String,
+    sections: Sections,
+}
+
+impl Config {
+    /// Reads and checks a file.
+    ///
+    /// # Errors
+    /// Where it cannot be read, is no TOML, has an unknown key, lacks a required one, or holds a
+    /// value of the wrong kind or range.
+    pub fn load(path: &Path) -> Result<Self, ConfigError> {
+        let name = path.display().to_string();
+        match std::fs::read_to_string(path) {
+            Ok(text) => Self::parse(&name, &text),
+            Err(error) => Err(Source::new(&name, "").at(None, Problem::Unreadable(error))),
+        }
+    }
+
+    /// Checks a file's text; `name` is what messages call it.
+    ///
+    /// # Errors
+    /// As [`Config::load`].
+    pub fn parse(name: &str, text: &str) -> Result<Self, ConfigError> {
+        let source = Source::new(name, text);
+        let file = File::parse(&source)?;
+        let axis = Axis::new(&file.axis).map_err(|(span, problem)| source.at(span, problem))?;
+        let confidence = file.confidence(&source)?;
+        let trials = file.trials(&source, confidence)?;
+        let base = file.sections();
+        let mut curves: Vec<Curve> = Vec::new();
+        for (index, curve) in file.curves().iter().enumerate() {
+            curves.push(Curve {
+                label: curve
+                    .label
+                    .clone()
+                    .unwrap_or_else(|| (index + 1).to_string()),
+                sections: curve.sections().over(&base),
+            });
+        }
+        Ok(Self {
+            question: file.question.clone(),
+            seed: file.seed.0,
+            trials,
+            confidence,
+            common_random_numbers: file.common_random_numbers.unwrap_or(true),
+            axis,
+            curves,
+            source,
+        })
+    }
+
+    /// The file's text.
+    pub fn text(&self) -> &str {
+        self.source.text()
+    }
+
+    /// What messages call the file.
+    pub fn name(&self) -> &str {
+        self.source.name()
+    }
+}
+
+impl File {
+    fn confidence(&self, source: &Source) -> Result<f64, ConfigError> {
+        let Some(given) = &self.confidence else {
+            return Ok(0.95);
+        };
+        let value = given.get_ref().0;
+        match value > 0.0 && value < 1.0 {
+            true => Ok(value),
+            false => Err(source.at(Some(given.span()), Problem::Confidence(value))),
+        }
+    }
+
+    fn trials(&self, source: &Source, confidence: f64) -> Result<u64, ConfigError> {
+        let refuse = |span: Range<usize>, problem| Err(source.at(Some(span), problem));
+        match (&self.trials, &self.half_width) {
+            (Some(_), Some(half_width)) => refuse(half_width.span(), Problem::TrialsTwice),
+            (Some(trials), None) if trials.get_ref().0 == 0 => {
+                refuse(trials.span(), Problem::NoTrials)
+            }
+            (Some(trials), None) => Ok(trials.get_ref().0),
+            (None, Some(half_width)) => {
+                let value = half_width.get_ref().0;
+                match (1e-6..0.5).contains(&value) {
+                    true => Ok(tally::trials_for_half_width(value, confidence)),
+                    false => refuse(half_width.span(), Problem::HalfWidth(value)),
+                }
+            }
+            (None, None) => Ok(DEFAULT_TRIALS),
+        }
+    }
+}
+
+/// Trials per point where the file says nothing.
+const DEFAULT_TRIALS: u64 = 200_000;

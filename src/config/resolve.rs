@@ -1,0 +1,279 @@
+//! From sections to a scenario: defaults filled in, parts checked against each other, every refusal
+//! sent back to the value that caused it.
+
+use super::error::{ConfigError, Problem};
+use super::file::{
+    AlternativeKind, DeltaAtKind, DuringKind, FitKind, LawKind, ProfileKind, RuleKind, Sections,
+};
+use super::value::{Number, Whole};
+use super::{AxisValue, Config};
+use crate::chain::{Detector, Scenario};
+use crate::detect::{Alternative, RegionError, Rule, Samples, SamplesError};
+use crate::signal::{
+    DeltaAt, Digitiser, DigitiserError, During, Impulses, ImpulsesError, Law, Motion, MotionError,
+    Noise, Profile, Sensor, SensorError, Transfer,
+};
+use crate::whiten::{Fit, Whitening, WhiteningError};
+use std::ops::Range;
+use toml::Spanned;
+
+/// A problem and the sections and keys that may be to blame, the likeliest first.
+type Blamed = (Problem, &'static [(&'static str, &'static str)]);
+
+impl Config {
+    /// The scenario of `curve` (from 0) at one value of the axis.
+    ///
+    /// # Errors
+    /// Where a parameter is out of range or does not fit another.
+    pub fn scenario(&self, curve: usize, value: &AxisValue) -> Result<Scenario, ConfigError> {
+        let mut sections = self.curves[curve].sections.clone();
+        let axis_span = Some(self.axis.span());
+        if let Err(problem) = self.axis.set(value, &mut sections) {
+            return Err(self.source.at(axis_span, problem));
+        }
+        sections.resolve().map_err(|(problem, keys)| {
+            let span = sections.first_span(keys).or(axis_span);
+            self.source.at(span, problem)
+        })
+    }
+
+    /// A problem of one point that only shows when its region is designed or its record laid out.
+    pub fn blame(&self, curve: usize, value: &AxisValue, problem: Problem) -> ConfigError {
+        let mut sections = self.curves[curve].sections.clone();
+        let axis_span = Some(self.axis.span());
+        if let Err(problem) = self.axis.set(value, &mut sections) {
+            return self.source.at(axis_span, problem);
+        }
+        let keys: &[_] = match &problem {
+            Problem::Region(RegionError::Alpha(_) | RegionError::Unreachable { .. }) => {
+                &[("detector", "alpha"), ("detector", "rule")]
+            }
+            Problem::Region(RegionError::Law(_)) => &[
+                ("samples", "shift"),
+                ("samples", "reference"),
+                ("samples", "scale"),
+            ],
+            Problem::Region(_) => &[("detector", "rule"), ("samples", "scale")],
+            _ => &[
+                ("whitening", "training"),
+                ("samples", "gap"),
+                ("samples", "decimation"),
+                ("samples", "reference"),
+                ("samples", "scale"),
+                ("samples", "shift"),
+            ],
+        };
+        let span = sections.first_span(keys).or(axis_span);
+        self.source.at(span, problem)
+    }
+}
+
+impl Sections {
+    fn resolve(&self) -> Result<Scenario, Blamed> {
+        let sensor = self.sensor()?;
+        let samples = self.samples()?;
+        Ok(Scenario {
+            noise: self.noise()?,
+            digitiser: self.digitiser()?,
+            motion: self.motion(&samples)?,
+            impulses: self.impulses()?,
+            whitening: self.whitening(&sensor)?,
+            detector: self.detector(),
+            sensor,
+            samples,
+        })
+    }
+
+    /// Where the first of `keys` that the author wrote stands.
+    fn first_span(&self, keys: &[(&str, &str)]) -> Option<Range<usize>> {
+        keys.iter().find_map(|&(section, key)| match section {
+            "sensor" => self.sensor.span(key),
+            "noise" => self.noise.span(key),
+            "motion" => self.motion.span(key),
+            "impulses" => self.impulses.span(key),
+            "whitening" => self.whitening.span(key),
+            "samples" => self.samples.span(key),
+            _ => self.detector.span(key),
+        })
+    }
+
+    fn sensor(&self) -> Result<Sensor, Blamed> {
+        let section = &self.sensor;
+        let sensor = match (&section.model, &section.ar, &section.transfer) {
+            (_, None, None) => Ok(Sensor::adxl105()),
+            (None, Some(ar), None) => {
+                Sensor::from_ar(ar.get_ref().iter().map(|phi| phi.0).collect())
+            }
+            (None, None, Some(transfer)) => {
+                let table = transfer.get_ref();
+                Sensor::from_transfer(Transfer {
+                    a: table.a.0,
+                    b: table.b.0,
+                    c: table.c.0,
+                    period: table.period.0,
+                })
+            }
+            (model, ar, transfer) => {
+                let given = [model.is_some(), ar.is_some(), transfer.is_some()];
+                let count = given.into_iter().filter(|given| *given).count();
+                return Err((Problem::SensorTwice(count), SENSOR_KEYS));
+            }
+        };
+        sensor.map_err(|error: SensorError| (error.into(), SENSOR_KEYS))
+    }
+
+    fn noise(&self) -> Result<Noise, Blamed> {
+        let law = match get(&self.noise.law, LawKind::Normal) {
+            LawKind::Normal => Law::Normal,
+            LawKind::Laplace => Law::Laplace,
+            LawKind::Logistic => Law::Logistic,
+            LawKind::Uniform => Law::Uniform,
+            LawKind::Cauchy => Law::Cauchy,
+            LawKind::StudentT(freedom) => Law::StudentT(freedom.0),
+            LawKind::Contaminated { share, scale } => Law::Contaminated {
+                share: share.0,
+                scale: scale.0,
+            },
+        };
+        Noise::new(law).map_err(|error| (error.into(), &[("noise", "law")] as _))
+    }
+
+    fn digitiser(&self) -> Result<Digitiser, Blamed> {
+        let number = |value: &Option<Spanned<Number>>| value.as_ref().map(|v| v.get_ref().0);
+        let (quantum, range) = (number(&self.noise.quantum), number(&self.noise.range));
+        Digitiser::new(quantum, range).map_err(|error| {
+            let key: &[_] = match error {
+                DigitiserError::Quantum(_) => &[("noise", "quantum")],
+                DigitiserError::Range(_) => &[("noise", "range")],
+            };
+            (error.into(), key)
+        })
+    }
+
+    fn motion(&self, samples: &Samples) -> Result<Motion, Blamed> {
+        let section = &self.motion;
+        let default_duration = Whole(samples.acceleration() as u64);
+        let motion = Motion {
+            delta: get(&section.delta, Number(0.0)).0,
+            delta_at: match get(&section.delta_at, DeltaAtKind::Record) {
+                DeltaAtKind::Record => DeltaAt::Record,
+                DeltaAtKind::Whitened => DeltaAt::Whitened,
+            },
+            profile: match get(&section.profile, ProfileKind::Rectangular) {
+                ProfileKind::Rectangular => Profile::Rectangular,
+                ProfileKind::Trapezoid { rise } => Profile::Trapezoid { rise: rise.0 },
+            },
+            duration: get(&section.duration, default_duration).size(),
+            offset: get(&section.offset, Whole(0)).size(),
+        };
+        motion.checked().map_err(|error| {
+            let keys: &[_] = match error {
+                MotionError::Delta(_) => &[("motion", "delta")],
+                MotionError::Duration(_) => &[("motion", "duration")],
+                MotionError::Rise { .. } => &[("motion", "profile"), ("motion", "duration")],
+            };
+            (error.into(), keys)
+        })
+    }
+
+    fn impulses(&self) -> Result<Impulses, Blamed> {
+        let section = &self.impulses;
+        let during = match get(&section.during, DuringKind::Motion) {
+            DuringKind::Motion => During::Motion,
+            DuringKind::Inertial => During::Inertial,
+        };
+        let (nu, theta) = (
+            get(&section.nu, Number(0.1)).0,
+            get(&section.theta, Number(2.0)).0,
+        );
+        Impulses::new(nu, theta, during).map_err(|error| {
+            let key: &[_] = match error {
+                ImpulsesError::Nu(_) => &[("impulses", "nu")],
+                ImpulsesError::Theta(_) => &[("impulses", "theta")],
+            };
+            (error.into(), key)
+        })
+    }
+
+    fn whitening(&self, sensor: &Sensor) -> Result<Whitening, Blamed> {
+        let section = &self.whitening;
+        let fit = match get(&section.fit, FitKind::LeastSquares) {
+            FitKind::LeastSquares => Fit::LeastSquares,
+            FitKind::YuleWalker => Fit::YuleWalker,
+            FitKind::Burg => Fit::Burg,
+            FitKind::Known => Fit::Known,
+        };
+        let order = get(&section.order, Whole(2)).size();
+        let training = get(&section.training, Whole(256)).size();
+        let includes_reference = get(&section.includes_reference, false);
+        let whitening = Whitening::new(order, fit, training, includes_reference, sensor.ar().len());
+        whitening.map_err(|error| {
+            let keys: &[_] = match error {
+                WhiteningError::NoOrder => &[("whitening", "order")],
+                WhiteningError::TrainingTooShort { .. } => &[
+                    ("whitening", "training"),
+                    ("whitening", "order"),
+                    ("whitening", "fit"),
+                ],
+                WhiteningError::BelowSensor { .. } => &[
+                    ("whitening", "order"),
+                    ("whitening", "fit"),
+                    ("sensor", "ar"),
+                ],
+            };
+            (error.into(), keys)
+        })
+    }
+
+    fn samples(&self) -> Result<Samples, Blamed> {
+        let section = &self.samples;
+        let size = |value: &Option<Spanned<Whole>>, default| get(value, Whole(default)).size();
+        let samples = Samples::new(
+            size(&section.reference, 12),
+            size(&section.shift, 12),
+            size(&section.scale, 12),
+            size(&section.gap, 0),
+            size(&section.decimation, 1),
+        );
+        samples.map_err(|error| {
+            let key: &[_] = match error {
+                SamplesError::Reference => &[("samples", "reference")],
+                SamplesError::Shift => &[("samples", "shift")],
+                SamplesError::Scale => &[("samples", "scale")],
+                SamplesError::Decimation => &[("samples", "decimation")],
+            };
+            (error.into(), key)
+        })
+    }
+
+    fn detector(&self) -> Detector {
+        let section = &self.detector;
+        Detector {
+            alpha: get(&section.alpha, Number(0.01)).0,
+            rule: match section.rule.as_ref().map(Spanned::get_ref) {
+                Some(RuleKind::Wilcoxon) => Rule::Wilcoxon,
+                None | Some(RuleKind::Product) => Rule::Product,
+                Some(RuleKind::Disjunction) => Rule::Disjunction,
+                Some(RuleKind::Conjunction) => Rule::Conjunction,
+                Some(RuleKind::Table(entries)) => {
+                    Rule::Table(entries.iter().map(|c| c.0).collect())
+                }
+            },
+            alternative: match get(&section.alternative, AlternativeKind::Greater) {
+                AlternativeKind::Greater => Alternative::Greater,
+                AlternativeKind::Less => Alternative::Less,
+                AlternativeKind::TwoSided => Alternative::TwoSided,
+            },
+        }
+    }
+}
+
+const SENSOR_KEYS: &[(&str, &str)] = &[
+    ("sensor", "ar"),
+    ("sensor", "transfer"),
+    ("sensor", "model"),
+];
+
+fn get<T: Copy>(value: &Option<Spanned<T>>, default: T) -> T {
+    value.as_ref().map_or(default, |value| *value.get_ref())
+}

@@ -1,0 +1,166 @@
+//! What a config comes to: every point with its scenario and region, and the families that share
+//! noise. Whatever can go wrong goes wrong here, before the first trial.
+
+use crate::chain::{Family, Scenario};
+use crate::config::{AxisValue, Config, ConfigError, Problem};
+use crate::detect::{Alternative, NullLaws, Region, Samples};
+use std::sync::Arc;
+
+/// Every point of an experiment, ready to run.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// In the order of the results.
+    pub points: Vec<Point>,
+    /// Trials per point.
+    pub trials: u64,
+    /// The points again, arranged by the noise they share.
+    pub families: Vec<Family>,
+}
+
+/// One point of one curve under one hypothesis.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// From 0.
+    pub curve: usize,
+    /// The curve's label.
+    pub label: String,
+    /// Whether anything moves.
+    pub hypothesis: Hypothesis,
+    /// Every parameter.
+    pub scenario: Scenario,
+    /// ϑ.
+    pub region: Arc<Region>,
+}
+
+/// What a point simulates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hypothesis {
+    /// Rest.
+    H0,
+    /// Motion.
+    H1,
+}
+
+impl Plan {
+    /// Every point of every curve, and for each distinct (sensor, noise, whitening, samples,
+    /// detector) the same at rest. A curve in which nothing ever moves is a false-alarm curve: it
+    /// has points at rest alone.
+    ///
+    /// # Errors
+    /// Where a parameter of a point is out of range, or no region or record can be made for it.
+    pub fn new(config: &Config) -> Result<Self, ConfigError> {
+        Self::of(config, |_| true)
+    }
+
+    /// The points at rest alone: what the false-alarm gate runs.
+    ///
+    /// # Errors
+    /// As [`Plan::new`].
+    pub fn at_rest(config: &Config) -> Result<Self, ConfigError> {
+        Self::of(config, |hypothesis| hypothesis == Hypothesis::H0)
+    }
+
+    fn of(config: &Config, wanted: impl Fn(Hypothesis) -> bool) -> Result<Self, ConfigError> {
+        let mut designer = Designer::default();
+        let mut points: Vec<Point> = Vec::new();
+        let mut blame = Vec::new();
+        for (curve, Curve { scenarios, moves }) in curves(config)?.into_iter().enumerate() {
+            for (value, scenario) in config.axis.values.iter().zip(scenarios) {
+                let region = designer
+                    .region(&scenario)
+                    .map_err(|problem| config.blame(curve, value, problem))?;
+                let mut add = |hypothesis, scenario| {
+                    if wanted(hypothesis) {
+                        points.push(Point {
+                            curve,
+                            label: config.curves[curve].label.clone(),
+                            hypothesis,
+                            scenario,
+                            region: region.clone(),
+                        });
+                        blame.push((curve, value));
+                    }
+                };
+                if designer.is_new_at_rest(&scenario) {
+                    add(Hypothesis::H0, scenario.at_rest());
+                }
+                if moves {
+                    add(Hypothesis::H1, scenario);
+                }
+            }
+        }
+        let families = Family::arrange(
+            points.iter().map(|point| (&point.scenario, point.region.clone())),
+            config.seed,
+            config.common_random_numbers,
+        )
+        .map_err(|refused| {
+            let (curve, value) = blame[refused.point];
+            config.blame(curve, value, Problem::Record(refused.reason))
+        })?;
+        Ok(Self {
+            points,
+            trials: config.trials,
+            families,
+        })
+    }
+}
+
+/// The scenarios of one curve along the axis.
+struct Curve {
+    scenarios: Vec<Scenario>,
+    moves: bool,
+}
+
+fn curves(config: &Config) -> Result<Vec<Curve>, ConfigError> {
+    let scenario = |curve: usize, value: &AxisValue| config.scenario(curve, value);
+    (0..config.curves.len())
+        .map(|curve| {
+            let values = config.axis.values.iter();
+            let scenarios: Vec<Scenario> = values.map(|value| scenario(curve, value)).collect::<Result<_, _>>()?;
+            let moves = scenarios.iter().any(Scenario::moves);
+            Ok(Curve { scenarios, moves })
+        })
+        .collect()
+}
+
+/// Makes regions, each set of laws and each region once, and remembers what has been seen at rest.
+#[derive(Default)]
+struct Designer {
+    laws: Vec<(Samples, Alternative, NullLaws)>,
+    regions: Vec<(Scenario, Arc<Region>)>,
+    at_rest: Vec<Scenario>,
+}
+
+impl Designer {
+    fn region(&mut self, scenario: &Scenario) -> Result<Arc<Region>, Problem> {
+        let (samples, detector) = (&scenario.samples, &scenario.detector);
+        let same = |other: &Scenario| other.samples == *samples && other.detector == *detector;
+        if let Some((_, region)) = self.regions.iter().find(|(other, _)| same(other)) {
+            return Ok(region.clone());
+        }
+        let alternative = detector.alternative;
+        let known = self.laws.iter().position(|(s, a, _)| s == samples && *a == alternative);
+        let known = match known {
+            Some(index) => index,
+            None => {
+                let laws = NullLaws::new(alternative, samples).map_err(|error| Problem::Region(error.into()))?;
+                self.laws.push((*samples, alternative, laws));
+                self.laws.len() - 1
+            }
+        };
+        let region = Arc::new(self.laws[known].2.region(&detector.rule, detector.alpha)?);
+        self.regions.push((scenario.clone(), region.clone()));
+        Ok(region)
+    }
+
+    /// Whether `scenario` at rest differs from every one asked for before.
+    fn is_new_at_rest(&mut self, scenario: &Scenario) -> bool {
+        let at_rest = scenario.at_rest();
+        let is_new = !self.at_rest.contains(&at_rest);
+        if is_new {
+            self.at_rest.push(at_rest);
+        }
+        is_new
+    }
+}

@@ -1,0 +1,90 @@
+//! The sensor's converter: a step (quantum) and limits (range), in σ_ξ.
+//!
+//! A quantised record has ties, and a clipped one is not linear in Δ; both break an assumption of
+//! the exact laws, which is why they can be simulated.
+
+use serde::Serialize;
+
+/// Rounds to multiples of a quantum, then clips.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Digitiser {
+    quantum: Option<f64>,
+    range: Option<f64>,
+}
+
+/// Why a digitiser was refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum DigitiserError {
+    /// A step that is no size.
+    #[error("quantum must be positive and finite, got {0} (leave it out for a continuous record)")]
+    Quantum(f64),
+    /// Limits that are no size.
+    #[error("range must be positive and finite, got {0} (leave it out for an unlimited record)")]
+    Range(f64),
+}
+
+impl Digitiser {
+    /// A converter with step `quantum` and limits ± `range`, either of them absent.
+    ///
+    /// # Errors
+    /// Where one is not a positive, finite number.
+    pub fn new(quantum: Option<f64>, range: Option<f64>) -> Result<Self, DigitiserError> {
+        let bad = |value: &f64| !(*value > 0.0 && value.is_finite());
+        if let Some(value) = quantum.filter(bad) {
+            return Err(DigitiserError::Quantum(value));
+        }
+        if let Some(value) = range.filter(bad) {
+            return Err(DigitiserError::Range(value));
+        }
+        Ok(Self { quantum, range })
+    }
+
+    /// The step.
+    pub fn quantum(&self) -> Option<f64> {
+        self.quantum
+    }
+
+    /// The limit.
+    pub fn range(&self) -> Option<f64> {
+        self.range
+    }
+
+    /// Whether the record passes unchanged, and so stays linear in what is added to it.
+    pub fn is_transparent(&self) -> bool {
+        self.quantum.is_none() && self.range.is_none()
+    }
+
+    /// What the converter writes for `x`.
+    #[inline]
+    pub fn step(&self, x: f64) -> f64 {
+        let rounded = match self.quantum {
+            Some(quantum) => (x / quantum).round_ties_even() * quantum,
+            None => x,
+        };
+        match self.range {
+            Some(range) => rounded.clamp(-range, range),
+            None => rounded,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounds_and_clips() {
+        let digitiser = Digitiser::new(Some(0.5), Some(2.0)).unwrap();
+        assert_eq!(digitiser.step(0.6), 0.5);
+        assert_eq!(digitiser.step(-0.8), -1.0);
+        assert_eq!(digitiser.step(9.0), 2.0);
+        assert!(Digitiser::default().is_transparent());
+        assert_eq!(Digitiser::default().step(0.123), 0.123);
+    }
+
+    #[test]
+    fn refusals() {
+        assert!(Digitiser::new(Some(0.0), None).is_err());
+        assert!(Digitiser::new(None, Some(f64::NAN)).is_err());
+    }
+}

@@ -1,0 +1,204 @@
+//! Impulse noise λ of a moving cage, eqs (4)–(6) of [1], in units of θ.
+//!
+//! With probability ν a sample carries an impulse. If the sum S of the impulses so far is not zero,
+//! the impulse is −S; else it is +1 or −1 with probability ½ each. So impulses alternate and
+//! S ∈ {−1, 0, 1}: vibration moves nothing in the long run.
+//!
+//! (5), the law of one λ, is exact at every sample. (6), the law of S, is the limit: from S = 0,
+//! P(S_i = 0) = (1 + (1 − 2ν)^i)/2.
+//!
+//! [1]: see [`crate::signal`].
+
+use serde::Serialize;
+use std::fmt;
+
+/// Impulse noise: how often, how strong, from when.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Impulses {
+    nu: f64,
+    theta: f64,
+    during: During,
+}
+
+/// From when on impulses act.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum During {
+    /// From the first observation after X.
+    Motion,
+    /// From the first observation of Y₂.
+    Inertial,
+}
+
+/// Why impulses were refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum ImpulsesError {
+    /// ν is no probability.
+    #[error("nu must lie in [0, 1], got {0}")]
+    Nu(f64),
+    /// θ is negative or not finite.
+    #[error("theta must be zero or positive, and finite, got {0}")]
+    Theta(f64),
+}
+
+impl Impulses {
+    /// Impulses of strength `theta`/σ_ξ with probability `nu` a sample.
+    ///
+    /// # Errors
+    /// Where `nu` is no probability or `theta` is negative.
+    pub fn new(nu: f64, theta: f64, during: During) -> Result<Self, ImpulsesError> {
+        if !(0.0..=1.0).contains(&nu) {
+            return Err(ImpulsesError::Nu(nu));
+        }
+        if !(theta >= 0.0 && theta.is_finite()) {
+            return Err(ImpulsesError::Theta(theta));
+        }
+        Ok(Self { nu, theta, during })
+    }
+
+    /// No impulses at all.
+    pub fn none() -> Self {
+        Self {
+            nu: 0.0,
+            theta: 0.0,
+            during: During::Motion,
+        }
+    }
+
+    /// ν.
+    pub fn nu(&self) -> f64 {
+        self.nu
+    }
+
+    /// θ/σ_ξ.
+    pub fn theta(&self) -> f64 {
+        self.theta
+    }
+
+    /// From when on impulses act.
+    pub fn during(&self) -> During {
+        self.during
+    }
+
+    /// Whether nothing is ever added.
+    pub fn are_absent(&self) -> bool {
+        self.nu == 0.0 || self.theta == 0.0
+    }
+
+    /// λ/θ for each 64-bit draw, from S = 0. Draws may serve impulses of any ν: a sample that
+    /// carries an impulse at some ν carries one at every larger ν.
+    pub fn pattern(&self, draws: &[u64], pattern: &mut [f64]) {
+        let mut memory = ImpulseMemory::default();
+        for (impulse, &draw) in pattern.iter_mut().zip(draws) {
+            *impulse = memory.step(self.nu, draw);
+        }
+    }
+}
+
+/// S, the sum of the impulses so far, in units of θ.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ImpulseMemory(f64);
+
+impl ImpulseMemory {
+    /// λ/θ of the next sample: 53 bits of `draw` decide whether there is an impulse, its lowest bit
+    /// the sign of one that starts from S = 0.
+    #[inline]
+    pub fn step(&mut self, nu: f64, draw: u64) -> f64 {
+        let uniform = (draw >> 11) as f64 * (1.0 / (1u64 << 53) as f64);
+        if uniform >= nu {
+            return 0.0;
+        }
+        let fresh = if draw & 1 == 1 { 1.0 } else { -1.0 };
+        let impulse = if self.0 == 0.0 { fresh } else { -self.0 };
+        self.0 += impulse;
+        impulse
+    }
+
+    /// S/θ.
+    pub fn sum(self) -> f64 {
+        self.0
+    }
+}
+
+impl fmt::Display for During {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Motion => "motion",
+            Self::Inertial => "inertial",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::binomial;
+    use crate::rng::Stream;
+    use rand::Rng;
+
+    /// Two-sided exact binomial p-value, doubled smaller tail.
+    fn p_value(hits: u64, trials: u64, p: f64) -> f64 {
+        let low = binomial::lower_tail(hits, trials, p);
+        2.0 * low.min(binomial::upper_tail(hits, trials, p))
+    }
+
+    /// (5) at several i, and (6) in its finite form. 4 × (3 + 2) exact tests at 5e-8 each: the
+    /// false-failure rate is at most 1e-6.
+    #[test]
+    fn laws_of_one_impulse_and_of_the_sum() {
+        let (nu, trials) = (0.3, 200_000u64);
+        for steps in [1, 2, 5, 24] {
+            let (mut plus, mut minus, mut none) = (0, 0, 0);
+            let (mut at_zero, mut positive) = (0, 0);
+            let mut generator = Stream::new(2014, "impulses", &steps).at(0);
+            for _ in 0..trials {
+                let mut memory = ImpulseMemory::default();
+                let mut last = 0.0;
+                for _ in 0..steps {
+                    last = memory.step(nu, generator.next_u64());
+                }
+                plus += u64::from(last > 0.0);
+                minus += u64::from(last < 0.0);
+                none += u64::from(last == 0.0);
+                at_zero += u64::from(memory.sum() == 0.0);
+                positive += u64::from(memory.sum() > 0.0);
+            }
+            let zero = f64::midpoint(1.0, (1.0 - 2.0 * nu).powi(steps));
+            for (name, hits, p) in [
+                ("+θ", plus, nu / 2.0),
+                ("−θ", minus, nu / 2.0),
+                ("none", none, 1.0 - nu),
+                ("S = 0", at_zero, zero),
+                ("S = +θ", positive, (1.0 - zero) / 2.0),
+            ] {
+                let p_value = p_value(hits, trials, p);
+                println!(
+                    "i = {steps}, {name}: {hits}/{trials} at p = {p:.6}, p-value {p_value:.3}"
+                );
+                assert!(p_value > 5e-8);
+            }
+        }
+    }
+
+    #[test]
+    fn impulses_alternate() {
+        let impulses = Impulses::new(0.4, 2.0, During::Motion).unwrap();
+        let mut generator = Stream::new(1, "impulses", &0).at(0);
+        let draws: Vec<u64> = (0..10_000).map(|_| generator.next_u64()).collect();
+        let mut pattern = vec![0.0; draws.len()];
+        impulses.pattern(&draws, &mut pattern);
+        let mut sum: f64 = 0.0;
+        for impulse in pattern {
+            sum += impulse;
+            assert!(sum.abs() <= 1.0);
+        }
+    }
+
+    #[test]
+    fn refusals() {
+        let new = |nu, theta| Impulses::new(nu, theta, During::Motion);
+        assert_eq!(new(1.5, 1.0), Err(ImpulsesError::Nu(1.5)));
+        assert!(matches!(new(f64::NAN, 1.0), Err(ImpulsesError::Nu(_))));
+        assert_eq!(new(0.5, -1.0), Err(ImpulsesError::Theta(-1.0)));
+        assert!(new(0.5, f64::INFINITY).is_err());
+    }
+}

@@ -1,0 +1,18 @@
+//! What an accelerometer in a cage would write down: r = x + Δ + λ, eqs (1)–(8) of [1].
+//!
+//! Everything is in units of σ_ξ, the deviation of the white noise that drives the sensor.
+//!
+//! [1]: M. A. Raifeld, "Distinguishing the motion/stop states of a lift from accelerometer
+//! signals", Avtometriya (in Russian), received 25 November 2013.
+
+mod digitiser;
+mod impulses;
+mod motion;
+mod noise;
+mod sensor;
+
+pub use digitiser::{Digitiser, DigitiserError};
+pub use impulses::{During, ImpulseMemory, Impulses, ImpulsesError};
+pub use motion::{DeltaAt, Motion, MotionError, Profile};
+pub use noise::{Law, LawError, Noise};
+pub use sensor::{Sensor, SensorError, Transfer};

@@ -1,0 +1,337 @@
+//! The sensor as an autoregression, eqs (1)–(3) of [1]: x_i = Σ φ_p x_{i−p} + ξ_i.
+//!
+//! A second-order element K(p) = 1/(a p² + b p + c) sampled by impulse invariance at period T₀ has
+//! its poles at e^{(−σ ± jω)T₀} with σ = b/2a and ω² = c/a − σ², so φ₁ = 2e^{−σT₀} cos ωT₀ and
+//! φ₂ = −e^{−2σT₀}. The numerator only scales the signal; here it is 1, which makes σ_ξ the unit.
+//! (The numerator printed in (2) lacks the factors 1/a and T₀; nothing here depends on it.)
+//!
+//! [1]: see [`crate::signal`].
+
+use serde::Serialize;
+use std::fmt;
+
+/// A stable autoregression driven by unit-scale white noise.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Sensor {
+    /// φ₁, φ₂, …; empty for a sensor whose noise is already white.
+    ar: Vec<f64>,
+}
+
+/// K(p) = 1/(a p² + b p + c) and the sampling period, eq. (1) of [1].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Transfer {
+    /// Coefficient of p², s².
+    pub a: f64,
+    /// Coefficient of p, s.
+    pub b: f64,
+    /// Stiffness, dimensionless.
+    pub c: f64,
+    /// T₀, s.
+    pub period: f64,
+}
+
+/// Why a sensor was refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SensorError {
+    /// A coefficient is NaN or infinite.
+    #[error("coefficients must be finite numbers, got {0}")]
+    NotFinite(f64),
+    /// A pole lies on or outside the unit circle.
+    #[error(
+        "unstable autoregression {ar:?}: reflection coefficient {index} is {reflection}, outside (-1, 1) \
+         (in x_i = ar[0] x_(i-1) + ar[1] x_(i-2) + ... every pole must lie inside the unit circle)"
+    )]
+    Unstable {
+        /// The coefficients as given.
+        ar: Vec<f64>,
+        /// Which reflection coefficient fails, from 1.
+        index: usize,
+        /// Its value.
+        reflection: f64,
+    },
+    /// The state needs too many samples to become stationary.
+    #[error(
+        "autoregression {ar:?} needs more than {limit} samples to become stationary \
+         (move its poles away from the unit circle)"
+    )]
+    BarelyStable {
+        /// The coefficients as given.
+        ar: Vec<f64>,
+        /// The longest burn-in allowed.
+        limit: usize,
+    },
+    /// a, c or the period is not positive.
+    #[error("transfer.{name} must be positive, got {value}")]
+    NotPositive {
+        /// Which one.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// b² ≥ 4ac.
+    #[error(
+        "transfer has real poles: b^2 = {square:e} is not below 4ac = {bound:e} \
+         (the model is an oscillator; lower b)"
+    )]
+    RealPoles {
+        /// b².
+        square: f64,
+        /// 4ac.
+        bound: f64,
+    },
+}
+
+/// The longest burn-in that a trial may spend.
+const LONGEST_BURN_IN: usize = 1_000_000;
+
+/// The share of the stationary variance that the start of a record may lack.
+const BURN_IN_DEFICIT: f64 = 1e-9;
+
+impl Sensor {
+    /// The ADXL105 by the coefficients printed in (2) of [1].
+    pub fn adxl105() -> Self {
+        Self {
+            ar: vec![-1.5365, -0.75056],
+        }
+    }
+
+    /// φ₁, φ₂, … as given; none for white noise.
+    ///
+    /// # Errors
+    /// Where a pole is not inside the unit circle, or so close to it that no record would be long
+    /// enough.
+    pub fn from_ar(ar: Vec<f64>) -> Result<Self, SensorError> {
+        if let Some(&value) = ar.iter().find(|value| !value.is_finite()) {
+            return Err(SensorError::NotFinite(value));
+        }
+        if let Some((index, reflection)) = first_outside(&ar) {
+            return Err(SensorError::Unstable {
+                ar,
+                index,
+                reflection,
+            });
+        }
+        let sensor = Self { ar };
+        if sensor.burn_in() > LONGEST_BURN_IN {
+            return Err(SensorError::BarelyStable {
+                ar: sensor.ar,
+                limit: LONGEST_BURN_IN,
+            });
+        }
+        Ok(sensor)
+    }
+
+    /// By impulse invariance from the transfer function, eq. (1) → eq. (2) of [1].
+    ///
+    /// # Errors
+    /// Where a, c or the period is not positive, the poles are real, or the system is unstable.
+    pub fn from_transfer(transfer: Transfer) -> Result<Self, SensorError> {
+        let Transfer { a, b, c, period } = transfer;
+        for (name, value) in [("a", a), ("c", c), ("period", period)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(SensorError::NotPositive { name, value });
+            }
+        }
+        if !b.is_finite() {
+            return Err(SensorError::NotFinite(b));
+        }
+        let (square, bound) = (b * b, 4.0 * a * c);
+        if square >= bound {
+            return Err(SensorError::RealPoles { square, bound });
+        }
+        let decay = b / (2.0 * a);
+        let frequency = (c / a - decay * decay).sqrt();
+        let radius = libm::exp(-decay * period);
+        Self::from_ar(vec![
+            2.0 * radius * libm::cos(frequency * period),
+            -radius * radius,
+        ])
+    }
+
+    /// φ₁, φ₂, …
+    pub fn ar(&self) -> &[f64] {
+        &self.ar
+    }
+
+    /// 1 − β = 1 − Σ φ_p: what whitening with the true coefficients makes of a unit step, eq. (9).
+    pub fn step_gain(&self) -> f64 {
+        1.0 - self.ar.iter().sum::<f64>()
+    }
+
+    /// The next sample after `past` (oldest first, at least the sensor's order) for one innovation.
+    #[inline]
+    pub fn step(&self, past: &[f64], innovation: f64) -> f64 {
+        self.ar
+            .iter()
+            .zip(past.iter().rev())
+            .fold(innovation, |sum, (phi, x)| sum + phi * x)
+    }
+
+    /// Turns white noise into sensor noise in place, from the zero state.
+    pub fn colour(&self, record: &mut [f64]) {
+        if let [first, second] = self.ar[..] {
+            let (mut x1, mut x2) = (0.0, 0.0);
+            for x in record {
+                let next = *x + first * x1 + second * x2;
+                (x2, x1) = (x1, next);
+                *x = next;
+            }
+            return;
+        }
+        for i in 0..record.len() {
+            record[i] = self.step(&record[i.saturating_sub(self.ar.len())..i], record[i]);
+        }
+    }
+
+    /// How many samples after the zero state lack no more than a billionth of the stationary
+    /// variance: the tail Σ_{k≥n} h_k² of the impulse response, whose decay the poles set.
+    pub fn burn_in(&self) -> usize {
+        if self.ar.is_empty() {
+            return 0;
+        }
+        let order = self.ar.len();
+        let mut response = vec![1.0];
+        let mut energy = vec![0.0, 1.0];
+        let mut quiet = 0;
+        while response.len() <= 2 * LONGEST_BURN_IN && quiet < 64 + order {
+            let next = self.step(&response[response.len().saturating_sub(order)..], 0.0);
+            response.push(next);
+            let total = energy[energy.len() - 1] + next * next;
+            energy.push(total);
+            quiet = match next * next < 1e-20 * total {
+                true => quiet + 1,
+                false => 0,
+            };
+        }
+        let total = energy[energy.len() - 1];
+        energy.partition_point(|&sum| total - sum > BURN_IN_DEFICIT * total)
+    }
+}
+
+impl fmt::Display for Sensor {
+    /// `ar(-1.5365 -0.75056)`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let coefficients: Vec<String> = self.ar.iter().map(f64::to_string).collect();
+        write!(f, "ar({})", coefficients.join(" "))
+    }
+}
+
+/// The first reflection coefficient outside (−1, 1), with its index, by the step-down recursion.
+fn first_outside(ar: &[f64]) -> Option<(usize, f64)> {
+    let mut phi = ar.to_vec();
+    while let Some(reflection) = phi.pop() {
+        if !(reflection.abs() < 1.0) {
+            return Some((phi.len() + 1, reflection));
+        }
+        let scale = 1.0 - reflection * reflection;
+        phi = (0..phi.len())
+            .map(|p| (phi[p] + reflection * phi[phi.len() - 1 - p]) / scale)
+            .collect();
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// (2) follows from (1): 1.5365 and 0.75056 as printed, 1.536538 and 0.750563 to six digits.
+    #[test]
+    fn transfer_gives_the_printed_coefficients() {
+        let sensor = Sensor::from_transfer(Transfer {
+            a: 2.2e-10,
+            b: 1.01e-6,
+            c: 0.4,
+            period: 6.25e-5,
+        })
+        .unwrap();
+        assert!((sensor.ar()[0] + 1.536538).abs() < 5e-7, "{sensor:?}");
+        assert!((sensor.ar()[1] + 0.750563).abs() < 5e-7, "{sensor:?}");
+        for (exact, printed) in sensor.ar().iter().zip(Sensor::adxl105().ar()) {
+            assert!((exact - printed).abs() < 5e-5);
+        }
+        assert!((Sensor::adxl105().step_gain() - 3.28706).abs() < 1e-12);
+    }
+
+    /// Impulse invariance means the continuous impulse response at kT₀: e^{−σt} sin ωt.
+    #[test]
+    fn transfer_samples_the_impulse_response() {
+        let (a, b, c, period) = (1.0, 0.6, 4.0, 0.3);
+        let sensor = Sensor::from_transfer(Transfer { a, b, c, period }).unwrap();
+        let (decay, frequency) = (0.3, (4.0f64 - 0.09).sqrt());
+        let sampled = |k: usize| {
+            let t = k as f64 * period;
+            (-decay * t).exp() * (frequency * t).sin()
+        };
+        for k in 2..40 {
+            let predicted = sensor.step(&[sampled(k - 2), sampled(k - 1)], 0.0);
+            assert!((predicted - sampled(k)).abs() < 1e-14, "{k}");
+        }
+    }
+
+    #[test]
+    fn step_and_colour_agree() {
+        for ar in [
+            vec![],
+            vec![0.5],
+            vec![-1.5365, -0.75056],
+            vec![0.2, 0.1, -0.3],
+        ] {
+            let sensor = Sensor::from_ar(ar).unwrap();
+            let white: Vec<f64> = (0..50).map(|i| f64::from(i * 37 % 11) - 5.0).collect();
+            let mut batch = white.clone();
+            sensor.colour(&mut batch);
+            let mut record: Vec<f64> = Vec::new();
+            for innovation in white {
+                record.push(sensor.step(&record, innovation));
+            }
+            for (a, b) in batch.iter().zip(&record) {
+                assert!((a - b).abs() < 1e-12, "{a} {b}");
+            }
+        }
+    }
+
+    /// |pole|² = 0.75056, so the deficit falls by that factor a sample: 1e-9 takes about 72.
+    #[test]
+    fn burn_in_follows_from_the_poles() {
+        let burn_in = Sensor::adxl105().burn_in();
+        assert!((68..78).contains(&burn_in), "{burn_in}");
+        assert_eq!(Sensor::from_ar(vec![]).unwrap().burn_in(), 0);
+        assert!(Sensor::from_ar(vec![0.999]).unwrap().burn_in() > 10_000);
+    }
+
+    #[test]
+    fn refusals() {
+        let unstable = |ar: &[f64]| Sensor::from_ar(ar.to_vec()).unwrap_err();
+        assert!(matches!(
+            unstable(&[1.0]),
+            SensorError::Unstable { index: 1, .. }
+        ));
+        assert!(matches!(
+            unstable(&[0.0, -1.2]),
+            SensorError::Unstable { index: 2, .. }
+        ));
+        assert!(matches!(
+            unstable(&[2.0, -0.5]),
+            SensorError::Unstable { index: 1, .. }
+        ));
+        assert!(matches!(unstable(&[f64::NAN]), SensorError::NotFinite(_)));
+        assert!(matches!(
+            unstable(&[1.0 - 1e-9]),
+            SensorError::BarelyStable { .. }
+        ));
+        let transfer = |a, b, c, period| Sensor::from_transfer(Transfer { a, b, c, period });
+        assert!(matches!(
+            transfer(1.0, 4.0, 4.0, 1.0),
+            Err(SensorError::RealPoles { .. })
+        ));
+        assert!(matches!(
+            transfer(1.0, -0.1, 4.0, 1.0),
+            Err(SensorError::Unstable { .. })
+        ));
+        assert!(matches!(
+            transfer(0.0, 1.0, 1.0, 1.0),
+            Err(SensorError::NotPositive { name: "a", .. })
+        ));
+    }
+}
