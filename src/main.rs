@@ -1,1 +1,20 @@
-fn main() {}
+//! The `liftsim` program: parse, call, say what went wrong, choose the exit code.
+
+mod cli;
+
+use clap::Parser;
+use cli::{Arguments, Failure};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    match Arguments::parse().run() {
+        Ok(code) => code,
+        Err(Failure::Input(error)) => report(&error, 2),
+        Err(Failure::Run(error)) => report(&error, 1),
+    }
+}
+
+fn report(error: &anyhow::Error, code: u8) -> ExitCode {
+    eprintln!("error: {error:#}");
+    ExitCode::from(code)
+}

@@ -90,13 +90,15 @@ impl Plan {
             }
         }
         let families = Family::arrange(
-            points.iter().map(|point| (&point.scenario, point.region.clone())),
+            points
+                .iter()
+                .map(|point| (&point.scenario, point.region.clone())),
             config.seed,
             config.common_random_numbers,
         )
-        .map_err(|refused| {
-            let (curve, value) = blame[refused.point];
-            config.blame(curve, value, Problem::Record(refused.reason))
+        .map_err(|(point, refusal)| {
+            let (curve, value) = blame[point];
+            config.blame(curve, value, Problem::Record(refusal))
         })?;
         Ok(Self {
             points,
@@ -117,7 +119,9 @@ fn curves(config: &Config) -> Result<Vec<Curve>, ConfigError> {
     (0..config.curves.len())
         .map(|curve| {
             let values = config.axis.values.iter();
-            let scenarios: Vec<Scenario> = values.map(|value| scenario(curve, value)).collect::<Result<_, _>>()?;
+            let scenarios: Vec<Scenario> = values
+                .map(|value| scenario(curve, value))
+                .collect::<Result<_, _>>()?;
             let moves = scenarios.iter().any(Scenario::moves);
             Ok(Curve { scenarios, moves })
         })
@@ -140,11 +144,15 @@ impl Designer {
             return Ok(region.clone());
         }
         let alternative = detector.alternative;
-        let known = self.laws.iter().position(|(s, a, _)| s == samples && *a == alternative);
+        let known = self
+            .laws
+            .iter()
+            .position(|(s, a, _)| s == samples && *a == alternative);
         let known = match known {
             Some(index) => index,
             None => {
-                let laws = NullLaws::new(alternative, samples).map_err(|error| Problem::Region(error.into()))?;
+                let laws = NullLaws::new(alternative, samples)
+                    .map_err(|error| Problem::Region(error.into()))?;
                 self.laws.push((*samples, alternative, laws));
                 self.laws.len() - 1
             }

@@ -33,11 +33,17 @@ pub fn run(plan: &Plan, progress: impl Fn(u64) + Sync) -> Vec<Tally> {
             sum
         });
     let trials = plan.trials;
-    hits.into_iter().map(|hits| Tally { hits, trials }).collect()
+    hits.into_iter()
+        .map(|hits| Tally { hits, trials })
+        .collect()
 }
 
 /// What [`run`]'s progress adds up to.
 pub fn total_work(plan: &Plan) -> u64 {
-    let points: usize = plan.families.iter().map(|family| family.points_per_trial()).sum();
+    let points: usize = plan
+        .families
+        .iter()
+        .map(|family| family.points_per_trial())
+        .sum();
     plan.trials * points as u64
 }

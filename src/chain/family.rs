@@ -65,8 +65,8 @@ pub(super) struct Verdict {
 /// A record that does not fit in memory.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "one record of {samples:.3e} raw samples needs {gigabytes:.1} GB, more than the {limit:.1} GB allowed \
-     (lower training, the sample sizes, gap or decimation)"
+    "one trial of {samples:.3e} raw samples needs {gigabytes:.1} GB, more than the {limit:.1} GB allowed \
+     (lower training, order, the sample sizes, gap or decimation)"
 )]
 pub struct RecordTooLong {
     /// Raw samples in one trial.
@@ -86,16 +86,18 @@ impl Family {
     /// agree; without, every point that simulates anything different has noise of its own.
     ///
     /// # Errors
-    /// Where one record would not fit in memory.
+    /// Where a record would not fit in memory: the first such point, and how much it takes.
     pub fn arrange<'a>(
         points: impl IntoIterator<Item = (&'a Scenario, Arc<Region>)>,
         seed: u64,
         common_random_numbers: bool,
-    ) -> Result<Vec<Self>, RecordTooLong> {
+    ) -> Result<Vec<Self>, (usize, RecordTooLong)> {
         let mut families: Vec<Self> = Vec::new();
         for (counter, (scenario, region)) in points.into_iter().enumerate() {
             let source = Source::new(scenario);
-            source.check_memory()?;
+            source
+                .check_memory(scenario.whitening.order())
+                .map_err(|refusal| (counter, refusal))?;
             let shares = |family: &&mut Self| {
                 family.source == source && (common_random_numbers || family.simulates(scenario))
             };
@@ -230,10 +232,11 @@ impl Source {
         self.samples.span() - self.samples.reference()
     }
 
-    fn check_memory(&self) -> Result<(), RecordTooLong> {
+    fn check_memory(&self, order: usize) -> Result<(), RecordTooLong> {
         let observations = self.lead as f64 + self.samples.span() as f64;
         let samples = observations * self.samples.decimation() as f64 + self.burn_in() as f64;
-        let bytes = 16.0 * samples;
+        let normal_equations = (order as f64 + 1.0).powi(2);
+        let bytes = 16.0 * samples + 8.0 * normal_equations;
         if bytes > MEMORY_LIMIT {
             return Err(RecordTooLong {
                 samples,

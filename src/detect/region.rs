@@ -109,6 +109,8 @@ pub enum RegionError {
 pub struct NullLaws {
     samples: Samples,
     alternative: Alternative,
+    rank_sum: Law,
+    /// Of what the alternative looks at.
     score: Law,
     exceedances: Law,
 }
@@ -161,6 +163,14 @@ impl Region {
         self.size
     }
 
+    /// P(W decides H₁ | T) for T = 0 … M₂ under `laws`, those the region was made from.
+    pub fn conditional_sizes(&self, laws: &NullLaws) -> Vec<f64> {
+        self.critical
+            .iter()
+            .map(|&score| laws.score.tail(score))
+            .collect()
+    }
+
     /// C_W(T) for T = 0 … M₂: (lower, upper) such that W ≤ lower or W ≥ upper decides H₁.
     pub fn critical_values(&self) -> Vec<(Option<u64>, Option<u64>)> {
         let bounds = |&score: &u64| match (score, self.alternative) {
@@ -185,15 +195,21 @@ impl NullLaws {
         let rank_sum = Law::rank_sum(samples)?;
         let score = match alternative {
             // W is symmetric about its mean, so its mirror image has the same law.
-            Alternative::Greater | Alternative::Less => rank_sum,
+            Alternative::Greater | Alternative::Less => rank_sum.clone(),
             Alternative::TwoSided => rank_sum.doubled_deviation(),
         };
         Ok(Self {
             samples: *samples,
             alternative,
+            rank_sum,
             score,
             exceedances: Law::exceedances(samples),
         })
+    }
+
+    /// The law of W.
+    pub fn rank_sum(&self) -> &Law {
+        &self.rank_sum
     }
 
     /// The law of T.

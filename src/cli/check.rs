@@ -1,0 +1,120 @@
+//! `liftsim check CONFIG`: the false-alarm gate.
+
+use super::{Failure, Outcome, Simulation, print, progress, table};
+use anyhow::anyhow;
+use clap::Args;
+use liftsim::config::{Config, Parameter};
+use liftsim::gate::{self, EXCESS, FAMILY_LEVEL, Finding, Verdict};
+use liftsim::plan::{Plan, Point};
+use liftsim::run;
+use std::process::ExitCode;
+
+/// Test that the false-alarm rate of every scenario at rest stays at or below its level.
+///
+/// Each scenario gets an exact one-sided binomial test, all of them corrected together (Holm) at a
+/// family-wise level of 0.001. A scenario passes only where the run could have seen a rate of 1.2
+/// times nominal with probability 0.99. Exit 0: every scenario passes. 1: one fails. 3: none fails,
+/// but one is inconclusive, so more trials are needed.
+#[derive(Debug, Args)]
+pub struct Check {
+    #[command(flatten)]
+    simulation: Simulation,
+    /// Test against this rate, while the regions keep the config's alpha.
+    #[arg(long, value_name = "A")]
+    nominal: Option<f64>,
+}
+
+impl Check {
+    /// Runs the command.
+    pub fn run(self, quiet: bool) -> Outcome {
+        if let Some(nominal) = self.nominal
+            && !(nominal > 0.0 && nominal < 1.0)
+        {
+            return Err(Failure::Input(anyhow!(
+                "--nominal must lie strictly between 0 and 1, got {nominal}"
+            )));
+        }
+        let (config, plan) = self.simulation.prepare(Plan::at_rest)?;
+        let bar = progress::bar(&plan, quiet);
+        let tallies = run::run(&plan, |work| bar.inc(work));
+        bar.finish_and_clear();
+
+        let findings = gate::judge(&plan.points, &tallies, self.nominal);
+        print(&report(&config, &plan, &findings))?;
+        Ok(ExitCode::from(match gate::overall(&findings) {
+            Verdict::Pass => 0,
+            Verdict::Fail => 1,
+            Verdict::Inconclusive => 3,
+        }))
+    }
+}
+
+fn report(config: &Config, plan: &Plan, findings: &[Finding]) -> String {
+    let header = [
+        "scenario",
+        "rule",
+        "nominal",
+        "exact size",
+        "trials",
+        "false alarms",
+        "rate",
+        "interval",
+        "p",
+        "verdict",
+    ];
+    let rows: Vec<Vec<String>> = (plan.points.iter().zip(findings))
+        .map(|(point, finding)| row(config, point, finding))
+        .collect();
+    let count = |verdict| findings.iter().filter(|f| f.verdict == verdict).count();
+    let power = findings.iter().map(|f| f.power).fold(1.0, f64::min);
+    format!(
+        "{}\n{} scenarios at seed {}: {} pass, {} inconclusive, {} fail\n\
+         family-wise level {FAMILY_LEVEL}; power against {EXCESS} times nominal at least {power:.4}; \
+         {} % intervals\n",
+        table(&header, &rows),
+        findings.len(),
+        config.seed,
+        count(Verdict::Pass),
+        count(Verdict::Inconclusive),
+        count(Verdict::Fail),
+        config.confidence * 100.0,
+    )
+}
+
+fn row(config: &Config, point: &Point, finding: &Finding) -> Vec<String> {
+    let tally = finding.tally;
+    let (low, high) = tally.interval(config.confidence);
+    vec![
+        scenario(config, point),
+        point.scenario.detector.rule.name().to_owned(),
+        finding.nominal.to_string(),
+        format!("{:.6}", point.region.size()),
+        tally.trials.to_string(),
+        tally.hits.to_string(),
+        format!("{:.6}", tally.rate()),
+        format!("[{low:.6}, {high:.6}]"),
+        format!("{:.3e}", finding.p_value),
+        match finding.verdict {
+            Verdict::Pass => "pass",
+            Verdict::Inconclusive => "inconclusive",
+            Verdict::Fail => "FAIL",
+        }
+        .to_owned(),
+    ]
+}
+
+/// The curve's label, and what the axis changes unless another column says it.
+fn scenario(config: &Config, point: &Point) -> String {
+    let (label, scenario) = (&point.label, &point.scenario);
+    let value = match config.axis.parameter {
+        Parameter::Training => scenario.whitening.training(),
+        Parameter::Order => scenario.whitening.order(),
+        Parameter::AllSamples | Parameter::Shift => scenario.samples.shift(),
+        Parameter::Reference => scenario.samples.reference(),
+        Parameter::Scale => scenario.samples.scale(),
+        Parameter::Gap => scenario.samples.gap(),
+        Parameter::Decimation => scenario.samples.decimation(),
+        _ => return label.clone(),
+    };
+    format!("{label}, {} = {value}", config.axis.parameter.name())
+}

@@ -1,0 +1,168 @@
+//! The commands, one file a verb. What needs a terminal, an argument list or an exit code is here
+//! and nowhere else.
+
+mod check;
+mod completions;
+mod man;
+mod plan;
+mod plot;
+mod progress;
+mod sweep;
+mod threshold;
+
+use anyhow::Context;
+use clap::{Args, Parser, Subcommand};
+use liftsim::config::{Config, ConfigError};
+use liftsim::plan::Plan;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Does the lift move, and how sure can we be, from an accelerometer alone?
+///
+/// liftsim simulates the adaptive-whitening, three-sample detector of M. A. Raifeld, whose
+/// false-alarm rate is known exactly, and measures how often it detects a motion.
+#[derive(Debug, Parser)]
+#[command(version, propagate_version = true, arg_required_else_help = true)]
+#[command(after_help = "Start with: liftsim sweep configs/fig6.toml\n\n\
+    Exit codes: 0 done; 1 a run failed, or a gate did not hold; 2 bad usage, config or input; \
+    3 a gate was inconclusive.")]
+pub struct Arguments {
+    /// Show no progress.
+    #[arg(long, short, global = true)]
+    quiet: bool,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Sweep(sweep::Sweep),
+    Plot(plot::Plot),
+    Check(check::Check),
+    Threshold(threshold::Threshold),
+    Plan(plan::PlanCommand),
+    Completions(completions::Completions),
+    Man(man::Man),
+}
+
+/// An error, and whose it is.
+pub enum Failure {
+    /// What the user gave cannot be used: exit 2.
+    Input(anyhow::Error),
+    /// The run itself failed: exit 1.
+    Run(anyhow::Error),
+}
+
+/// What a verb comes to.
+type Outcome = Result<ExitCode, Failure>;
+
+impl Failure {
+    fn input(error: impl Into<anyhow::Error>) -> Self {
+        Self::Input(error.into())
+    }
+
+    fn run(error: impl Into<anyhow::Error>) -> Self {
+        Self::Run(error.into())
+    }
+}
+
+impl Arguments {
+    /// Runs the command.
+    pub fn run(self) -> Outcome {
+        match self.command {
+            Command::Sweep(verb) => verb.run(self.quiet),
+            Command::Plot(verb) => verb.run(),
+            Command::Check(verb) => verb.run(self.quiet),
+            Command::Threshold(verb) => verb.run(),
+            Command::Plan(verb) => verb.run(),
+            Command::Completions(verb) => verb.run(),
+            Command::Man(verb) => verb.run(),
+        }
+    }
+}
+
+/// What every command that simulates can be told beside its config.
+#[derive(Debug, Args)]
+struct Simulation {
+    /// The experiment, a TOML file.
+    config: PathBuf,
+    /// Trials per point, instead of the config's.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    trials: Option<u64>,
+    /// Where every draw starts from, instead of the config's.
+    #[arg(long, value_name = "S")]
+    seed: Option<u64>,
+    /// Threads to run on; all cores by default. Results do not depend on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+}
+
+impl Simulation {
+    /// Reads the config, puts the command line in its place, and plans it.
+    fn prepare(
+        &self,
+        plan: impl Fn(&Config) -> Result<Plan, ConfigError>,
+    ) -> Result<(Config, Plan), Failure> {
+        let mut config = Config::load(&self.config).map_err(Failure::input)?;
+        config.trials = self.trials.unwrap_or(config.trials);
+        config.seed = self.seed.unwrap_or(config.seed);
+        let plan = plan(&config).map_err(Failure::input)?;
+        if let Some(threads) = self.threads {
+            rayon::ThreadPoolBuilder::new()
+                .num_threads(threads.into())
+                .build_global()
+                .context("threads")
+                .map_err(Failure::Run)?;
+        }
+        Ok((config, plan))
+    }
+}
+
+/// Writes to standard output; a reader that has seen enough is no error.
+fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::run(
+            anyhow::Error::from(error).context("standard output"),
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// A table of text: every column as wide as its widest cell, numbers to the right.
+fn table(header: &[&str], rows: &[Vec<String>]) -> String {
+    let width = |column: usize| {
+        let cells = rows.iter().map(|row| row[column].chars().count());
+        cells
+            .chain([header[column].chars().count()])
+            .max()
+            .unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..header.len()).map(width).collect();
+    let is_number = |column: usize| {
+        let mut cells = rows
+            .iter()
+            .map(|row| row[column].trim_start_matches(['[', '<', '-']));
+        cells.all(|cell| cell.is_empty() || cell.starts_with(|c: char| c.is_ascii_digit()))
+    };
+    let numeric: Vec<bool> = (0..header.len()).map(is_number).collect();
+    let line = |cells: &mut dyn Iterator<Item = &str>| {
+        let padded = cells
+            .zip(&widths)
+            .zip(&numeric)
+            .map(|((cell, width), numeric)| {
+                let blank = " ".repeat(width - cell.chars().count());
+                match numeric {
+                    true => format!("{blank}{cell}"),
+                    false => format!("{cell}{blank}"),
+                }
+            });
+        padded.collect::<Vec<_>>().join("  ").trim_end().to_owned() + "\n"
+    };
+    let mut text = line(&mut header.iter().copied());
+    for row in rows {
+        text += &line(&mut row.iter().map(String::as_str));
+    }
+    text
+}

@@ -1,0 +1,72 @@
+//! `liftsim plan CONFIG`: what a sweep would do.
+
+use super::{Outcome, Simulation, print};
+use clap::Args;
+use liftsim::plan::{Hypothesis, Plan};
+use liftsim::run;
+use liftsim::tally::Tally;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+/// Say what a sweep would do: points, trials, expected time, half-width. Writes nothing.
+#[derive(Debug, Args)]
+pub struct PlanCommand {
+    #[command(flatten)]
+    simulation: Simulation,
+}
+
+impl PlanCommand {
+    /// Runs the command.
+    pub fn run(self) -> Outcome {
+        let (config, plan) = self.simulation.prepare(Plan::new)?;
+        let trials = plan.trials;
+        let at_rest = plan
+            .points
+            .iter()
+            .filter(|p| p.hypothesis == Hypothesis::H0)
+            .count();
+        let tally = |hits| Tally { hits, trials };
+        let half_width = |hits| {
+            let (low, high) = tally(hits).interval(config.confidence);
+            (high - low) / 2.0
+        };
+        print(&format!(
+            "{}\n\n\
+             points       {} in motion, {at_rest} at rest, of {} curves\n\
+             trials       {trials} per point, {} trial-points in all\n\
+             noise        {} independent sets of realisations\n\
+             half-width   {:.5} at a rate of 1/2, {:.5} at 0.01, of the {} % interval\n\
+             time         about {} on {} threads\n",
+            config.question,
+            plan.points.len() - at_rest,
+            config.curves.len(),
+            run::total_work(&plan),
+            plan.families.len(),
+            half_width(trials / 2),
+            half_width(trials / 100),
+            config.confidence * 100.0,
+            in_words(expected_time(plan)),
+            rayon::current_num_threads(),
+        ))?;
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// Scales up the time of a short run of the same points; its counts are thrown away.
+fn expected_time(mut plan: Plan) -> Duration {
+    let wanted = plan.trials;
+    plan.trials = wanted.min(run::BLOCK * rayon::current_num_threads() as u64);
+    run::run(&plan, |_| {});
+    let start = Instant::now();
+    run::run(&plan, |_| {});
+    start.elapsed().mul_f64(wanted as f64 / plan.trials as f64)
+}
+
+fn in_words(time: Duration) -> String {
+    match time.as_secs() {
+        0..=1 => format!("{:.1} s", time.as_secs_f64()),
+        2..=119 => format!("{} s", time.as_secs()),
+        120..=7199 => format!("{} min", time.as_secs() / 60),
+        _ => format!("{:.1} h", time.as_secs_f64() / 3600.0),
+    }
+}

@@ -1,0 +1,37 @@
+//! `liftsim plot DIR`: draws the figure again from the stored counts.
+
+use super::{Failure, Outcome, print};
+use clap::Args;
+use liftsim::config::Config;
+use liftsim::figure;
+use liftsim::results::Directory;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Draw the figure of a result directory again, from its counts; simulate nothing.
+#[derive(Debug, Args)]
+pub struct Plot {
+    /// A directory that `sweep` has written.
+    directory: PathBuf,
+}
+
+impl Plot {
+    /// Runs the command.
+    pub fn run(self) -> Outcome {
+        let directory = Directory::new(self.directory);
+        let manifest = directory.manifest().map_err(Failure::input)?;
+        let rows = directory.rows().map_err(Failure::input)?;
+        let config =
+            Config::parse(&manifest.config_name, &manifest.config).map_err(Failure::input)?;
+        let drawing = figure::sweep(&config, &rows, &manifest).map_err(Failure::run)?;
+        for (name, bytes) in [("figure.png", drawing.png), ("figure.svg", drawing.svg)] {
+            let is_new = directory.write(name, &bytes).map_err(Failure::run)?;
+            let note = if is_new { "written" } else { "unchanged" };
+            print(&format!(
+                "{}  {note}\n",
+                directory.path().join(name).display()
+            ))?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}

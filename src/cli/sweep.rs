@@ -1,0 +1,146 @@
+//! `liftsim sweep CONFIG`: runs every point and writes counts and figure.
+
+use super::{Failure, Outcome, Simulation, print, progress};
+use clap::Args;
+use liftsim::config::Config;
+use liftsim::figure;
+use liftsim::plan::Plan;
+use liftsim::results::{self, Directory, Identity, Manifest, Row};
+use liftsim::run;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// Run every point of an experiment; write points.csv, the figure and run.json.
+///
+/// The same config and seed give the same bytes on any machine, with any number of threads.
+#[derive(Debug, Args)]
+pub struct Sweep {
+    #[command(flatten)]
+    simulation: Simulation,
+    /// Where to write; results/<name of the config>/ by default.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Start over, replacing whatever experiment the directory holds.
+    #[arg(long)]
+    fresh: bool,
+}
+
+impl Sweep {
+    /// Runs the command.
+    pub fn run(self, quiet: bool) -> Outcome {
+        let (config, plan) = self.simulation.prepare(Plan::new)?;
+        let directory = Directory::new(
+            self.out
+                .clone()
+                .unwrap_or_else(|| default_directory(&self.simulation.config)),
+        );
+        let identity = Identity {
+            seed: config.seed,
+            common_random_numbers: config.common_random_numbers,
+            plan: &plan,
+        };
+        directory
+            .admit(&identity, self.fresh)
+            .map_err(Failure::input)?;
+
+        let bar = progress::bar(&plan, quiet);
+        let start = Instant::now();
+        let tallies = run::run(&plan, |work| bar.inc(work));
+        let seconds = start.elapsed().as_secs_f64();
+        bar.finish_and_clear();
+
+        let rows: Vec<Row> = (plan.points.iter().zip(tallies))
+            .map(|(point, tally)| Row::new(point, tally, config.confidence))
+            .collect();
+        write(&directory, &config, &rows, seconds)?;
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// results/<file stem>.
+fn default_directory(config: &Path) -> PathBuf {
+    Path::new("results").join(config.file_stem().unwrap_or(config.as_os_str()))
+}
+
+/// Writes counts, then pictures, then the manifest that vouches for both, and says what is new.
+fn write(
+    directory: &Directory,
+    config: &Config,
+    rows: &[Row],
+    seconds: f64,
+) -> Result<(), Failure> {
+    let mut manifest = manifest(config, seconds);
+    let drawing = figure::sweep(config, rows, &manifest).map_err(Failure::run)?;
+    let mut report = String::new();
+    let files = [
+        ("points.csv", results::csv_bytes(rows)),
+        ("figure.png", drawing.png),
+        ("figure.svg", drawing.svg),
+    ];
+    for (name, bytes) in &files {
+        let is_new = directory.write(name, bytes).map_err(Failure::run)?;
+        manifest
+            .files
+            .insert((*name).to_owned(), results::sha256(bytes));
+        let note = if is_new { "written" } else { "unchanged" };
+        report += &format!("{}  {note}\n", directory.path().join(name).display());
+    }
+    let json = serde_json::to_vec_pretty(&manifest).expect("a manifest is plain data");
+    directory.write("run.json", &json).map_err(Failure::run)?;
+    let trials = config.trials;
+    print(&format!(
+        "{} points of {trials} trials in {seconds:.1} s\n{report}",
+        rows.len()
+    ))
+}
+
+fn manifest(config: &Config, seconds: f64) -> Manifest {
+    Manifest {
+        config_name: config.name().to_owned(),
+        config: config.text().to_owned(),
+        config_sha256: results::sha256(config.text().as_bytes()),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        revision: env!("LIFTSIM_REVISION").to_owned(),
+        command: command_line(),
+        seed: config.seed,
+        trials: config.trials,
+        common_random_numbers: config.common_random_numbers,
+        seconds,
+        threads: rayon::current_num_threads(),
+        architecture: architecture(),
+        files: BTreeMap::new(),
+    }
+}
+
+/// What was typed, the program by its name alone.
+fn command_line() -> String {
+    let arguments = std::env::args().skip(1);
+    ["liftsim".to_owned()]
+        .into_iter()
+        .chain(arguments)
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// The processor family, and which vector instructions it offers.
+fn architecture() -> String {
+    #[cfg(target_arch = "x86_64")]
+    let features = [
+        ("avx2", std::is_x86_feature_detected!("avx2")),
+        ("fma", std::is_x86_feature_detected!("fma")),
+        ("avx512f", std::is_x86_feature_detected!("avx512f")),
+    ];
+    #[cfg(not(target_arch = "x86_64"))]
+    let features: [(&str, bool); 0] = [];
+    let present = features
+        .iter()
+        .filter(|(_, present)| *present)
+        .map(|(name, _)| *name);
+    [std::env::consts::ARCH]
+        .into_iter()
+        .chain(present)
+        .collect::<Vec<_>>()
+        .join(" ")
+}

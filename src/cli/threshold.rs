@@ -1,0 +1,189 @@
+//! `liftsim threshold`: C_W(T) and the exact size of a rule.
+
+use super::{Failure, Outcome, print, table};
+use anyhow::Context;
+use clap::{Args, ValueEnum};
+use liftsim::detect::{Alternative, NullLaws, Region, Rule, Samples};
+use liftsim::figure;
+use serde_json::json;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Print the threshold C_W(T) of a rule and its exact false-alarm rate.
+///
+/// X is the reference at rest, Y1 the sample tested for a shift, Y2 the one tested for its scale.
+/// The rule decides that the lift moves where the rank sum W reaches C_W(T) for the T exceedances
+/// seen.
+#[derive(Debug, Args)]
+pub struct Threshold {
+    /// N, the size of X.
+    #[arg(long, value_name = "N")]
+    reference: usize,
+    /// M1, the size of Y1.
+    #[arg(long, value_name = "M1")]
+    shift: usize,
+    /// M2, the size of Y2.
+    #[arg(long, value_name = "M2")]
+    scale: usize,
+    /// The level: the rule's false-alarm rate is at most this.
+    #[arg(long, value_name = "A")]
+    alpha: f64,
+    /// How the region is filled.
+    #[arg(long, value_name = "R", value_enum, default_value_t = RuleName::Product)]
+    rule: RuleName,
+    /// The sign of the acceleration it is made for.
+    #[arg(long, value_name = "SIGN", value_enum, default_value_t = Sign::Greater)]
+    alternative: Sign,
+    /// Print JSON instead of a table.
+    #[arg(long)]
+    json: bool,
+    /// Draw the plane of W and T with the region in it.
+    #[arg(long, value_name = "FILE.png")]
+    figure: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum RuleName {
+    /// W alone.
+    Wilcoxon,
+    /// The product of both p-values.
+    Product,
+    /// Either statistic.
+    Disjunction,
+    /// Both statistics.
+    Conjunction,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Sign {
+    /// Upwards.
+    Greater,
+    /// Downwards.
+    Less,
+    /// Either way.
+    TwoSided,
+}
+
+impl Threshold {
+    /// Runs the command.
+    pub fn run(self) -> Outcome {
+        let samples =
+            Samples::contiguous(self.reference, self.shift, self.scale).map_err(Failure::input)?;
+        let rule = match self.rule {
+            RuleName::Wilcoxon => Rule::Wilcoxon,
+            RuleName::Product => Rule::Product,
+            RuleName::Disjunction => Rule::Disjunction,
+            RuleName::Conjunction => Rule::Conjunction,
+        };
+        let alternative = match self.alternative {
+            Sign::Greater => Alternative::Greater,
+            Sign::Less => Alternative::Less,
+            Sign::TwoSided => Alternative::TwoSided,
+        };
+        let laws = NullLaws::new(alternative, &samples).map_err(Failure::input)?;
+        let region = laws.region(&rule, self.alpha).map_err(Failure::input)?;
+        let text = match self.json {
+            true => self.as_json(&laws, &region, &rule, alternative),
+            false => self.as_table(&laws, &region, &rule, alternative),
+        };
+        if let Some(path) = &self.figure {
+            let title = format!(
+                "rule {rule}, alternative {alternative}, N/M_1/M_2 = {samples}, α = {}, exact size {:.6}",
+                self.alpha,
+                region.size()
+            );
+            let drawing = figure::region(&laws, &region, &title).map_err(Failure::run)?;
+            std::fs::write(path, drawing.png)
+                .with_context(|| {
+                    format!(
+                        "{}: cannot be written (give another --figure)",
+                        path.display()
+                    )
+                })
+                .map_err(Failure::Input)?;
+        }
+        print(&text)?;
+        Ok(ExitCode::SUCCESS)
+    }
+
+    fn as_table(
+        &self,
+        laws: &NullLaws,
+        region: &Region,
+        rule: &Rule,
+        alternative: Alternative,
+    ) -> String {
+        let bound = |bound: Option<u64>| bound.map_or("never".to_owned(), |w| w.to_string());
+        let critical = |(lower, upper): (Option<u64>, Option<u64>)| match alternative {
+            Alternative::Greater => bound(upper),
+            Alternative::Less => bound(lower),
+            Alternative::TwoSided => match (lower, upper) {
+                (Some(lower), Some(upper)) => format!("{lower} or {upper}"),
+                (None, Some(upper)) => format!("{upper}"),
+                _ => "never".to_owned(),
+            },
+        };
+        let rows: Vec<Vec<String>> = (region
+            .critical_values()
+            .into_iter()
+            .zip(region.conditional_sizes(laws)))
+        .enumerate()
+        .map(|(t, (values, conditional))| {
+            let mass = laws.exceedances().mass(t as u64);
+            vec![
+                t.to_string(),
+                format!("{mass:.9}"),
+                critical(values),
+                format!("{conditional:.9}"),
+            ]
+        })
+        .collect();
+        let name = match alternative {
+            Alternative::Greater => "W >=",
+            Alternative::Less => "W <=",
+            Alternative::TwoSided => "W <= or >=",
+        };
+        format!(
+            "rule {rule}, alternative {alternative}, N/M1/M2 = {}/{}/{}, alpha = {}\n\n{}\nexact size {}\n",
+            self.reference,
+            self.shift,
+            self.scale,
+            self.alpha,
+            table(&["T", "P(T)", name, "P(W)"], &rows),
+            region.size(),
+        )
+    }
+
+    fn as_json(
+        &self,
+        laws: &NullLaws,
+        region: &Region,
+        rule: &Rule,
+        alternative: Alternative,
+    ) -> String {
+        let conditional = region.conditional_sizes(laws);
+        let critical: Vec<_> = (0..)
+            .zip(region.critical_values())
+            .map(|(t, (lower, upper))| {
+                json!({
+                    "exceedances": t,
+                    "probability": laws.exceedances().mass(t),
+                    "lower": lower,
+                    "upper": upper,
+                    "rank_sum_probability": conditional[t as usize],
+                })
+            })
+            .collect();
+        let value = json!({
+            "reference": self.reference,
+            "shift": self.shift,
+            "scale": self.scale,
+            "alpha": self.alpha,
+            "rule": rule.to_string(),
+            "alternative": alternative.to_string(),
+            "size": region.size(),
+            "critical": critical,
+        });
+        format!("{value:#}\n")
+    }
+}

@@ -1,0 +1,183 @@
+//! Axes: a plot rectangle on a sheet, its scales, ticks and labels.
+
+use super::FigureError;
+use super::sheet::{Align, Sheet, Style};
+use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor};
+
+/// Em size of tick labels, in points.
+pub(super) const SMALL: f64 = 8.0;
+/// Em size of axis labels.
+pub(super) const NORMAL: f64 = 9.0;
+
+const AXIS_WIDTH: f64 = 0.6;
+const TICK: f64 = 3.0;
+const GRID: RGBColor = RGBColor(225, 225, 225);
+
+/// From data to points along one direction.
+#[derive(Clone, Debug)]
+pub(super) struct Scale {
+    /// Data at the two ends.
+    pub from: f64,
+    pub to: f64,
+    /// Where ticks stand, and what they say.
+    pub ticks: Vec<(f64, String)>,
+}
+
+/// A rectangle with axes.
+pub(super) struct Frame {
+    pub left: f64,
+    pub right: f64,
+    pub top: f64,
+    pub bottom: f64,
+    pub x: Scale,
+    pub y: Scale,
+}
+
+impl Scale {
+    /// `from` to `to` with about `count` ticks at 1, 2 or 5 times a power of ten.
+    pub fn linear(from: f64, to: f64, count: usize) -> Self {
+        let (step, decimals) = tick_step((to - from) / count as f64);
+        let first = (from / step - 1e-9).ceil() as i64;
+        let last = (to / step + 1e-9).floor() as i64;
+        let tick = |i: i64| {
+            let value = i as f64 * step;
+            (value, minus_sign(format!("{value:.decimals$}")))
+        };
+        Self {
+            from,
+            to,
+            ticks: (first..=last).map(tick).collect(),
+        }
+    }
+
+    /// Names at 0, 1, 2, …
+    pub fn names(names: &[String]) -> Self {
+        Self {
+            from: -0.5,
+            to: names.len() as f64 - 0.5,
+            ticks: names
+                .iter()
+                .enumerate()
+                .map(|(i, name)| (i as f64, name.clone()))
+                .collect(),
+        }
+    }
+
+    fn share(&self, value: f64) -> f64 {
+        (value - self.from) / (self.to - self.from)
+    }
+}
+
+/// The next step of 1, 2 or 5 times a power of ten from `rough` on, and the decimals it takes.
+fn tick_step(rough: f64) -> (f64, usize) {
+    let mut decimals = 9i32;
+    loop {
+        let power = 10f64.powi(-decimals);
+        for factor in [1.0, 2.0, 5.0] {
+            if factor * power >= rough * (1.0 - 1e-9) {
+                return (factor * power, decimals.max(0) as usize);
+            }
+        }
+        decimals -= 1;
+    }
+}
+
+/// A hyphen is no minus.
+fn minus_sign(number: String) -> String {
+    number.replace('-', "−")
+}
+
+impl Frame {
+    /// Where a value stands on the sheet.
+    pub fn at(&self, x: f64, y: f64) -> (f64, f64) {
+        (
+            self.left + self.x.share(x) * (self.right - self.left),
+            self.bottom - self.y.share(y) * (self.bottom - self.top),
+        )
+    }
+
+    /// Grid lines, drawn before the data.
+    pub fn draw_grid<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
+        for (y, _) in &self.y.ticks {
+            let (_, y) = self.at(self.x.from, *y);
+            sheet.line(&[(self.left, y), (self.right, y)], 0.4, GRID.to_rgba())?;
+        }
+        Ok(())
+    }
+
+    /// The rectangle, ticks and labels, drawn after the data.
+    pub fn draw_axes<B: DrawingBackend>(
+        &self,
+        sheet: &Sheet<B>,
+        x_label: &str,
+        y_label: &str,
+    ) -> Result<(), FigureError> {
+        let black = BLACK.to_rgba();
+        let corners = [
+            (self.left, self.top),
+            (self.right, self.top),
+            (self.right, self.bottom),
+            (self.left, self.bottom),
+            (self.left, self.top),
+        ];
+        sheet.line(&corners, AXIS_WIDTH, black)?;
+        for (value, label) in &self.x.ticks {
+            let (x, y) = self.at(*value, self.y.from);
+            sheet.line(&[(x, y), (x, y - TICK)], AXIS_WIDTH, black)?;
+            sheet.text(
+                label,
+                (x, y + SMALL + 3.0),
+                Style::plain(SMALL, Align::Centre),
+            )?;
+        }
+        for (value, label) in &self.y.ticks {
+            let (x, y) = self.at(self.x.from, *value);
+            sheet.line(&[(x, y), (x + TICK, y)], AXIS_WIDTH, black)?;
+            sheet.text(
+                label,
+                (x - 4.0, y + 0.36 * SMALL),
+                Style::plain(SMALL, Align::Right),
+            )?;
+        }
+        let middle = f64::midpoint(self.left, self.right);
+        sheet.text(
+            x_label,
+            (middle, self.bottom + 25.0),
+            Style::plain(NORMAL, Align::Centre),
+        )?;
+        let beside = (12.0, f64::midpoint(self.top, self.bottom));
+        let upright = Style {
+            upright: true,
+            ..Style::plain(NORMAL, Align::Centre)
+        };
+        sheet.text(y_label, beside, upright)
+    }
+
+    /// A second scale along the top.
+    pub fn draw_top<B: DrawingBackend>(
+        &self,
+        sheet: &Sheet<B>,
+        scale: &Scale,
+        label: &str,
+    ) -> Result<(), FigureError> {
+        for (value, tick) in &scale.ticks {
+            let x = self.left + scale.share(*value) * (self.right - self.left);
+            sheet.line(
+                &[(x, self.top), (x, self.top + TICK)],
+                AXIS_WIDTH,
+                BLACK.to_rgba(),
+            )?;
+            sheet.text(
+                tick,
+                (x, self.top - 4.0),
+                Style::plain(SMALL, Align::Centre),
+            )?;
+        }
+        let middle = f64::midpoint(self.left, self.right);
+        sheet.text(
+            label,
+            (middle, self.top - 16.0),
+            Style::plain(NORMAL, Align::Centre),
+        )
+    }
+}

@@ -1,0 +1,64 @@
+//! Pictures, each drawn once and written twice: PNG at 300 dpi and SVG.
+//!
+//! [`sheet`] is the paper: a drawing area measured in points, with lines, markers and text.
+//! [`frame`] puts axes on it. The other files each draw one kind of picture from results alone.
+
+mod curves;
+mod frame;
+mod region;
+mod sheet;
+mod svg;
+
+use crate::config::Config;
+use crate::detect::{NullLaws, Region};
+use crate::results::{Manifest, Row};
+
+/// A picture in both its forms.
+#[derive(Clone, Debug)]
+pub struct Drawing {
+    /// At 300 dpi, its provenance in text chunks.
+    pub png: Vec<u8>,
+    /// With its text as outlines, so that it looks the same without the font.
+    pub svg: Vec<u8>,
+}
+
+/// Why a picture could not be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum FigureError {
+    /// The drawing library refused, in its words.
+    #[error("figure: {0}")]
+    Drawing(String),
+    /// The picture could not be compressed.
+    #[error("figure: {0}")]
+    Png(#[from] png::EncodingError),
+    /// There is nothing to draw.
+    #[error(
+        "figure: no point of the results lies on the axis {0} (draw it from a sweep's results)"
+    )]
+    Empty(&'static str),
+}
+
+/// Draws a sweep: power, or false-alarm rate where nothing moves, against the axis.
+///
+/// # Errors
+/// Where the results have no point on the config's axis, or drawing fails.
+pub fn sweep(config: &Config, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
+    let provenance = format!(
+        "liftsim {}, config {} ({}), seed {}, {} trials per point",
+        manifest.version,
+        manifest.config_name,
+        &manifest.config_sha256[..12],
+        manifest.seed,
+        manifest.trials
+    );
+    sheet::render(&curves::Curves::new(config, rows, manifest)?, &provenance)
+}
+
+/// Draws the plane of W and T: the null probability of every cell, and the region in it.
+///
+/// # Errors
+/// Where drawing fails.
+pub fn region(laws: &NullLaws, region: &Region, title: &str) -> Result<Drawing, FigureError> {
+    let provenance = format!("liftsim {}, {title}", env!("CARGO_PKG_VERSION"));
+    sheet::render(&region::Plane::new(laws, region, title), &provenance)
+}
