@@ -152,7 +152,7 @@ impl Family {
     }
 
     /// Whether this family is the one of exactly this simulation.
-    fn simulates(&self, scenario: &Scenario) -> bool {
+    pub(super) fn simulates(&self, scenario: &Scenario) -> bool {
         self.branches.iter().all(|branch| {
             branch.digitiser == scenario.digitiser
                 && branch.whitening == scenario.whitening
@@ -192,7 +192,7 @@ impl Family {
 }
 
 impl Source {
-    fn new(scenario: &Scenario) -> Self {
+    pub fn new(scenario: &Scenario) -> Self {
         Self {
             sensor: scenario.sensor.clone(),
             noise: scenario.noise,

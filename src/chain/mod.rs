@@ -11,6 +11,8 @@
 
 mod family;
 mod scenario;
+#[cfg(test)]
+mod tests;
 mod trial;
 
 pub use family::{Family, RecordTooLong};

@@ -1,7 +1,7 @@
 //! One trial of a family, in buffers that are allocated once and reused for a whole block.
 
 use super::family::{Branch, Course, Family, Source, Stage};
-use crate::detect::{Pooled, Samples};
+use crate::detect::{Pooled, Samples, Statistics};
 use crate::rng::{Generator, Stream};
 use crate::signal::Digitiser;
 use crate::whiten::{Fitter, whiten};
@@ -111,41 +111,39 @@ impl<'a> Trial<'a> {
                 source.lead,
                 &mut self.noise.whitened,
             );
+            let is_linear = branch.digitiser.is_transparent();
             for course in &branch.courses {
-                course.impulses.pattern(
-                    &self.motion.draws[course.first_impulse(&source.samples)..],
-                    {
-                        let first = course.first_impulse(&source.samples);
-                        let (silent, acting) = self.motion.pattern.split_at_mut(first);
-                        silent.fill(0.0);
-                        acting
-                    },
-                );
-                if branch.digitiser.is_transparent() {
+                self.motion.draw_impulses(course, source);
+                if is_linear {
                     self.motion
                         .respond(course, coefficients, source, &self.noise.whitened);
                 }
                 for stage in &course.stages {
-                    if branch.digitiser.is_transparent() {
-                        self.motion.add_step(stage.delta);
-                    } else {
-                        self.motion.record_anew(
+                    match is_linear {
+                        true => self.motion.add_step(stage.delta),
+                        false => self.motion.record_anew(
                             branch,
                             course,
-                            stage,
+                            stage.delta,
                             coefficients,
                             source,
                             &mut self.noise,
-                        );
+                        ),
                     }
-                    let samples = &source.samples;
-                    let pooled = pool(samples, &self.noise.whitened, &self.motion.whitened);
-                    let statistics = pooled.statistics(|| self.ties.keys());
-                    for verdict in &stage.verdicts {
-                        counters[verdict.counter] += u64::from(verdict.region.contains(statistics));
-                    }
+                    let pooled = pool(&source.samples, &self.noise.whitened, &self.motion.whitened);
+                    stage.decide(pooled.statistics(|| self.ties.keys()), counters);
                 }
             }
+        }
+    }
+}
+
+impl Stage {
+    /// Counts the regions that decide H₁.
+    #[inline]
+    fn decide(&self, statistics: Statistics, counters: &mut [u64]) {
+        for verdict in &self.verdicts {
+            counters[verdict.counter] += u64::from(verdict.region.contains(statistics));
         }
     }
 }
@@ -178,6 +176,14 @@ impl NoiseRecord {
 }
 
 impl MotionBuffers {
+    /// The pattern of this course from the trial's draws.
+    fn draw_impulses(&mut self, course: &Course, source: &Source) {
+        let first = course.first_impulse(&source.samples);
+        let (silent, acting) = self.pattern.split_at_mut(first);
+        silent.fill(0.0);
+        course.impulses.pattern(&self.draws[first..], acting);
+    }
+
     /// Whitened responses to a unit step and to the impulses, and the whitened record without step.
     fn respond(&mut self, course: &Course, coefficients: &[f64], source: &Source, noise: &[f64]) {
         let decimation = source.samples.decimation();
@@ -209,7 +215,7 @@ impl MotionBuffers {
         &mut self,
         branch: &Branch,
         course: &Course,
-        stage: &Stage,
+        delta: f64,
         coefficients: &[f64],
         source: &Source,
         noise: &mut NoiseRecord,
@@ -217,7 +223,7 @@ impl MotionBuffers {
         let theta = course.impulses.theta();
         let rest = &noise.raw[noise.raw.len() - self.raw.len()..];
         for (i, r) in self.raw.iter_mut().enumerate() {
-            *r = rest[i] + stage.delta * course.shape[i] + theta * self.pattern[i];
+            *r = rest[i] + delta * course.shape[i] + theta * self.pattern[i];
         }
         let start = source.lead + source.samples.reference();
         let decimation = source.samples.decimation();
@@ -261,10 +267,11 @@ fn pool<'a>(samples: &Samples, rest: &'a [f64], motion: &'a [f64]) -> Pooled<'a>
     }
 }
 
-/// Digitises raw samples and takes block means.
+/// Digitises raw samples and takes block means: sums of codes, which are exact, then one scale.
 fn observe(raw: &[f64], digitiser: &Digitiser, decimation: usize, observed: &mut [f64]) {
+    let scale = digitiser.unit() / decimation as f64;
     for (mean, block) in observed.iter_mut().zip(raw.chunks_exact(decimation)) {
-        *mean = block.iter().map(|&x| digitiser.step(x)).sum::<f64>() / decimation as f64;
+        *mean = block.iter().map(|&x| digitiser.code(x)).sum::<f64>() * scale;
     }
 }
 

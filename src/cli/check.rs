@@ -93,7 +93,7 @@ fn row(config: &Config, point: &Point, finding: &Finding) -> Vec<String> {
         tally.hits.to_string(),
         format!("{:.6}", tally.rate()),
         format!("[{low:.6}, {high:.6}]"),
-        format!("{:.3e}", finding.p_value),
+        p_value(finding.p_value),
         match finding.verdict {
             Verdict::Pass => "pass",
             Verdict::Inconclusive => "inconclusive",
@@ -101,6 +101,14 @@ fn row(config: &Config, point: &Point, finding: &Finding) -> Vec<String> {
         }
         .to_owned(),
     ]
+}
+
+/// Four decimals where they say something, a power of ten where they do not.
+fn p_value(p: f64) -> String {
+    match p < 1e-3 {
+        true => format!("{p:.2e}"),
+        false => format!("{p:.4}"),
+    }
 }
 
 /// The curve's label, and what the axis changes unless another column says it.

@@ -13,7 +13,6 @@ use std::ops::Range;
 pub struct ConfigError {
     file: String,
     place: Option<Place>,
-    #[source]
     problem: Problem,
 }
 

@@ -2,11 +2,11 @@
 //! false-alarm rate.
 
 use super::FigureError;
-use super::frame::{Frame, NORMAL, SMALL, Scale};
+use super::frame::{Frame, SMALL, Scale};
 use super::sheet::{Align, Marker, Picture, Sheet, Style, text_width};
 use crate::config::{Config, Parameter};
 use crate::results::{Manifest, Row};
-use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor};
+use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor, WHITE};
 
 /// Colours that remain apart for colour-blind readers (Okabe and Ito), each with its marker.
 const LOOKS: [(RGBColor, Marker); 6] = [
@@ -21,6 +21,10 @@ const LOOKS: [(RGBColor, Marker); 6] = [
 const WIDTH: f64 = 396.0;
 const HEIGHT: f64 = 290.0;
 const LINE: f64 = 1.1;
+const CAPTION: f64 = 7.5;
+const CAPTION_STEP: f64 = 10.5;
+const CAPTION_LEFT: f64 = 10.0;
+const CAPTION_WIDTH: f64 = WIDTH - 2.0 * CAPTION_LEFT;
 const MARKER: f64 = 2.3;
 
 /// The picture of a sweep.
@@ -33,7 +37,7 @@ pub(super) struct Curves {
     whitened_unit: Option<f64>,
     alpha: Option<f64>,
     is_false_alarm: bool,
-    caption: [String; 2],
+    caption: Vec<String>,
 }
 
 struct Curve {
@@ -97,7 +101,10 @@ impl Curves {
             None => Scale::linear(low, high, 7),
         };
         let y = match self.is_false_alarm {
-            false => Scale::linear(0.0, 1.0, 5),
+            false => Scale {
+                to: 1.03,
+                ..Scale::linear(0.0, 1.0, 5)
+            },
             true => {
                 let bottom = points()
                     .map(|p| p.2)
@@ -116,7 +123,7 @@ impl Curves {
             } else {
                 10.0
             },
-            bottom: HEIGHT - 58.0,
+            bottom: HEIGHT - 40.0 - CAPTION_STEP * self.caption.len() as f64,
             x,
             y,
         }
@@ -177,13 +184,7 @@ impl Curves {
             return Ok(());
         };
         let (left, y) = frame.at(frame.x.from, alpha);
-        sheet.line(&[(left, y), (frame.right, y)], 0.8, BLACK.mix(0.6))?;
-        let style = Style::plain(SMALL, Align::Right);
-        sheet.text(
-            &format!("nominal α = {alpha}"),
-            (frame.right - 4.0, y - 3.0),
-            style,
-        )
+        sheet.line(&[(left, y), (frame.right, y)], 0.8, BLACK.mix(0.6))
     }
 
     /// In the corner that covers the least of the curves.
@@ -219,7 +220,9 @@ impl Curves {
             (x + width, y + height),
             (x, y + height),
         ];
-        sheet.area(&box_corners, RGBColor(255, 255, 255).mix(0.85))?;
+        sheet.area(&box_corners, WHITE.to_rgba())?;
+        let outline: Vec<_> = box_corners.into_iter().chain([(x, y)]).collect();
+        sheet.line(&outline, 0.4, BLACK.mix(0.3))?;
         for (index, curve) in self.curves.iter().enumerate() {
             let middle = y + 3.0 + STEP * (index as f64 + 0.5);
             let (colour, marker) = curve.look;
@@ -247,7 +250,7 @@ impl Picture for Curves {
         let frame = self.frame();
         sheet.area(
             &[(0.0, 0.0), (WIDTH, 0.0), (WIDTH, HEIGHT), (0.0, HEIGHT)],
-            RGBColor(255, 255, 255).to_rgba(),
+            WHITE.to_rgba(),
         )?;
         frame.draw_grid(sheet)?;
         self.draw_nominal(sheet, &frame)?;
@@ -266,11 +269,11 @@ impl Picture for Curves {
             frame.draw_top(sheet, &scale, "Δ(1 − β)/σ_ξ, the shift after whitening")?;
         }
         for (line, text) in (0..).zip(&self.caption) {
-            let baseline = HEIGHT - 17.0 + 10.5 * f64::from(line);
+            let baseline = frame.bottom + 41.0 + CAPTION_STEP * f64::from(line);
             sheet.text(
                 text,
-                (frame.left, baseline),
-                Style::plain(0.8 * NORMAL, Align::Left),
+                (CAPTION_LEFT, baseline),
+                Style::plain(CAPTION, Align::Left),
             )?;
         }
         Ok(())
@@ -385,28 +388,27 @@ fn whitened_unit(config: &Config, rows: &[&Row]) -> Option<f64> {
 }
 
 /// What all points share, and what the bands are.
-fn caption(rows: &[&Row], axis: Parameter, manifest: &Manifest) -> [String; 2] {
+fn caption(rows: &[&Row], axis: Parameter, manifest: &Manifest) -> Vec<String> {
     let row = rows[0];
     let same = |value: &dyn Fn(&Row) -> String| rows.iter().all(|other| value(other) == value(row));
-    let mut first = Vec::new();
+    let mut parts = Vec::new();
     if axis != Parameter::Alpha && same(&|row| row.alpha.to_string()) {
-        first.push(match same(&|row| row.size.to_string()) {
+        parts.push(match same(&|row| row.size.to_string()) {
             true => format!("α = {} (exact size {:.6})", row.alpha, row.size),
             false => format!("α = {}", row.alpha),
         });
     }
     if same(&|row| row.rule.clone()) {
-        first.push(format!("rule {}", rule_name(row)));
+        parts.push(format!("rule {}", rule_name(row)));
     }
     if same(&|row| format!("{}/{}/{}", row.reference, row.shift, row.scale)) {
-        first.push(sizes(row));
+        parts.push(sizes(row));
     }
-    let mut second = Vec::new();
     if same(&|row| row.noise.clone()) {
-        second.push(format!("{} noise", row.noise));
+        parts.push(format!("{} noise", row.noise));
     }
     if same(&|row| format!("{} {} {}", row.fit, row.order, row.training)) {
-        second.push(match row.training {
+        parts.push(match row.training {
             0 => format!("known filter of order {}", row.order),
             training => format!(
                 "{} filter of order {} fitted on {training} samples",
@@ -415,11 +417,30 @@ fn caption(rows: &[&Row], axis: Parameter, manifest: &Manifest) -> [String; 2] {
         });
     }
     let (trials, confidence) = (thousands(row.trials), 100.0 * row.confidence);
-    second.push(format!(
-        "{trials} trials per point, pointwise exact {confidence} % intervals"
-    ));
-    first.push(format!("seed {}", manifest.seed));
-    [first.join(", "), second.join("; ")]
+    let band = if axis == Parameter::Rule {
+        "bars"
+    } else {
+        "bands"
+    };
+    parts.push(format!("{trials} trials per point, seed {}", manifest.seed));
+    parts.push(format!("{band}: pointwise exact {confidence} % intervals"));
+    if rows.iter().all(|row| row.is_at_rest()) {
+        parts.push("line: the nominal level".to_owned());
+    }
+    wrap(&parts, CAPTION_WIDTH)
+}
+
+/// The parts in lines of at most `width` points, broken between parts.
+fn wrap(parts: &[String], width: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for part in parts {
+        let longer = lines.last().map(|line| format!("{line}; {part}"));
+        match longer.filter(|line| text_width(line, CAPTION) <= width) {
+            Some(line) => *lines.last_mut().expect("there is a line") = line,
+            None => lines.push(part.clone()),
+        }
+    }
+    lines
 }
 
 fn sizes(row: &Row) -> String {

@@ -47,7 +47,7 @@ impl Picture for Plane<'_> {
         let exceedances = self.laws.exceedances();
         let frame = Frame {
             left: 48.0,
-            right: WIDTH - 70.0,
+            right: WIDTH - 76.0,
             top: 22.0,
             bottom: HEIGHT - 40.0,
             x: Scale::linear(low as f64 - 0.5, high as f64 + 0.5, 7),
@@ -78,6 +78,7 @@ impl Plane<'_> {
         high: u64,
     ) -> Result<(), FigureError> {
         let width = (high - low + 1).div_ceil(COLUMNS as u64);
+        let rank_sum: Vec<f64> = (low..=high).map(|w| self.laws.rank_sum().mass(w)).collect();
         for t in 0..=self.laws.exceedances().last() {
             let mass = self.laws.exceedances().mass(t);
             for from in (low..=high).step_by(width as usize) {
@@ -86,9 +87,8 @@ impl Plane<'_> {
                     rank_sum,
                     exceedances: t as usize,
                 };
-                let probability = (from..=to)
-                    .map(|w| self.laws.rank_sum().mass(w) * mass)
-                    .fold(0.0, f64::max);
+                let of_column = &rank_sum[(from - low) as usize..=(to - low) as usize];
+                let probability = of_column.iter().copied().fold(0.0, f64::max) * mass;
                 let is_inside =
                     self.region.contains(statistics(from)) || self.region.contains(statistics(to));
                 let (left, bottom) = frame.at(from as f64 - 0.5, t as f64 - 0.5);
@@ -107,25 +107,14 @@ impl Plane<'_> {
     ) -> Result<(), FigureError> {
         let left = frame.right + 12.0;
         let (top, step) = (frame.top + 24.0, 14.0);
-        sheet.text(
-            "H_0",
-            (left + 5.0, top - 14.0),
-            Style::plain(SMALL, Align::Centre),
-        )?;
-        sheet.text(
-            "H_1",
-            (left + 17.0, top - 14.0),
-            Style::plain(SMALL, Align::Centre),
-        )?;
-        sheet.text(
-            "*",
-            (left + 10.0, top - 14.0),
-            Style::plain(SMALL, Align::Left),
-        )?;
+        let heading =
+            |text, x| sheet.text(text, (x, top - 14.0), Style::plain(SMALL, Align::Centre));
+        heading("H_0*", left + 5.0)?;
+        heading("H_1*", left + 22.0)?;
         for (row, exponent) in (2..=12).step_by(2).enumerate() {
             let y = top + step * row as f64;
             let probability = libm::pow(10.0, -f64::from(exponent));
-            for (x, is_inside) in [(left, false), (left + 12.0, true)] {
+            for (x, is_inside) in [(left, false), (left + 17.0, true)] {
                 let square = [(x, y), (x + 10.0, y), (x + 10.0, y + 10.0), (x, y + 10.0)];
                 sheet.area(&square, shade(probability, is_inside).to_rgba())?;
                 let outline = [square[0], square[1], square[2], square[3], square[0]];
@@ -134,7 +123,7 @@ impl Plane<'_> {
             let label = format!("1e−{exponent}");
             sheet.text(
                 &label,
-                (left + 26.0, y + 8.0),
+                (left + 31.0, y + 8.0),
                 Style::plain(SMALL, Align::Left),
             )?;
         }

@@ -109,7 +109,7 @@ fn png_of(picture: &impl Picture, provenance: &str) -> Result<Vec<u8>, FigureErr
         yppu: per_metre,
         unit: png::Unit::Meter,
     }));
-    encoder.add_text_chunk("Source".to_owned(), provenance.to_owned())?;
+    encoder.add_itxt_chunk("Source".to_owned(), provenance.to_owned())?;
     encoder.write_header()?.write_image_data(&pixels)?;
     Ok(bytes)
 }

@@ -54,17 +54,25 @@ impl Digitiser {
         self.quantum.is_none() && self.range.is_none()
     }
 
-    /// What the converter writes for `x`.
+    /// The code that the converter writes for `x`: a whole number of steps where there is a step.
+    /// Codes add without rounding, so that equal block means stay equal.
     #[inline]
-    pub fn step(&self, x: f64) -> f64 {
-        let rounded = match self.quantum {
-            Some(quantum) => (x / quantum).round_ties_even() * quantum,
-            None => x,
-        };
-        match self.range {
-            Some(range) => rounded.clamp(-range, range),
-            None => rounded,
+    pub fn code(&self, x: f64) -> f64 {
+        let limit = |limit: f64, code: f64| code.clamp(-limit, limit);
+        match (self.quantum, self.range) {
+            (None, None) => x,
+            (None, Some(range)) => limit(range, x),
+            (Some(quantum), None) => (x / quantum).round_ties_even(),
+            (Some(quantum), Some(range)) => {
+                limit((range / quantum).floor(), (x / quantum).round_ties_even())
+            }
         }
+    }
+
+    /// What one code stands for.
+    #[inline]
+    pub fn unit(&self) -> f64 {
+        self.quantum.unwrap_or(1.0)
     }
 }
 
@@ -74,12 +82,14 @@ mod tests {
 
     #[test]
     fn rounds_and_clips() {
-        let digitiser = Digitiser::new(Some(0.5), Some(2.0)).unwrap();
-        assert_eq!(digitiser.step(0.6), 0.5);
-        assert_eq!(digitiser.step(-0.8), -1.0);
-        assert_eq!(digitiser.step(9.0), 2.0);
+        let digitiser = Digitiser::new(Some(0.5), Some(2.2)).unwrap();
+        assert_eq!(digitiser.code(0.6), 1.0);
+        assert_eq!(digitiser.code(-0.8), -2.0);
+        assert_eq!(digitiser.code(9.0) * digitiser.unit(), 2.0);
+        let limited = Digitiser::new(None, Some(2.2)).unwrap();
+        assert_eq!((limited.code(1.3), limited.code(-5.0)), (1.3, -2.2));
         assert!(Digitiser::default().is_transparent());
-        assert_eq!(Digitiser::default().step(0.123), 0.123);
+        assert_eq!(Digitiser::default().code(0.123), 0.123);
     }
 
     #[test]

@@ -1,0 +1,304 @@
+//! The chain against a second, deliberately naive one that is given the same draws: its own loops,
+//! no linearity, nothing shared between points, ranks by sorting.
+
+use super::scenario::{Detector, Scenario};
+use super::{Family, family::Source};
+use crate::detect::{Alternative, Region, Rule, Samples, Statistics};
+use crate::signal::{
+    DeltaAt, Digitiser, During, ImpulseMemory, Impulses, Law, Motion, Noise, Profile, Sensor,
+};
+use crate::whiten::{Fit, Whitening};
+use rand::Rng;
+use std::sync::Arc;
+
+const TRIALS: u64 = 600;
+
+fn scenario(samples: Samples, delta: f64, impulses: Impulses) -> Scenario {
+    Scenario {
+        sensor: Sensor::adxl105(),
+        noise: Noise::new(Law::Normal).unwrap(),
+        digitiser: Digitiser::default(),
+        motion: Motion {
+            delta,
+            delta_at: DeltaAt::Record,
+            profile: Profile::Rectangular,
+            duration: samples.acceleration(),
+            offset: 0,
+        },
+        impulses,
+        whitening: Whitening::new(2, Fit::LeastSquares, 40, false, 2).unwrap(),
+        samples,
+        detector: Detector {
+            alpha: 0.05,
+            rule: Rule::Product,
+            alternative: Alternative::Greater,
+        },
+    }
+}
+
+/// Points that exercise every part of the layout, all different, some sharing their noise. Steps
+/// are not so coarse that the fitted coefficients become simple fractions: then different records
+/// whiten to equal values, and rounding decides their order in either chain.
+fn scenarios() -> Vec<Scenario> {
+    let plain = Samples::contiguous(12, 12, 12).unwrap();
+    let spread = Samples::new(9, 7, 8, 3, 2).unwrap();
+    let impulses = |nu, theta, during| Impulses::new(nu, theta, during).unwrap();
+    let strong = impulses(0.3, 20.0, During::Motion);
+    let mut points = vec![
+        scenario(plain, 0.0, Impulses::none()),
+        scenario(plain, 0.3, strong),
+        scenario(plain, 0.6, strong),
+        scenario(plain, 0.6, impulses(0.1, 2.0, During::Inertial)),
+        scenario(spread, -0.4, strong),
+        scenario(spread, 0.7, impulses(0.2, 3.0, During::Inertial)),
+    ];
+    let mut change = |index: usize, change: &dyn Fn(&mut Scenario)| {
+        let mut changed: Scenario = points[index].clone();
+        change(&mut changed);
+        points.push(changed);
+    };
+    change(2, &|s| s.motion.profile = Profile::Trapezoid { rise: 4.0 });
+    change(2, &|s| (s.motion.duration, s.motion.offset) = (6, 5));
+    change(2, &|s| s.motion.delta_at = DeltaAt::Whitened);
+    change(2, &|s| {
+        s.digitiser = Digitiser::new(Some(1.5), Some(6.0)).unwrap()
+    });
+    change(5, &|s| {
+        s.digitiser = Digitiser::new(Some(0.7), None).unwrap()
+    });
+    change(4, &|s| s.motion.profile = Profile::Trapezoid { rise: 2.5 });
+    change(2, &|s| {
+        s.whitening = Whitening::new(2, Fit::LeastSquares, 40, true, 2).unwrap()
+    });
+    change(2, &|s| {
+        s.whitening = Whitening::new(3, Fit::Known, 0, false, 2).unwrap()
+    });
+    change(4, &|s| s.detector.alternative = Alternative::Less);
+    change(3, &|s| s.detector.alternative = Alternative::TwoSided);
+    change(3, &|s| s.noise = Noise::new(Law::Cauchy).unwrap());
+    points
+}
+
+fn region(scenario: &Scenario) -> Arc<Region> {
+    let Detector {
+        alpha,
+        rule,
+        alternative,
+    } = &scenario.detector;
+    Arc::new(Region::new(rule, *alternative, *alpha, &scenario.samples).unwrap())
+}
+
+/// One trial of one scenario, step by step.
+fn naive_trial(scenario: &Scenario, white: &[f64], draws: &[u64], keys: &[u64]) -> Statistics {
+    let samples = &scenario.samples;
+    let ar = scenario.sensor.ar();
+    let mut x: Vec<f64> = Vec::new();
+    for (i, xi) in white.iter().enumerate() {
+        let past = (0..ar.len())
+            .filter(|p| i > *p)
+            .map(|p| ar[p] * x[i - 1 - p]);
+        x.push(xi + past.sum::<f64>());
+    }
+    let x = &x[scenario.sensor.burn_in()..];
+    let lead = scenario.whitening.lead();
+    let rest = (lead + samples.reference()) * samples.decimation();
+    let y2 = (lead + samples.scale_range().start) * samples.decimation();
+    let delta = match scenario.motion.delta_at {
+        DeltaAt::Record => scenario.motion.delta,
+        DeltaAt::Whitened => scenario.motion.delta / (1.0 - ar.iter().sum::<f64>()),
+    };
+    let mut memory = ImpulseMemory::default();
+    let written: Vec<f64> = (0..x.len())
+        .map(|i| {
+            let mut r = x[i];
+            if i >= rest {
+                let time = ((i - rest) as f64 + 0.5) / samples.decimation() as f64;
+                r += delta * scenario.motion.shape(time);
+                let acts = scenario.impulses.during() == During::Motion || i >= y2;
+                if acts {
+                    r += scenario.impulses.theta()
+                        * memory.step(scenario.impulses.nu(), draws[i - rest]);
+                }
+            }
+            scenario.digitiser.code(r)
+        })
+        .collect();
+    let r: Vec<f64> = written
+        .chunks(samples.decimation())
+        .map(|block| block.iter().sum::<f64>() * (scenario.digitiser.unit() / block.len() as f64))
+        .collect();
+    let a = naive_coefficients(scenario, &r);
+    let y: Vec<f64> = (lead..r.len())
+        .map(|i| r[i] - (0..a.len()).map(|p| a[p] * r[i - 1 - p]).sum::<f64>())
+        .collect();
+    naive_statistics(samples, &y, keys)
+}
+
+/// Least squares by the normal equations as they are written, Gauss–Jordan with pivoting.
+fn naive_coefficients(scenario: &Scenario, r: &[f64]) -> Vec<f64> {
+    let (whitening, order) = (&scenario.whitening, scenario.whitening.order());
+    if whitening.fit() == Fit::Known {
+        let mut a = scenario.sensor.ar().to_vec();
+        a.resize(order, 0.0);
+        return a;
+    }
+    let end = whitening.lead()
+        + usize::from(whitening.includes_reference()) * scenario.samples.reference();
+    let training = &r[end - whitening.training()..end];
+    let mean = training.iter().sum::<f64>() / training.len() as f64;
+    let x: Vec<f64> = training.iter().map(|x| x - mean).collect();
+    let c = |j: usize, k: usize| -> f64 { (order..x.len()).map(|i| x[i - j] * x[i - k]).sum() };
+    let mut rows: Vec<Vec<f64>> = (1..=order)
+        .map(|j| (1..=order).map(|k| c(j, k)).chain([c(j, 0)]).collect())
+        .collect();
+    for column in 0..order {
+        let pivot = (column..order)
+            .max_by(|&a, &b| rows[a][column].abs().total_cmp(&rows[b][column].abs()));
+        rows.swap(column, pivot.unwrap());
+        let scaled: Vec<f64> = rows[column]
+            .iter()
+            .map(|v| v / rows[column][column])
+            .collect();
+        rows[column] = scaled.clone();
+        for (index, row) in rows.iter_mut().enumerate() {
+            let factor = row[column];
+            if index != column {
+                row.iter_mut()
+                    .zip(&scaled)
+                    .for_each(|(v, s)| *v -= factor * s);
+            }
+        }
+    }
+    rows.iter().map(|row| row[order]).collect()
+}
+
+/// Ranks by sorting (value, key).
+fn naive_statistics(samples: &Samples, y: &[f64], keys: &[u64]) -> Statistics {
+    let ranges = [
+        samples.reference_range(),
+        samples.shift_range(),
+        samples.scale_range(),
+    ];
+    let mut pooled: Vec<(f64, u64, usize)> = Vec::new();
+    for (label, range) in ranges.into_iter().enumerate() {
+        for i in range {
+            pooled.push((y[i], keys[pooled.len()], label));
+        }
+    }
+    pooled.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let pooled = &pooled;
+    let places = |label| (0..pooled.len()).filter(move |&i| pooled[i].2 == label);
+    let (low, high) = (places(0).min().unwrap(), places(0).max().unwrap());
+    Statistics {
+        rank_sum: places(1).map(|place| place as u64 + 1).sum(),
+        exceedances: places(2)
+            .filter(|&place| place < low || place > high)
+            .count(),
+    }
+}
+
+/// How often `scenario` decides H₁ in the first trials of block 3, by the naive chain.
+fn naive_count(scenario: &Scenario, family: &Family) -> u64 {
+    let region = region(scenario);
+    let mut noise = family.noise.at(3);
+    let mut impulses = family.impulses.at(3);
+    let mut white = vec![0.0; family.samples_per_trial()];
+    let source = Source::new(scenario);
+    let raw_after = source.motion_observations() * scenario.samples.decimation();
+    (0..TRIALS)
+        .filter(|trial| {
+            scenario.noise.fill(&mut noise, &mut white);
+            let draws: Vec<u64> = (0..raw_after).map(|_| impulses.next_u64()).collect();
+            let mut ties = family.ties.at(3 * 1024 + trial);
+            let keys: Vec<u64> = (0..scenario.samples.span())
+                .map(|_| ties.next_u64())
+                .collect();
+            region.contains(naive_trial(scenario, &white, &draws, &keys))
+        })
+        .count() as u64
+}
+
+#[test]
+fn counts_equal_those_of_the_naive_chain() {
+    for common_random_numbers in [true, false] {
+        let scenarios = scenarios();
+        let points = scenarios.iter().map(|s| (s, region(s)));
+        let families = Family::arrange(points, 2014, common_random_numbers).unwrap();
+        assert_eq!(
+            families.len(),
+            if common_random_numbers {
+                4
+            } else {
+                scenarios.len() - 2
+            }
+        );
+        let mut counts = vec![0; scenarios.len()];
+        for family in &families {
+            family.run(3, 3 * 1024, TRIALS, &mut counts);
+        }
+        for (index, scenario) in scenarios.iter().enumerate() {
+            let serves = |family: &&Family| {
+                family.source == Source::new(scenario)
+                    && (common_random_numbers || family.simulates(scenario))
+            };
+            let family = families.iter().find(serves).unwrap();
+            let expected = naive_count(scenario, family);
+            println!("{index}: {expected} of {TRIALS}");
+            assert_eq!(counts[index], expected, "point {index}: {scenario:?}");
+        }
+    }
+}
+
+/// A digitiser that changes nothing takes the direct path, which must agree with the linear one.
+#[test]
+fn direct_and_linear_paths_agree() {
+    let linear = scenarios();
+    let mut direct = linear.clone();
+    for scenario in &mut direct {
+        if scenario.digitiser.is_transparent() {
+            scenario.digitiser = Digitiser::new(None, Some(1e300)).unwrap();
+        }
+    }
+    let counts = |scenarios: &[Scenario]| {
+        let mut counts = vec![0; scenarios.len()];
+        let points = scenarios.iter().map(|s| (s, region(s)));
+        for family in Family::arrange(points, 7, true).unwrap() {
+            family.run(0, 0, TRIALS, &mut counts);
+        }
+        counts
+    };
+    assert_eq!(counts(&linear), counts(&direct));
+}
+
+/// The first trials of a block do not depend on how many follow.
+#[test]
+fn a_trial_does_not_depend_on_later_ones() {
+    let scenarios = scenarios();
+    let families = Family::arrange(scenarios.iter().map(|s| (s, region(s))), 1, true).unwrap();
+    let counts = |trials| {
+        let mut counts = vec![0; scenarios.len()];
+        families[0].run(5, 5 * 1024, trials, &mut counts);
+        counts
+    };
+    let differences: Vec<u64> = counts(101)
+        .iter()
+        .zip(counts(100))
+        .map(|(a, b)| a - b)
+        .collect();
+    assert!(differences.iter().all(|&d| d <= 1), "{differences:?}");
+}
+
+#[test]
+fn refuses_a_record_that_does_not_fit() {
+    let samples = Samples::new(12, 12, 12, 1 << 40, 1).unwrap();
+    let mut huge = scenario(
+        Samples::contiguous(12, 12, 12).unwrap(),
+        0.0,
+        Impulses::none(),
+    );
+    let region = region(&huge);
+    huge.samples = samples;
+    let (point, refusal) = Family::arrange([(&huge, region)], 1, true).unwrap_err();
+    assert_eq!(point, 0);
+    assert!(refusal.to_string().contains("GB"), "{refusal}");
+}
