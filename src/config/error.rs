@@ -158,26 +158,38 @@ impl Refusal {
 
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let path = self.path.trim_matches('.');
-        if !path.is_empty() {
-            write!(f, "{path}: ")?;
+        // The reader's own names for the inside of a value are nobody's business.
+        let written = self.path.split('.').filter(|part| !part.starts_with('$'));
+        let mut path: Vec<&str> = written.filter(|part| !part.is_empty()).collect();
+        if self.error.message().starts_with("unknown field") {
+            path.pop();
         }
-        match self.unknown_name() {
-            Some((got, known)) => {
-                let kind = if self.error.message().starts_with("unknown field") {
-                    "key"
-                } else {
-                    "value"
-                };
-                let hint = nearest(&got, known.iter().map(String::as_str));
-                let known = known.join(", ");
-                write!(
-                    f,
-                    "unknown {kind} `{got}`{} (one of {known})",
-                    did_you_mean(&hint)
-                )
-            }
-            None => f.write_str(self.error.message().lines().next().unwrap_or_default()),
+        if !path.is_empty() {
+            write!(f, "{}: ", path.join("."))?;
+        }
+        let message = self.error.message().lines().next().unwrap_or_default();
+        if let Some((got, known)) = self.unknown_name() {
+            let kind = match message.starts_with("unknown field") {
+                true => "key",
+                false => "value",
+            };
+            let hint = nearest(&got, known.iter().map(String::as_str));
+            let known = known.join(", ");
+            return write!(
+                f,
+                "unknown {kind} `{got}`{} (one of {known})",
+                did_you_mean(&hint)
+            );
+        }
+        if let Some(name) = message.strip_prefix("missing field ") {
+            return write!(f, "required key {name} is missing (add it)");
+        }
+        let value = message
+            .strip_prefix("invalid type: ")
+            .or(message.strip_prefix("invalid value: "));
+        match value.and_then(|value| value.split_once(", expected ")) {
+            Some((got, expected)) => write!(f, "must be {expected}, got {got}"),
+            None => f.write_str(message),
         }
     }
 }

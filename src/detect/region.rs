@@ -60,7 +60,8 @@ pub enum RegionError {
     /// Every region of this rule has a larger size.
     #[error(
         "alpha: rule {rule} at {sizes} decides H1 nowhere at {alpha}; the smallest alpha it can \
-         reach is {reachable:.3e} (raise alpha or the sizes)"
+         reach is {} (raise alpha or the sizes)",
+        rounded_up(*.reachable)
     )]
     Unreachable {
         /// The rule asked for.
@@ -124,6 +125,15 @@ pub struct Region {
     /// The smallest score that decides H₁, for each T; `u64::MAX` where none does.
     critical: Vec<u64>,
     size: f64,
+}
+
+/// Four digits, never below the value.
+fn rounded_up(value: f64) -> String {
+    let nearest = format!("{value:.3e}");
+    match nearest.parse::<f64>() {
+        Ok(rounded) if rounded < value => format!("{:.3e}", value * 1.001),
+        _ => nearest,
+    }
 }
 
 /// A critical score that nothing reaches.

@@ -1,0 +1,60 @@
+//! No allocation inside a trial: a block of many trials allocates as often as a block of one.
+
+use liftsim::config::Config;
+use liftsim::plan::Plan;
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+struct Counting;
+
+static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
+
+// SAFETY: every call goes to the system's allocator unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        // SAFETY: the caller keeps `alloc`'s contract.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: the caller keeps `dealloc`'s contract.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+const EVERYTHING: &str = r#"
+question = "Does any path of a trial allocate?"
+seed = 1
+[axis]
+delta = [0.0, 1.0]
+[[curve]]
+[[curve]]
+whitening = { fit = "burg", order = 4 }
+[[curve]]
+whitening = { fit = "yule-walker", order = 4 }
+[[curve]]
+noise = { law = { student_t = 3.0 }, quantum = 1.0, range = 8.0 }
+samples = { gap = 2, decimation = 3 }
+[[curve]]
+noise = { law = { contaminated = { share = 0.1, scale = 5.0 } } }
+motion = { profile = { trapezoid = { rise = 3.0 } } }
+"#;
+
+#[test]
+fn trials_do_not_allocate() {
+    let config = Config::parse("everything", EVERYTHING).unwrap();
+    let plan = Plan::new(&config).unwrap();
+    let mut counts = vec![0; plan.points.len()];
+    for family in &plan.families {
+        let mut allocations = |trials| {
+            let before = ALLOCATIONS.load(Ordering::Relaxed);
+            family.run(0, 0, trials, &mut counts);
+            ALLOCATIONS.load(Ordering::Relaxed) - before
+        };
+        assert_eq!(allocations(1), allocations(500));
+    }
+}

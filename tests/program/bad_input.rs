@@ -1,0 +1,332 @@
+//! Every bad input: exit 2, one message that says where, what was got and what to do, no panic, and
+//! nothing left behind.
+
+use super::{liftsim, outcome};
+use std::fmt::Write;
+use std::fs;
+
+const GOOD: &str = "question = \"?\"\nseed = 1\ntrials = 10\n";
+
+/// What the message is about, and the rest of a config that earns it.
+const CONFIGS: &[(&str, &str)] = &[
+    ("unknown key", "trails = 5\n[axis]\ndelta = [1.0]\n"),
+    (
+        "unknown key in a section",
+        "[axis]\ndelta = [1.0]\n[detector]\nalhpa = 0.1\n",
+    ),
+    (
+        "unknown key in a curve",
+        "[axis]\ndelta = [1.0]\n[[curve]]\nlabel = \"1\"\nimpulses = { nu = 0.1, tehta = 2.0 }\n",
+    ),
+    (
+        "unknown section",
+        "[axis]\ndelta = [1.0]\n[detecter]\nalpha = 0.1\n",
+    ),
+    (
+        "unknown value",
+        "[axis]\ndelta = [1.0]\n[detector]\nrule = \"wilcoxen\"\n",
+    ),
+    (
+        "unknown law",
+        "[axis]\ndelta = [1.0]\n[noise]\nlaw = \"gauss\"\n",
+    ),
+    ("unknown axis", "[axis]\ndleta = [1.0]\n"),
+    ("missing axis", ""),
+    (
+        "wrong type",
+        "[axis]\ndelta = [1.0]\n[impulses]\nnu = \"often\"\n",
+    ),
+    ("wrong type in an axis", "[axis]\ndelta = [\"one\"]\n"),
+    (
+        "fraction for a size",
+        "[axis]\ndelta = [1.0]\n[samples]\nshift = 1.5\n",
+    ),
+    (
+        "fraction for a size in an axis",
+        "[axis]\nshift = [12, 12.5]\n",
+    ),
+    ("not TOML", "[axis\ndelta = [1.0]\n"),
+    ("NaN", "[axis]\ndelta = [1.0]\n[impulses]\nnu = nan\n"),
+    ("infinity", "[axis]\ndelta = [0.0, inf]\n"),
+    (
+        "negative size",
+        "[axis]\ndelta = [1.0]\n[samples]\nreference = -12\n",
+    ),
+    ("zero size", "[axis]\ndelta = [1.0]\n[samples]\nscale = 0\n"),
+    (
+        "zero decimation",
+        "[axis]\ndelta = [1.0]\n[samples]\ndecimation = 0\n",
+    ),
+    (
+        "alpha of 0",
+        "[axis]\ndelta = [1.0]\n[detector]\nalpha = 0.0\n",
+    ),
+    ("alpha above 1", "[axis]\nalpha = [0.01, 1.5]\n"),
+    (
+        "nu above 1",
+        "[axis]\ndelta = [1.0]\n[impulses]\nnu = 1.2\n",
+    ),
+    ("nu below 0", "[axis]\nnu = [-0.1, 0.1]\n"),
+    (
+        "negative theta",
+        "[axis]\ndelta = [1.0]\n[impulses]\ntheta = -2.0\n",
+    ),
+    (
+        "short training",
+        "[axis]\ndelta = [1.0]\n[whitening]\norder = 4\ntraining = 8\n",
+    ),
+    ("order of 0", "[axis]\norder = [0, 2]\n"),
+    (
+        "known filter below the sensor",
+        "[axis]\ndelta = [1.0]\n[whitening]\norder = 1\nfit = \"known\"\n",
+    ),
+    (
+        "unstable sensor",
+        "[axis]\ndelta = [1.0]\n[sensor]\nar = [1.2, -0.1]\n",
+    ),
+    (
+        "real poles",
+        "[axis]\ndelta = [1.0]\n[sensor]\ntransfer = { a = 1.0, b = 4.0, c = 2.0, period = 0.1 }\n",
+    ),
+    (
+        "two sensors",
+        "[axis]\ndelta = [1.0]\n[sensor]\nmodel = \"adxl105\"\nar = [0.5]\n",
+    ),
+    (
+        "freedom of 0",
+        "[axis]\ndelta = [1.0]\n[noise]\nlaw = { student_t = 0.0 }\n",
+    ),
+    (
+        "quantum of 0",
+        "[axis]\ndelta = [1.0]\n[noise]\nquantum = 0.0\n",
+    ),
+    (
+        "long rise",
+        "[axis]\ndelta = [1.0]\n[motion]\nprofile = { trapezoid = { rise = 7.0 } }\n",
+    ),
+    ("empty axis", "[axis]\ndelta = []\n"),
+    ("no axis key", "[axis]\n"),
+    ("two axes", "[axis]\ndelta = [1.0]\nnu = [0.1]\n"),
+    (
+        "zero step",
+        "[axis]\ndelta = { from = 0.0, to = 1.0, step = 0.0 }\n",
+    ),
+    (
+        "reversed range",
+        "[axis]\ndelta = { from = 2.0, to = 1.0, step = 0.1 }\n",
+    ),
+    (
+        "endless range",
+        "[axis]\ndelta = { from = 0.0, to = 1.0, step = 1e-9 }\n",
+    ),
+    (
+        "range without a step",
+        "[axis]\ndelta = { from = 0.0, to = 1.0 }\n",
+    ),
+    (
+        "large table",
+        "[axis]\ndelta = [1.0]\n[samples]\nscale = 2\n[detector]\nrule = { table = [200, 200, 200] }\n",
+    ),
+    (
+        "short table",
+        "[axis]\ndelta = [1.0]\n[detector]\nrule = { table = [300, \"never\"] }\n",
+    ),
+    (
+        "word in a table",
+        "[axis]\ndelta = [1.0]\n[detector]\nrule = { table = [300, \"always\"] }\n",
+    ),
+    (
+        "level out of reach",
+        "[axis]\ndelta = [1.0]\n[samples]\nreference = 3\nshift = 2\nscale = 3\n[detector]\nalpha = 0.001\n",
+    ),
+    (
+        "conjunction without a threshold",
+        "[axis]\ndelta = [1.0]\n[samples]\nscale = 1\n[detector]\nrule = \"conjunction\"\n",
+    ),
+    (
+        "counts that do not fit",
+        "[axis]\nshift = [12, 100000]\n[samples]\nreference = 100000\n",
+    ),
+    (
+        "a record that does not fit",
+        "[axis]\ndelta = [1.0]\n[whitening]\ntraining = 1000000000000\n",
+    ),
+    (
+        "two numbers of trials",
+        "half_width = 0.01\n[axis]\ndelta = [1.0]\n",
+    ),
+    (
+        "confidence of 1",
+        "confidence = 1.0\n[axis]\ndelta = [1.0]\n",
+    ),
+];
+
+#[test]
+fn configs() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut messages = String::new();
+    for (about, rest) in CONFIGS {
+        fs::write(directory.path().join("bad.toml"), format!("{GOOD}{rest}")).unwrap();
+        let mut command = liftsim();
+        command.current_dir(&directory).args(["sweep", "bad.toml"]);
+        let (code, out, err) = outcome(&mut command);
+        assert_eq!((code, out.as_str()), (2, ""), "{about}: {err}");
+        assert!(!err.contains("panicked"), "{about}: {err}");
+        assert!(!directory.path().join("results").exists(), "{about}");
+        writeln!(messages, "--- {about}\n{err}").unwrap();
+    }
+    insta::assert_snapshot!("configs", messages);
+}
+
+#[test]
+fn missing_keys() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut messages = String::new();
+    for (about, text) in [
+        ("no question", "seed = 1\n[axis]\ndelta = [1.0]\n"),
+        ("no seed", "question = \"?\"\n[axis]\ndelta = [1.0]\n"),
+        (
+            "no trials",
+            "question = \"?\"\nseed = 1\ntrials = 0\n[axis]\ndelta = [1.0]\n",
+        ),
+        (
+            "negative seed",
+            "question = \"?\"\nseed = -1\n[axis]\ndelta = [1.0]\n",
+        ),
+        ("empty file", ""),
+    ] {
+        fs::write(directory.path().join("bad.toml"), text).unwrap();
+        let (code, _, err) = outcome(
+            liftsim()
+                .current_dir(&directory)
+                .args(["check", "bad.toml"]),
+        );
+        assert_eq!(code, 2, "{about}: {err}");
+        writeln!(messages, "--- {about}\n{err}").unwrap();
+    }
+    insta::assert_snapshot!("missing_keys", messages);
+}
+
+/// What the command line and the file system can do wrong. Messages of the system itself are not
+/// part of the snapshot.
+#[test]
+fn arguments_and_places() {
+    let directory = tempfile::tempdir().unwrap();
+    let good = format!("{GOOD}[axis]\ndelta = [1.0]\n");
+    fs::write(directory.path().join("good.toml"), good).unwrap();
+    fs::write(directory.path().join("file"), "").unwrap();
+    fs::create_dir(directory.path().join("damaged")).unwrap();
+    fs::write(
+        directory.path().join("damaged/points.csv"),
+        "not,these\n1,2\n",
+    )
+    .unwrap();
+    fs::write(directory.path().join("damaged/run.json"), "{}").unwrap();
+    fs::create_dir(directory.path().join("foreign")).unwrap();
+    fs::write(directory.path().join("foreign/points.csv"), "x\n").unwrap();
+    for (about, arguments, expected) in [
+        (
+            "no config",
+            vec!["sweep", "none.toml"],
+            "none.toml: cannot be read",
+        ),
+        (
+            "a directory for a config",
+            vec!["sweep", "damaged"],
+            "damaged: cannot be read",
+        ),
+        (
+            "a file for a directory",
+            vec!["sweep", "good.toml", "--out", "file"],
+            "file: cannot be written",
+        ),
+        (
+            "a place below a file",
+            vec!["sweep", "good.toml", "--out", "file/below"],
+            "file/below: cannot be written",
+        ),
+        (
+            "damaged results",
+            vec!["sweep", "good.toml", "--out", "damaged"],
+            "run.json: not a result of liftsim",
+        ),
+        (
+            "foreign results",
+            vec!["sweep", "good.toml", "--out", "foreign"],
+            "run.json: cannot be read",
+        ),
+        (
+            "nothing to plot",
+            vec!["plot", "nowhere"],
+            "run.json: cannot be read",
+        ),
+        (
+            "trials of 0",
+            vec!["sweep", "good.toml", "--trials", "0"],
+            "--trials",
+        ),
+        (
+            "threads of 0",
+            vec!["sweep", "good.toml", "--threads", "0"],
+            "--threads",
+        ),
+        (
+            "nominal of 2",
+            vec!["check", "good.toml", "--nominal", "2"],
+            "--nominal must lie strictly between 0 and 1, got 2",
+        ),
+        ("unknown verb", vec!["sweeep"], "sweep"),
+        ("nothing at all", vec![], "Usage"),
+        (
+            "sizes of 0",
+            vec![
+                "threshold",
+                "--reference",
+                "0",
+                "--shift",
+                "1",
+                "--scale",
+                "1",
+                "--alpha",
+                "0.5",
+            ],
+            "reference must be at least 1",
+        ),
+        (
+            "an alpha of 0",
+            vec![
+                "threshold",
+                "--reference",
+                "3",
+                "--shift",
+                "3",
+                "--scale",
+                "3",
+                "--alpha",
+                "0",
+            ],
+            "alpha must lie strictly between",
+        ),
+        (
+            "large sizes",
+            vec![
+                "threshold",
+                "--reference",
+                "9000",
+                "--shift",
+                "9000",
+                "--scale",
+                "9000",
+                "--alpha",
+                "0.5",
+            ],
+            "GB of counts",
+        ),
+    ] {
+        let (code, out, err) = outcome(liftsim().current_dir(&directory).args(&arguments));
+        assert_eq!((code, out.as_str()), (2, ""), "{about}: {err}");
+        assert!(err.contains(expected), "{about}: {err}");
+        assert!(!err.contains("panicked"), "{about}: {err}");
+        assert!(!directory.path().join("results").exists(), "{about}");
+    }
+}

@@ -1,0 +1,136 @@
+//! What else users type.
+
+use super::{liftsim, outcome, project};
+use std::fs;
+
+fn run(arguments: &[&str]) -> String {
+    let (code, out, err) = outcome(liftsim().args(arguments));
+    assert_eq!((code, err.as_str()), (0, ""), "{arguments:?}");
+    out
+}
+
+const SIZES: [&str; 9] = [
+    "threshold",
+    "--reference",
+    "12",
+    "--shift",
+    "12",
+    "--scale",
+    "12",
+    "--alpha",
+    "0.01",
+];
+
+#[test]
+fn threshold_prints_a_table() {
+    insta::assert_snapshot!("threshold", run(&SIZES));
+}
+
+/// JSON says the same as the table, and every rule and alternative has a region.
+#[test]
+fn threshold_prints_json() {
+    for rule in ["wilcoxon", "product", "disjunction", "conjunction"] {
+        for alternative in ["greater", "less", "two-sided"] {
+            let extra = ["--rule", rule, "--alternative", alternative];
+            let json = run(&[&SIZES[..], &extra, &["--json"]].concat());
+            let value: serde_json::Value = serde_json::from_str(&json).unwrap();
+            let size = value["size"].as_f64().unwrap();
+            assert!(size > 0.0 && size <= 0.01, "{rule} {alternative}");
+            let critical = value["critical"].as_array().unwrap();
+            let sum: f64 = critical
+                .iter()
+                .map(|c| {
+                    c["probability"].as_f64().unwrap() * c["rank_sum_probability"].as_f64().unwrap()
+                })
+                .sum();
+            assert!((sum - size).abs() < 1e-14, "eq. (15)");
+            assert!(run(&[&SIZES[..], &extra].concat()).contains(&format!("exact size {size}")));
+        }
+    }
+}
+
+#[test]
+fn threshold_draws_the_plane() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("plane.png");
+    run(&[&SIZES[..], &["--figure", path.to_str().unwrap()]].concat());
+    assert!(fs::read(path).unwrap().starts_with(b"\x89PNG"));
+}
+
+/// Half a minute of patience is more than it takes at the largest sizes promised.
+#[test]
+fn threshold_at_large_sizes() {
+    let start = std::time::Instant::now();
+    run(&[
+        "threshold",
+        "--reference",
+        "200",
+        "--shift",
+        "200",
+        "--scale",
+        "200",
+        "--alpha",
+        "0.01",
+    ]);
+    let seconds = start.elapsed().as_secs_f64();
+    println!("200/200/200: {seconds:.2} s");
+    assert!(seconds < 5.0);
+}
+
+#[test]
+fn plan_says_what_a_sweep_would_do() {
+    let out = run(&["plan", "configs/fig6.toml"]);
+    assert!(
+        out.contains("155 in motion, 1 at rest, of 5 curves"),
+        "{out}"
+    );
+    assert!(out.contains("31200000 trial-points"), "{out}");
+    assert!(out.contains("0.00219 at a rate of 1/2"), "{out}");
+}
+
+/// Every config of the project parses, plans and runs.
+#[test]
+fn every_config_runs() {
+    for entry in fs::read_dir(project().join("configs")).unwrap() {
+        let path = entry.unwrap().path();
+        let directory = tempfile::tempdir().unwrap();
+        let (path, out) = (path.to_str().unwrap(), directory.path().to_str().unwrap());
+        run(&["sweep", path, "--trials", "20", "--out", out]);
+        run(&["plan", path, "--trials", "20"]);
+        let rows = fs::read_to_string(directory.path().join("points.csv")).unwrap();
+        assert!(rows.lines().count() > 1 && rows.contains(",H0,"), "{path}");
+    }
+}
+
+#[test]
+fn completions_and_manual() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        assert!(
+            run(&["completions", shell]).contains("threshold"),
+            "{shell}"
+        );
+    }
+    let manual = run(&["man"]);
+    for verb in ["sweep", "plot", "check", "threshold", "plan", "completions"] {
+        assert!(
+            manual.contains(&format!("liftsim\\-{verb}")) || manual.contains(verb),
+            "{verb}"
+        );
+    }
+}
+
+/// A reader that has seen enough is no error.
+#[test]
+fn closed_pipe_is_no_error() {
+    let program = assert_cmd::cargo::cargo_bin("liftsim");
+    let script = format!(
+        "{} man | head -n 1; echo ${{PIPESTATUS[0]}}",
+        program.display()
+    );
+    let output = std::process::Command::new("bash")
+        .args(["-c", &script])
+        .output()
+        .unwrap();
+    assert!(output.stderr.is_empty());
+    assert!(String::from_utf8_lossy(&output.stdout).ends_with("\n0\n"));
+}

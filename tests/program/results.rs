@@ -1,0 +1,144 @@
+//! Same config, same seed: same bytes, whatever the threads, the clock or the place.
+
+use super::{liftsim, outcome, project};
+use std::fs;
+use std::path::Path;
+
+const FILES: [&str; 3] = ["points.csv", "figure.png", "figure.svg"];
+
+fn sweep(out: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let mut command = liftsim();
+    command.args(["sweep", "configs/fig6.toml", "--trials", "4000", "--out"]);
+    outcome(command.arg(out).args(arguments))
+}
+
+fn read(directory: &Path, name: &str) -> Vec<u8> {
+    fs::read(directory.join(name)).expect("the sweep wrote it")
+}
+
+/// Golden counts on 1, 2 and 7 threads. A change of these bytes is a change of results: say so in
+/// the CHANGELOG.
+#[test]
+fn golden_counts_on_any_number_of_threads() {
+    let golden = fs::read(project().join("tests/program/golden/fig6.csv")).unwrap();
+    for threads in ["1", "2", "7"] {
+        let directory = tempfile::tempdir().unwrap();
+        let (code, _, err) = sweep(directory.path(), &["--threads", threads]);
+        assert_eq!((code, err.as_str()), (0, ""));
+        let counted = read(directory.path(), "points.csv");
+        assert!(
+            counted == golden,
+            "{threads} threads: counts differ from the golden ones"
+        );
+    }
+}
+
+/// Another time zone, locale, working directory and number of threads by the environment.
+#[test]
+fn same_bytes_in_another_environment() {
+    let (here, there) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    assert_eq!(sweep(here.path(), &[]).0, 0);
+    let mut elsewhere = liftsim();
+    elsewhere
+        .current_dir(there.path())
+        .env("RAYON_NUM_THREADS", "1")
+        .env("TZ", "Pacific/Kiritimati")
+        .env("LC_ALL", "ru_RU.UTF-8")
+        .args(["sweep", "--trials", "4000", "--out", "."])
+        .arg(project().join("configs/fig6.toml"));
+    assert_eq!(outcome(&mut elsewhere).0, 0);
+    assert!(read(here.path(), "points.csv") == read(there.path(), "points.csv"));
+}
+
+/// A picture names its config by the path it was given; apart from that nothing may differ.
+#[test]
+fn plot_draws_the_same_picture_from_the_counts() {
+    let directory = tempfile::tempdir().unwrap();
+    assert_eq!(sweep(directory.path(), &[]).0, 0);
+    let drawn: Vec<Vec<u8>> = FILES
+        .iter()
+        .map(|name| read(directory.path(), name))
+        .collect();
+    for name in ["figure.png", "figure.svg"] {
+        fs::remove_file(directory.path().join(name)).unwrap();
+    }
+    let (code, out, err) = outcome(liftsim().arg("plot").arg(directory.path()));
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    for (name, bytes) in FILES.iter().zip(drawn) {
+        assert!(read(directory.path(), name) == bytes, "{name}");
+    }
+}
+
+/// More trials extend a result, labels do not matter, anything else is refused.
+#[test]
+fn results_of_another_experiment_are_kept() {
+    let directory = tempfile::tempdir().unwrap();
+    assert_eq!(sweep(directory.path(), &[]).0, 0);
+    let before = read(directory.path(), "points.csv");
+
+    let (code, _, err) = sweep(directory.path(), &["--seed", "7"]);
+    assert_eq!(code, 2);
+    assert!(
+        err.contains("seed is 2014 there, 7 here") && err.contains("--fresh"),
+        "{err}"
+    );
+
+    let mut fewer = liftsim();
+    fewer
+        .args(["sweep", "configs/fig6.toml", "--trials", "3999", "--out"])
+        .arg(directory.path());
+    let (code, _, err) = outcome(&mut fewer);
+    assert_eq!(code, 2);
+    assert!(
+        err.contains("holds 4000 trials per point, more than the 3999"),
+        "{err}"
+    );
+
+    let changed = fs::read_to_string(project().join("configs/fig6.toml")).unwrap();
+    let path = directory.path().join("changed.toml");
+    fs::write(
+        &path,
+        changed.replace("nu = 0.3, theta = 1.0", "nu = 0.3, theta = 1.5"),
+    )
+    .unwrap();
+    let other = |extra: &[&str]| {
+        let mut other = liftsim();
+        other
+            .arg("sweep")
+            .arg(&path)
+            .args(["--trials", "4000", "--out"])
+            .arg(directory.path())
+            .args(extra);
+        outcome(&mut other)
+    };
+    let (code, _, err) = other(&[]);
+    assert_eq!(code, 2);
+    assert!(err.contains("theta is 1.0 there, 1.5 here"), "{err}");
+    assert!(read(directory.path(), "points.csv") == before);
+
+    assert_eq!(other(&["--fresh"]).0, 0);
+    assert!(read(directory.path(), "points.csv") != before);
+}
+
+/// The committed results are those of the committed configs.
+#[test]
+fn manifests_vouch_for_the_files_beside_them() {
+    for name in ["fig6", "alpha"] {
+        let directory = liftsim::results::Directory::new(project().join("results").join(name));
+        let manifest = directory.manifest().unwrap();
+        let config = fs::read(project().join(format!("configs/{name}.toml"))).unwrap();
+        assert_eq!(
+            manifest.config_sha256,
+            liftsim::results::sha256(&config),
+            "{name}"
+        );
+        for (file, hash) in &manifest.files {
+            assert_eq!(
+                *hash,
+                liftsim::results::sha256(&read(directory.path(), file)),
+                "{name}/{file}"
+            );
+        }
+        assert_eq!(manifest.files.len(), FILES.len());
+    }
+}
