@@ -1,11 +1,11 @@
 //! The binomial distribution to full precision: mass, tails, critical counts.
 //!
-//! The mass is Loader's saddle-point form [1], whose relative error stays near 1e-14 for any n that
+//! The mass is Loader's saddle-point form [^1], whose relative error stays near 1e-14 for any n that
 //! a run can reach; the tails add masses outward from the far side of the mean, so no term is
 //! subtracted. Elementary functions come from `libm`, because those of the system differ between
 //! processors and these numbers reach result files.
 //!
-//! [1]: C. Loader, "Fast and accurate computation of binomial probabilities", 2000.
+//! [^1]: C. Loader, "Fast and accurate computation of binomial probabilities", 2000.
 
 use libm::{exp, log, sqrt};
 use std::f64::consts::PI;
@@ -87,7 +87,7 @@ fn sum_outward(first: f64, ratios: impl Iterator<Item = f64>) -> f64 {
     sum.min(1.0)
 }
 
-/// ln n! − ln(√(2πn) (n/e)ⁿ), eq. (4) of [1].
+/// ln n! − ln(√(2πn) (n/e)ⁿ), Loader's δ(n).
 fn stirling_error(n: u64) -> f64 {
     let x = n as f64;
     if n <= 15 {
@@ -103,7 +103,7 @@ fn stirling_error(n: u64) -> f64 {
     (1.0 / 12.0 - (1.0 / 360.0 - series / square) / square) / x
 }
 
-/// x ln(x/μ) + μ − x, eq. (5) of [1], by its series where x and μ are close.
+/// x ln(x/μ) + μ − x, Loader's deviance, by its series where x and μ are close.
 fn deviance(x: f64, mean: f64) -> f64 {
     let difference = x - mean;
     if difference.abs() >= 0.1 * (x + mean) {

@@ -1,6 +1,76 @@
-//! liftsim
+//! Does the lift move, and how sure can we be, from an accelerometer alone?
+//!
+//! A mine cage that jams while the drum pays out rope is crushed by it, so the winder must know at
+//! every moment whether the cage moves. Raifeld[^1] proposed to whiten the accelerometer's signal and
+//! to compare three samples of it, from before, during and after the start, by two rank statistics
+//! whose laws at rest do not depend on the law of the noise. This crate simulates that chain, knows
+//! the laws exactly, and measures the power.
+//!
+//! # The flow
+//! config → plan → trials (signal → whitened → samples → statistics → decision) → counts → results →
+//! figures.
+//!
+//! ```
+//! use liftsim::{config::Config, plan::Plan, run};
+//!
+//! let config = Config::parse("example", r#"
+//!     question = "How does the power grow with Δ?"
+//!     seed = 1
+//!     trials = 2000
+//!     [axis]
+//!     delta = [0.0, 0.5, 1.0]
+//! "#)?;
+//! let plan = Plan::new(&config)?;
+//! let tallies = run::run(&plan, |_| {});
+//! assert!(tallies[3].rate() > tallies[1].rate());
+//! # Ok::<(), liftsim::config::ConfigError>(())
+//! ```
+//!
+//! # The house
+//! Data flows up, imports go down; `tests/house.rs` holds the modules to their floors.
+//!
+//! | floor | modules |
+//! |---|---|
+//! | 0 | [`rng`]: coordinates → generator · [`binomial`]: exact tails |
+//! | 1 | [`tally`]: counts and what may be concluded from them |
+//! | 2 | [`signal`]: sensor, noise, impulses, motion · [`whiten`]: filters · [`detect`]: W, T, their laws, regions |
+//! | 3 | [`chain`]: one trial, every stage |
+//! | 4 | [`config`]: what the author wrote |
+//! | 5 | [`plan`]: what it comes to |
+//! | 6 | [`run`]: blocks of trials in parallel · [`gate`]: the false-alarm test · [`results`]: files |
+//! | 7 | [`figure`]: pictures |
+//!
+//! # Laws
+//! - A trial cannot fail: what can go wrong goes wrong when the plan is made.
+//! - A trial is its coordinates: its draws are a function of the seed, of what is simulated and of its
+//!   index, never of thread, batch, order or machine.
+//! - Only integers are added across threads.
+//! - Simulate once, decide many times: one noise realisation serves every point that can share it.
+//!
+//! # Glossary
+//! | here | Raifeld | |
+//! |---|---|---|
+//! | `reference`, `shift`, `scale` | X, Y₁, Y₂; N, M₁, M₂ | the samples at rest, accelerating, in inertial motion |
+//! | `delta` | Δ/σ_ξ | the acceleration, in deviations of the whitened noise |
+//! | `nu`, `theta` | ν, θ/σ_ξ | probability and strength of vibration impulses |
+//! | `training`, `order` | , m | of the whitening filter |
+//! | `rank_sum`, `exceedances` | W, T | the two statistics |
+//! | `size`, `false_alarm` | α | exact probability of deciding H₁ at rest; an event of that kind |
+//! | power | D | probability of deciding H₁ in motion |
+//!
+//! # Where [^1] is read one way among several
+//! - Δ and θ are raw, in the record, in units of σ_ξ after whitening; `delta_at = "whitened"` reads Δ
+//!   after whitening instead, a factor of 1 − β = 3.287 for the ADXL105.
+//! - (9) prints λ_i + Σ a_p λ_{i−p}; with the convention of (3) it is a minus, as its own Δ(1 − β) has it.
+//! - The numerator of (2) lacks the factors 1/a and T₀. It only scales the signal.
+//! - The region ϑ is not given; every rule here is one choice, see [`detect`].
+//!
+//! [^1]: M. A. Raifeld, "Distinguishing the motion/stop states of a lift from accelerometer
+//!     signals", Avtometriya (in Russian), received 25 November 2013.
+
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
+
 pub mod binomial;
 pub mod chain;
 pub mod config;

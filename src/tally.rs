@@ -1,12 +1,12 @@
-//! Counts that add, and what may be concluded from them: the exact binomial interval [1], the
-//! number of trials that a wanted half-width takes, and a one-sided test with Holm's correction [2].
+//! Counts that add, and what may be concluded from them: the exact binomial interval [^1], the
+//! number of trials that a wanted half-width takes, and a one-sided test with Holm's correction [^2].
 //!
 //! Counts are stored and rates derived. The interval of Clopper and Pearson covers the true
 //! probability with at least its confidence for every n and p; the number of trials is fixed
 //! before a run, which is what makes that true.
 //!
-//! [1]: C. Clopper, E. Pearson, "The use of confidence or fiducial limits", Biometrika 26, 1934.
-//! [2]: S. Holm, "A simple sequentially rejective multiple test procedure", 1979.
+//! [^1]: C. Clopper, E. Pearson, "The use of confidence or fiducial limits", Biometrika 26, 1934.
+//! [^2]: S. Holm, "A simple sequentially rejective multiple test procedure", 1979.
 
 use crate::binomial;
 
@@ -25,7 +25,7 @@ impl Tally {
         self.hits as f64 / self.trials as f64
     }
 
-    /// The two-sided Clopper–Pearson interval of [1] for the probability behind the rate.
+    /// The two-sided Clopper–Pearson interval for the probability behind the rate.
     pub fn interval(self, confidence: f64) -> (f64, f64) {
         let (k, n) = (self.hits, self.trials);
         let tail = (1.0 - confidence) / 2.0;
@@ -86,7 +86,7 @@ pub fn trials_for_half_width(half_width: f64, confidence: f64) -> u64 {
 }
 
 /// Which of several hypotheses with these p-values are rejected at a family-wise `level`, by the
-/// step-down rule of [2].
+/// step-down rule of Holm.
 pub fn holm(p_values: &[f64], level: f64) -> Vec<bool> {
     let mut order: Vec<usize> = (0..p_values.len()).collect();
     order.sort_by(|&a, &b| p_values[a].total_cmp(&p_values[b]));

@@ -1,4 +1,4 @@
-//! The whitening filter of eq. (9) of [1]: y_i = r_i − Σ a_p r_{i−p}, its coefficients fitted to a
+//! The whitening filter of eq. (9) of [^1]: y_i = r_i − Σ a_p r_{i−p}, its coefficients fitted to a
 //! record of rest.
 //!
 //! | fit | minimises | needs |
@@ -11,7 +11,7 @@
 //! ranks do not feel, but the fit does. With the sign convention of eq. (3) an impulse λ_i becomes
 //! λ_i − Σ a_p λ_{i−p}; (9) prints a plus there, which its own Δ(1 − β) contradicts.
 //!
-//! [1]: see [`crate::signal`].
+//! [^1]: see [`crate::signal`].
 
 use serde::Serialize;
 use std::fmt;

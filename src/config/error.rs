@@ -10,7 +10,11 @@ use std::ops::Range;
 
 /// Why a config was refused, and where.
 #[derive(Debug, thiserror::Error)]
-pub struct ConfigError {
+#[error("{0}")]
+pub struct ConfigError(Box<Report>);
+
+#[derive(Debug)]
+struct Report {
     file: String,
     place: Option<Place>,
     problem: Problem,
@@ -134,14 +138,14 @@ pub enum Problem {
 #[derive(Debug)]
 pub struct Refusal {
     path: String,
-    error: toml::de::Error,
+    error: Box<toml::de::Error>,
 }
 
 impl Refusal {
     pub(super) fn new(path: &str, error: toml::de::Error) -> Self {
         Self {
             path: path.to_owned(),
-            error,
+            error: Box::new(error),
         }
     }
 
@@ -233,11 +237,11 @@ impl Source {
 
     /// `problem` at `span`.
     pub fn at(&self, span: Option<Range<usize>>, problem: Problem) -> ConfigError {
-        ConfigError {
+        ConfigError(Box::new(Report {
             file: self.name.clone(),
             place: span.map(|span| self.place(span)),
             problem,
-        }
+        }))
     }
 
     /// What the TOML reader refused at `path`.
@@ -262,7 +266,7 @@ impl Source {
     }
 }
 
-impl fmt::Display for ConfigError {
+impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Some(place) = &self.place else {
             return write!(f, "{}: {}", self.file, self.problem);

@@ -1,6 +1,6 @@
 //! The experiment as its author wrote it: a TOML file, read strictly.
 //!
-//! [`file`] mirrors the file, with the place of every value. A [`Config`] is that file once its
+//! `file` mirrors the file, with the place of every value. A [`Config`] is that file once its
 //! parts have been checked against each other; [`Config::scenario`] resolves one point of one curve,
 //! by laying the curve over the file's own sections and the axis value over both. Every refusal is a
 //! [`ConfigError`] that points at the value to change.

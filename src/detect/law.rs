@@ -1,4 +1,4 @@
-//! Exact laws of W and T under H₀, eqs (13)–(15) of [1], for any sizes, in integers.
+//! Exact laws of W and T under H₀, eqs (13)–(15) of [^1], for any sizes, in integers.
 //!
 //! Under H₀ every assignment of the pooled ranks to X, Y₁ and Y₂ is equally likely (13), so a law
 //! is a list of counts. Those of W are the coefficients of the Gaussian binomial
@@ -16,7 +16,7 @@
 //! of positions for Y₁, every way of dealing the remaining positions to X and Y₂ is equally likely,
 //! so the second does not depend on the first. The tests enumerate all rank vectors of small sizes.
 //!
-//! [1]: see [`crate::signal`].
+//! [^1]: see [`crate::signal`].
 
 use super::samples::Samples;
 use super::statistics::smallest_rank_sum;
@@ -181,7 +181,7 @@ pub(super) fn ratio(numerator: &BigUint, denominator: &BigUint) -> f64 {
     let shift = (denominator.bits() + 66).saturating_sub(numerator.bits());
     let scaled = numerator << shift;
     let mut quotient = &scaled / denominator;
-    if !(&quotient * denominator == scaled) {
+    if &quotient * denominator != scaled {
         quotient |= BigUint::one();
     }
     let mantissa = quotient.to_f64().expect("a big integer always converts");

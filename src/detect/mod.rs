@@ -1,7 +1,7 @@
-//! The three-sample detector of [1]: samples X, Y₁, Y₂, statistics W and T, their exact laws under
+//! The three-sample detector of [^1]: samples X, Y₁, Y₂, statistics W and T, their exact laws under
 //! H₀, and the decision regions ϑ, eqs (10)–(15).
 //!
-//! [1]: see [`crate::signal`].
+//! [^1]: see [`crate::signal`].
 
 mod law;
 mod region;

@@ -1,7 +1,7 @@
-//! Decision regions ϑ, eqs (10)–(11) of [1]: sets of (W, T) whose probability under H₀, eq. (15), is
+//! Decision regions ϑ, eqs (10)–(11) of [^1]: sets of (W, T) whose probability under H₀, eq. (15), is
 //! at most α.
 //!
-//! [1] fixes only that and the form W ≥ C_W(T). Every rule here ends in such a table of critical
+//! [^1] fixes only that and the form W ≥ C_W(T). Every rule here ends in such a table of critical
 //! values, one for each T, and differs in how it fills it:
 //!
 //! | rule | region |
@@ -15,7 +15,7 @@
 //! The critical values are of a *score*: W itself (`greater`), its mirror image M₁(N+M₁+M₂+1) − W
 //! (`less`), or |2W − 2E W| (`two-sided`).
 //!
-//! [1]: see [`crate::signal`].
+//! [^1]: see [`crate::signal`].
 
 use super::law::{Law, LawError, ratio};
 use super::samples::Samples;

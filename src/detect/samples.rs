@@ -1,8 +1,8 @@
-//! Where the three samples lie in a trial, Fig. 5 of [1]: training · X · gap · Y₁ · gap · Y₂.
+//! Where the three samples lie in a trial, Fig. 5 of [^1]: training · X · gap · Y₁ · gap · Y₂.
 //!
 //! Positions count observations (after decimation) from the first of X.
 //!
-//! [1]: see [`crate::signal`].
+//! [^1]: see [`crate::signal`].
 
 use serde::Serialize;
 use std::fmt;

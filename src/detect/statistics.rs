@@ -1,4 +1,4 @@
-//! The rank sum W and the exceedances T, eq. (12) of [1] and the display above it.
+//! The rank sum W and the exceedances T, eq. (12) of [^1] and the display above it.
 //!
 //! W = M₁(M₁+1)/2 + #{(i ∈ Y₁, j ∉ Y₁): y_i > y_j}; T = #{y ∈ Y₂: y < min X or y > max X}.
 //!
@@ -6,7 +6,7 @@
 //! exact for any exchangeable data. Keys are asked for only where a tie matters, so continuous data
 //! never pay for them.
 //!
-//! [1]: see [`crate::signal`].
+//! [^1]: see [`crate::signal`].
 
 /// The statistics of one trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,7 +125,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// W and T as [1] defines them: ranks by sorting the pooled sample, then a sum; exceedances by
+    /// W and T by their definitions: ranks by sorting the pooled sample, then a sum; exceedances by
     /// comparing with the sorted X.
     fn naive(pooled: Pooled, keys: &[u64]) -> Statistics {
         let (n, m1) = (pooled.reference.len(), pooled.shift.len());

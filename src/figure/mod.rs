@@ -1,7 +1,7 @@
 //! Pictures, each drawn once and written twice: PNG at 300 dpi and SVG.
 //!
-//! [`sheet`] is the paper: a drawing area measured in points, with lines, markers and text.
-//! [`frame`] puts axes on it. The other files each draw one kind of picture from results alone.
+//! `sheet` is the paper: a drawing area measured in points, with lines, markers and text.
+//! `frame` puts axes on it. The other files each draw one kind of picture from results alone.
 
 mod curves;
 mod frame;

@@ -1,4 +1,4 @@
-//! Impulse noise λ of a moving cage, eqs (4)–(6) of [1], in units of θ.
+//! Impulse noise λ of a moving cage, eqs (4)–(6) of [^1], in units of θ.
 //!
 //! With probability ν a sample carries an impulse. If the sum S of the impulses so far is not zero,
 //! the impulse is −S; else it is +1 or −1 with probability ½ each. So impulses alternate and
@@ -7,7 +7,7 @@
 //! (5), the law of one λ, is exact at every sample. (6), the law of S, is the limit: from S = 0,
 //! P(S_i = 0) = (1 + (1 − 2ν)^i)/2.
 //!
-//! [1]: see [`crate::signal`].
+//! [^1]: see [`crate::signal`].
 
 use serde::Serialize;
 use std::fmt;

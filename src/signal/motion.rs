@@ -1,9 +1,9 @@
-//! The regular component of a motion: Δ during the acceleration, eqs (4) and (8) of [1].
+//! The regular component of a motion: Δ during the acceleration, eqs (4) and (8) of [^1].
 //!
-//! [1] leaves open whether its Δ/σ_ξ is the shift in the record or after whitening, where it becomes
+//! [^1] leaves open whether its Δ/σ_ξ is the shift in the record or after whitening, where it becomes
 //! Δ(1 − β) by eq. (9); the two differ by 3.287 for the ADXL105. Here it is a setting.
 //!
-//! [1]: see [`crate::signal`].
+//! [^1]: see [`crate::signal`].
 
 use serde::Serialize;
 use std::fmt;
@@ -35,7 +35,7 @@ pub enum DeltaAt {
 /// The shape of an acceleration in time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Profile {
-    /// Δ at once, and off at once, as in (8) of [1].
+    /// Δ at once, and off at once, as in (8).
     Rectangular,
     /// Δ reached after `rise` samples, and left `rise` samples before the end.
     Trapezoid {
@@ -104,9 +104,8 @@ impl Motion {
             return 0.0;
         }
         match self.profile {
-            Profile::Rectangular => 1.0,
-            Profile::Trapezoid { rise } if rise == 0.0 => 1.0,
-            Profile::Trapezoid { rise } => (since.min(left) / rise).min(1.0),
+            Profile::Trapezoid { rise } if rise > 0.0 => (since.min(left) / rise).min(1.0),
+            Profile::Rectangular | Profile::Trapezoid { .. } => 1.0,
         }
     }
 }

@@ -1,10 +1,10 @@
 //! Laws of the white noise ξ that drives the sensor: unit variance where it exists, else unit scale.
 //!
 //! Every sampler but the normal one is a closed form in uniform draws (inversion, or Bailey's polar
-//! method [1] for Student's t) over `libm`, so the bits do not depend on the system's own
+//! method [^1] for Student's t) over `libm`, so the bits do not depend on the system's own
 //! elementary functions.
 //!
-//! [1]: R. W. Bailey, "Polar generation of random variates with the t-distribution",
+//! [^1]: R. W. Bailey, "Polar generation of random variates with the t-distribution",
 //! Math. Comp. 62, 1994.
 
 use crate::rng::Generator;
@@ -138,7 +138,7 @@ fn uniform_and_sign(generator: &mut Generator) -> (f64, bool) {
     (uniform, bits & 1 == 1)
 }
 
-/// Eq. (3) of [1]: with (u, v) uniform in the unit disc and w = u² + v².
+/// Bailey's polar method: with (u, v) uniform in the unit disc and w = u² + v².
 fn student_t(generator: &mut Generator, freedom: f64) -> f64 {
     loop {
         let u = 2.0 * open_uniform(generator) - 1.0;

@@ -1,11 +1,11 @@
-//! The sensor as an autoregression, eqs (1)–(3) of [1]: x_i = Σ φ_p x_{i−p} + ξ_i.
+//! The sensor as an autoregression, eqs (1)–(3) of [^1]: x_i = Σ φ_p x_{i−p} + ξ_i.
 //!
 //! A second-order element K(p) = 1/(a p² + b p + c) sampled by impulse invariance at period T₀ has
 //! its poles at e^{(−σ ± jω)T₀} with σ = b/2a and ω² = c/a − σ², so φ₁ = 2e^{−σT₀} cos ωT₀ and
 //! φ₂ = −e^{−2σT₀}. The numerator only scales the signal; here it is 1, which makes σ_ξ the unit.
 //! (The numerator printed in (2) lacks the factors 1/a and T₀; nothing here depends on it.)
 //!
-//! [1]: see [`crate::signal`].
+//! [^1]: see [`crate::signal`].
 
 use serde::Serialize;
 use std::fmt;
@@ -17,7 +17,7 @@ pub struct Sensor {
     ar: Vec<f64>,
 }
 
-/// K(p) = 1/(a p² + b p + c) and the sampling period, eq. (1) of [1].
+/// K(p) = 1/(a p² + b p + c) and the sampling period, eq. (1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transfer {
     /// Coefficient of p², s².
@@ -88,7 +88,7 @@ const LONGEST_BURN_IN: usize = 1_000_000;
 const BURN_IN_DEFICIT: f64 = 1e-9;
 
 impl Sensor {
-    /// The ADXL105 by the coefficients printed in (2) of [1].
+    /// The ADXL105 by the coefficients printed in (2).
     pub fn adxl105() -> Self {
         Self {
             ar: vec![-1.5365, -0.75056],
@@ -121,7 +121,7 @@ impl Sensor {
         Ok(sensor)
     }
 
-    /// By impulse invariance from the transfer function, eq. (1) → eq. (2) of [1].
+    /// By impulse invariance from the transfer function, eq. (1) → eq. (2).
     ///
     /// # Errors
     /// Where a, c or the period is not positive, the poles are real, or the system is unstable.
@@ -220,7 +220,7 @@ impl fmt::Display for Sensor {
 fn first_outside(ar: &[f64]) -> Option<(usize, f64)> {
     let mut phi = ar.to_vec();
     while let Some(reflection) = phi.pop() {
-        if !(reflection.abs() < 1.0) {
+        if reflection.is_nan() || reflection.abs() >= 1.0 {
             return Some((phi.len() + 1, reflection));
         }
         let scale = 1.0 - reflection * reflection;
