@@ -98,7 +98,7 @@ fn write(
 
 fn manifest(config: &Config, seconds: f64) -> Manifest {
     Manifest {
-        config_name: config.name().to_owned(),
+        config_name: file_name(config.name()),
         config: config.text().to_owned(),
         config_sha256: results::sha256(config.text().as_bytes()),
         version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -114,14 +114,24 @@ fn manifest(config: &Config, seconds: f64) -> Manifest {
     }
 }
 
-/// What was typed, the program by its name alone.
+/// What was typed, the program and absolute paths by their last name alone: where things are on this
+/// machine is nobody else's business, and would make equal runs look different.
 fn command_line() -> String {
-    let arguments = std::env::args().skip(1);
-    ["liftsim".to_owned()]
+    let shown = |argument: String| match Path::new(&argument).is_absolute() {
+        true => file_name(&argument),
+        false => argument,
+    };
+    let arguments = std::env::args().skip(1).map(shown);
+    let words: Vec<String> = ["liftsim".to_owned()]
         .into_iter()
         .chain(arguments)
-        .collect::<Vec<_>>()
-        .join(" ")
+        .collect();
+    words.join(" ")
+}
+
+fn file_name(path: &str) -> String {
+    let name = Path::new(path).file_name();
+    name.map_or(path.to_owned(), |name| name.to_string_lossy().into_owned())
 }
 
 /// The processor family, and which vector instructions it offers.

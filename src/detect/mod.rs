@@ -3,12 +3,17 @@
 //!
 //! [^1]: see [`crate::signal`].
 
+mod design;
 mod law;
+mod product;
 mod region;
+mod rule;
 mod samples;
 mod statistics;
 
+pub use design::NullLaws;
 pub use law::{Law, LawError};
-pub use region::{Alternative, NullLaws, Region, RegionError, Rule};
+pub use region::{Region, RegionError};
+pub use rule::{Alternative, Rule};
 pub use samples::{Samples, SamplesError};
 pub use statistics::{Pooled, Statistics};

@@ -6,6 +6,8 @@ use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor};
 
 /// Em size of tick labels, in points.
 pub(super) const SMALL: f64 = 8.0;
+/// Em size of the caption.
+pub(super) const CAPTION: f64 = 7.5;
 /// Em size of axis labels.
 pub(super) const NORMAL: f64 = 9.0;
 

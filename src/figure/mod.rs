@@ -8,6 +8,7 @@ mod frame;
 mod region;
 mod sheet;
 mod svg;
+mod words;
 
 use crate::config::Config;
 use crate::detect::{NullLaws, Region};

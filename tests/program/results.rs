@@ -47,10 +47,20 @@ fn same_bytes_in_another_environment() {
         .args(["sweep", "--trials", "4000", "--out", "."])
         .arg(project().join("configs/fig6.toml"));
     assert_eq!(outcome(&mut elsewhere).0, 0);
-    assert!(read(here.path(), "points.csv") == read(there.path(), "points.csv"));
+    for name in FILES {
+        assert!(
+            read(here.path(), name) == read(there.path(), name),
+            "{name}"
+        );
+    }
+    let manifest = fs::read_to_string(there.path().join("run.json")).unwrap();
+    let root = project().to_str().unwrap();
+    assert!(
+        !manifest.contains(root),
+        "a manifest holds no absolute path"
+    );
 }
 
-/// A picture names its config by the path it was given; apart from that nothing may differ.
 #[test]
 fn plot_draws_the_same_picture_from_the_counts() {
     let directory = tempfile::tempdir().unwrap();

@@ -1,0 +1,434 @@
+//! Filling regions: from the exact laws at one set of sizes to the critical values of each rule.
+
+use super::law::{Law, LawError, ratio};
+use super::region::{NEVER, Region, RegionError};
+use super::rule::{Alternative, Rule};
+use super::samples::Samples;
+use num_bigint::BigUint;
+use num_traits::Zero;
+
+/// The exact laws that all rules at one set of sizes and one alternative share.
+#[derive(Clone, Debug)]
+pub struct NullLaws {
+    samples: Samples,
+    alternative: Alternative,
+    rank_sum: Law,
+    /// Of what the alternative looks at.
+    pub(super) score: Law,
+    pub(super) exceedances: Law,
+}
+
+/// The level that `conjunction` gives to T.
+const CONJUNCTION_LEVEL: f64 = 0.1;
+
+impl NullLaws {
+    /// The laws at these sizes.
+    ///
+    /// # Errors
+    /// Where their counts would not fit in memory.
+    pub fn new(alternative: Alternative, samples: &Samples) -> Result<Self, LawError> {
+        let rank_sum = Law::rank_sum(samples)?;
+        let score = match alternative {
+            // W is symmetric about its mean, so its mirror image has the same law.
+            Alternative::Greater | Alternative::Less => rank_sum.clone(),
+            Alternative::TwoSided => rank_sum.doubled_deviation(),
+        };
+        Ok(Self {
+            samples: *samples,
+            alternative,
+            rank_sum,
+            score,
+            exceedances: Law::exceedances(samples),
+        })
+    }
+
+    /// The law of W.
+    pub fn rank_sum(&self) -> &Law {
+        &self.rank_sum
+    }
+
+    /// The law of T.
+    pub fn exceedances(&self) -> &Law {
+        &self.exceedances
+    }
+
+    /// The region of `rule` at level `alpha`.
+    ///
+    /// # Errors
+    /// As [`Region::new`].
+    pub fn region(&self, rule: &Rule, alpha: f64) -> Result<Region, RegionError> {
+        if !(alpha > 0.0 && alpha < 1.0) {
+            return Err(RegionError::Alpha(alpha));
+        }
+        let critical = match rule {
+            Rule::Wilcoxon => self.largest(alpha, |w| vec![w; self.columns()]),
+            Rule::Product => self.product(alpha),
+            Rule::Disjunction => {
+                let t = self.exceedances.critical(alpha / 2.0);
+                self.largest(alpha, |w| self.corner(t, w, self.score.first()))
+            }
+            Rule::Conjunction => {
+                let t = self.exceedances.critical(CONJUNCTION_LEVEL);
+                if t > self.exceedances.last() {
+                    let sizes = self.sizes();
+                    return Err(RegionError::NoExceedanceThreshold { sizes });
+                }
+                self.largest(alpha, |w| self.corner(t, NEVER, w))
+            }
+            Rule::Table(entries) => self.table(entries, alpha)?,
+        };
+        let size = self.size(&critical);
+        if size == 0.0 && !matches!(rule, Rule::Table(_)) {
+            return Err(RegionError::Unreachable {
+                rule: rule.clone(),
+                sizes: self.sizes(),
+                alpha,
+                reachable: self.reachable(rule),
+            });
+        }
+        Ok(Region {
+            alternative: self.alternative,
+            twice_mean: self.twice_mean(),
+            critical,
+            size,
+        })
+    }
+
+    /// Eq. (15) by integers: Σ_T cases(T) · cases(score ≥ C(T)) over all cases.
+    pub(super) fn size(&self, critical: &[u64]) -> f64 {
+        let mut cases = BigUint::zero();
+        for (t, &c) in (0..).zip(critical) {
+            cases += self.exceedances.count(t) * self.score.tail_count(c);
+        }
+        ratio(&cases, &(self.exceedances.total() * self.score.total()))
+    }
+
+    /// The table `below` t and `from` t on.
+    fn corner(&self, t: u64, below: u64, from: u64) -> Vec<u64> {
+        (0..self.columns() as u64)
+            .map(|column| if column < t { below } else { from })
+            .collect()
+    }
+
+    /// The largest of a family of regions that shrink as w grows, of size at most α. One past the
+    /// last score is the empty choice.
+    fn largest(&self, alpha: f64, table: impl Fn(u64) -> Vec<u64>) -> Vec<u64> {
+        let (mut low, mut high) = (self.score.first(), self.score.last() + 1);
+        while low < high {
+            let middle = low + (high - low) / 2;
+            match self.size(&table(middle)) <= alpha {
+                true => high = middle,
+                false => low = middle + 1,
+            }
+        }
+        let past = self.score.last() + 1;
+        table(low)
+            .into_iter()
+            .map(|c| if c >= past { NEVER } else { c })
+            .collect()
+    }
+
+    /// Entries of a given table as scores.
+    fn table(&self, entries: &[Option<u64>], alpha: f64) -> Result<Vec<u64>, RegionError> {
+        if entries.len() != self.columns() {
+            return Err(RegionError::TableLength {
+                expected: self.columns(),
+                got: entries.len(),
+            });
+        }
+        let score = |w: u64| match self.alternative {
+            Alternative::Greater | Alternative::Less => w,
+            Alternative::TwoSided => (2 * w).saturating_sub(self.twice_mean()),
+        };
+        let critical: Vec<u64> = entries.iter().map(|w| w.map_or(NEVER, score)).collect();
+        let size = self.size(&critical);
+        if size > alpha {
+            return Err(RegionError::TableTooLarge { size, alpha });
+        }
+        Ok(critical)
+    }
+
+    /// The smallest level at which `rule` is not empty.
+    fn reachable(&self, rule: &Rule) -> f64 {
+        let (w, t) = (&self.score, &self.exceedances);
+        let (last_w, last_t) = (w.tail(w.last()), t.tail(t.last()));
+        match rule {
+            Rule::Wilcoxon => last_w,
+            Rule::Product => {
+                let nothing = vec![w.last() + 1; self.columns()];
+                self.size(&self.with_next_product(&nothing))
+            }
+            Rule::Disjunction => last_w.min(2.0 * last_t),
+            Rule::Conjunction => last_w * t.tail(t.critical(CONJUNCTION_LEVEL)),
+            Rule::Table(_) => 0.0,
+        }
+    }
+
+    pub(super) fn columns(&self) -> usize {
+        self.samples.scale() + 1
+    }
+
+    fn twice_mean(&self) -> u64 {
+        let (n, m1, m2) = (
+            self.samples.reference(),
+            self.samples.shift(),
+            self.samples.scale(),
+        );
+        (m1 * (n + m1 + m2 + 1)) as u64
+    }
+
+    fn sizes(&self) -> String {
+        self.samples.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::detect::Statistics;
+
+    fn sizes(n: usize, m1: usize, m2: usize) -> Samples {
+        Samples::contiguous(n, m1, m2).unwrap()
+    }
+
+    fn region(rule: Rule, alternative: Alternative, alpha: f64, samples: &Samples) -> Region {
+        Region::new(&rule, alternative, alpha, samples).unwrap()
+    }
+
+    /// Every cell of the (W, T) plane with its probability.
+    fn cells(samples: &Samples) -> Vec<(Statistics, f64)> {
+        let w = Law::rank_sum(samples).unwrap();
+        let t = Law::exceedances(samples);
+        let cell = |rank_sum, exceedances: u64| {
+            let probability = w.mass(rank_sum) * t.mass(exceedances);
+            let exceedances = exceedances as usize;
+            (
+                Statistics {
+                    rank_sum,
+                    exceedances,
+                },
+                probability,
+            )
+        };
+        (w.first()..=w.last())
+            .flat_map(|rank_sum| (0..=t.last()).map(move |e| (rank_sum, e)))
+            .map(|(rank_sum, e)| cell(rank_sum, e))
+            .collect()
+    }
+
+    const RULES: [Rule; 4] = [
+        Rule::Wilcoxon,
+        Rule::Product,
+        Rule::Disjunction,
+        Rule::Conjunction,
+    ];
+    const ALTERNATIVES: [Alternative; 3] = [
+        Alternative::Greater,
+        Alternative::Less,
+        Alternative::TwoSided,
+    ];
+
+    /// The size is the sum over the cells that `contains` accepts, and is at most α.
+    #[test]
+    fn size_is_the_sum_of_the_cells() {
+        for samples in [sizes(12, 12, 12), sizes(9, 5, 7), sizes(8, 4, 1)] {
+            for rule in &RULES {
+                for alternative in ALTERNATIVES {
+                    let Ok(region) = Region::new(rule, alternative, 0.01, &samples) else {
+                        assert_eq!((rule, samples.scale()), (&Rule::Conjunction, 1));
+                        continue;
+                    };
+                    let inside = cells(&samples)
+                        .into_iter()
+                        .filter(|(s, _)| region.contains(*s));
+                    let sum: f64 = inside.map(|(_, p)| p).sum();
+                    assert!((sum - region.size()).abs() < 1e-14, "{rule} {alternative}");
+                    assert!(region.size() <= 0.01 && region.size() > 0.0);
+                }
+            }
+        }
+    }
+
+    /// The product rule against its definition: order all cells by the exact product of their tail
+    /// counts, let groups of equal products enter together, stop before α is exceeded.
+    #[test]
+    fn product_enters_cells_in_exact_order() {
+        for (samples, alpha) in [
+            (sizes(12, 12, 12), 0.01),
+            (sizes(12, 12, 12), 0.001),
+            (sizes(6, 4, 5), 0.05),
+            (sizes(2, 3, 9), 0.2),
+            (sizes(20, 8, 3), 1e-5),
+        ] {
+            let w = Law::rank_sum(&samples).unwrap();
+            let t = Law::exceedances(&samples);
+            let mut ordered: Vec<(BigUint, u64, u64)> = (w.first()..=w.last())
+                .flat_map(|rank| (0..=t.last()).map(move |e| (rank, e)))
+                .map(|(rank, e)| (w.tail_count(rank) * t.tail_count(e), rank, e))
+                .collect();
+            ordered.sort();
+            let all = w.total() * t.total();
+            let mut inside = Vec::new();
+            let mut cases = BigUint::zero();
+            for group in ordered.chunk_by(|a, b| a.0 == b.0) {
+                let more: BigUint = group
+                    .iter()
+                    .map(|(_, r, e)| w.count(*r) * t.count(*e))
+                    .sum();
+                if ratio(&(&cases + &more), &all) > alpha {
+                    break;
+                }
+                cases += more;
+                inside.extend(group.iter().map(|&(_, r, e)| (r, e)));
+            }
+            let region = region(Rule::Product, Alternative::Greater, alpha, &samples);
+            assert_eq!(region.size(), ratio(&cases, &all));
+            for (statistics, _) in cells(&samples) {
+                let expected =
+                    inside.contains(&(statistics.rank_sum, statistics.exceedances as u64));
+                assert_eq!(region.contains(statistics), expected, "{statistics:?}");
+            }
+        }
+    }
+
+    /// The equal products named for 12/12/12: (w − 78, t) = (280, 12) and (288, 10).
+    #[test]
+    fn equal_products_exist() {
+        let samples = sizes(12, 12, 12);
+        let (w, t) = (Law::rank_sum(&samples).unwrap(), Law::exceedances(&samples));
+        assert_eq!(
+            w.tail_count(280 + 78) * t.tail_count(12),
+            w.tail_count(288 + 78) * t.tail_count(10)
+        );
+    }
+
+    #[test]
+    fn wilcoxon_is_the_published_test() {
+        let region = region(
+            Rule::Wilcoxon,
+            Alternative::Greater,
+            0.01,
+            &sizes(12, 12, 12),
+        );
+        assert_eq!(region.critical_values(), vec![(None, Some(291)); 13]);
+        assert!((region.size() - 0.009972063).abs() < 5e-10);
+    }
+
+    #[test]
+    fn disjunction_and_conjunction_by_hand() {
+        let samples = sizes(12, 12, 12);
+        let either = region(Rule::Disjunction, Alternative::Greater, 0.01, &samples);
+        let values = either.critical_values();
+        // P(T ≥ 8) = .0047 ≤ α/2 < P(T ≥ 7), so from T = 8 on any W will do.
+        assert!(values[8..].iter().all(|v| *v == (None, Some(78))));
+        let w = Law::rank_sum(&samples).unwrap();
+        let left = (0.01 - 0.004711267) / (1.0 - 0.004711267);
+        assert!(
+            values[..8]
+                .iter()
+                .all(|v| *v == (None, Some(w.critical(left))))
+        );
+        let both = region(Rule::Conjunction, Alternative::Greater, 0.01, &samples);
+        let t = Law::exceedances(&samples).critical(0.1) as usize;
+        let values = both.critical_values();
+        assert!(values[..t].iter().all(|v| *v == (None, None)));
+        assert!(
+            values[t..]
+                .windows(2)
+                .all(|pair| pair[0] == pair[1] && pair[0].1.is_some())
+        );
+    }
+
+    /// P(T ≥ 2) = .033 at 12/12/2: no t qualifies for α/2, so the disjunction is the rank-sum test.
+    #[test]
+    fn disjunction_without_a_threshold_is_wilcoxon() {
+        let samples = sizes(12, 12, 2);
+        let either = region(Rule::Disjunction, Alternative::Greater, 0.01, &samples);
+        let alone = region(Rule::Wilcoxon, Alternative::Greater, 0.01, &samples);
+        assert_eq!(either.critical_values(), alone.critical_values());
+    }
+
+    /// `less` mirrors W; `two-sided` joins both halves.
+    #[test]
+    fn alternatives_mirror() {
+        let samples = sizes(12, 12, 12);
+        for rule in &RULES {
+            let greater = region(rule.clone(), Alternative::Greater, 0.01, &samples);
+            let less = region(rule.clone(), Alternative::Less, 0.01, &samples);
+            let both = region(rule.clone(), Alternative::TwoSided, 0.01, &samples);
+            for (statistics, _) in cells(&samples) {
+                let rank_sum = 12 * 37 - statistics.rank_sum;
+                let mirrored = Statistics {
+                    rank_sum,
+                    ..statistics
+                };
+                assert_eq!(greater.contains(statistics), less.contains(mirrored));
+                assert_eq!(both.contains(statistics), both.contains(mirrored));
+            }
+            let t = if *rule == Rule::Conjunction { 9 } else { 0 };
+            let (lower, upper) = both.critical_values()[t];
+            assert_eq!(lower.unwrap() + upper.unwrap(), 12 * 37);
+        }
+    }
+
+    #[test]
+    fn tables() {
+        let samples = sizes(12, 12, 2);
+        let table = |entries: &[Option<u64>]| {
+            Region::new(
+                &Rule::Table(entries.to_vec()),
+                Alternative::Greater,
+                0.01,
+                &samples,
+            )
+        };
+        let wilcoxon = region(Rule::Wilcoxon, Alternative::Greater, 0.01, &samples);
+        let c = wilcoxon.critical_values()[0].1;
+        assert_eq!(table(&[c, c, c]).unwrap().size(), wilcoxon.size());
+        assert_eq!(table(&[None, None, None]).unwrap().size(), 0.0);
+        assert!(matches!(
+            table(&[c, c]),
+            Err(RegionError::TableLength { .. })
+        ));
+        assert!(matches!(
+            table(&[c, c, Some(0)]),
+            Err(RegionError::TableTooLarge { .. })
+        ));
+    }
+
+    #[test]
+    fn refusals_name_what_can_be_reached() {
+        let refuse = |rule: &Rule, alpha, samples: &Samples| {
+            Region::new(rule, Alternative::Greater, alpha, samples).unwrap_err()
+        };
+        for alpha in [0.0, 1.0, -0.1, f64::NAN] {
+            let error = refuse(&Rule::Product, alpha, &sizes(3, 3, 3));
+            assert!(matches!(error, RegionError::Alpha(_)));
+        }
+        assert!(matches!(
+            refuse(&Rule::Conjunction, 0.01, &sizes(8, 4, 1)),
+            RegionError::NoExceedanceThreshold { .. }
+        ));
+        let samples = sizes(4, 2, 4);
+        for rule in &RULES {
+            let RegionError::Unreachable { reachable, .. } = refuse(rule, 1e-6, &samples) else {
+                panic!("{rule}");
+            };
+            let at = |alpha| Region::new(rule, Alternative::Greater, alpha, &samples);
+            assert!(at(reachable * 1.0001).is_ok(), "{rule} {reachable}");
+            assert!(at(reachable * 0.9999).is_err(), "{rule} {reachable}");
+        }
+    }
+
+    /// Large sizes stay well within the seconds a user will wait.
+    #[test]
+    fn large_sizes() {
+        let region = region(
+            Rule::Product,
+            Alternative::Greater,
+            0.01,
+            &sizes(200, 200, 200),
+        );
+        assert!(region.size() <= 0.01 && region.size() > 0.00999);
+    }
+}

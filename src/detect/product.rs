@@ -1,0 +1,88 @@
+//! The `product` rule: cells enter in the order of P(S ≥ s) · P(T ≥ t), equal products together.
+//!
+//! Equal products exist, (w − 78, t) = (280, 12) and (288, 10) at 12/12/12 for one, and rounding must
+//! not tell them apart. So the order of the cells near the boundary is decided in whole numbers.
+
+use super::design::NullLaws;
+use super::region::NEVER;
+use num_bigint::BigUint;
+
+impl NullLaws {
+    /// The largest region {P(S ≥ s) · P(T ≥ t) ≤ k} of size at most α. Floating point finds a k
+    /// just below; from there on cells enter in the exact order of their products, equal products
+    /// together, until the size would exceed α.
+    pub(super) fn product(&self, alpha: f64) -> Vec<u64> {
+        let mut critical = self.product_start(alpha);
+        loop {
+            let grown = self.with_next_product(&critical);
+            if self.size(&grown) > alpha {
+                let past = self.score.last() + 1;
+                return critical
+                    .into_iter()
+                    .map(|c| if c >= past { NEVER } else { c })
+                    .collect();
+            }
+            critical = grown;
+        }
+    }
+
+    /// The region of a k whose size is below α by more than rounding could change, so that every
+    /// cell in it belongs to the exact region too.
+    fn product_start(&self, alpha: f64) -> Vec<u64> {
+        const MARGIN: f64 = 1.0 - 1e-9;
+        let scores: Vec<f64> = (self.score.first()..=self.score.last() + 1)
+            .map(|s| self.score.tail(s))
+            .collect();
+        let region = |k: f64| -> Vec<usize> {
+            let column = |t| {
+                let tail = self.exceedances.tail(t);
+                scores.partition_point(|score| score * tail > k)
+            };
+            (0..self.columns() as u64).map(column).collect()
+        };
+        let masses: Vec<f64> = (0..self.columns() as u64)
+            .map(|t| self.exceedances.mass(t))
+            .collect();
+        let size = |k: f64| -> f64 {
+            let tails = region(k).into_iter().map(|c| scores[c]);
+            tails.zip(&masses).map(|(tail, mass)| tail * mass).sum()
+        };
+        // Positive floats are ordered like their bits.
+        let (mut low, mut high) = (0, 1f64.to_bits());
+        while low + 1 < high {
+            let middle = low + (high - low) / 2;
+            match size(f64::from_bits(middle)) <= alpha * MARGIN {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        let critical = region(f64::from_bits(low) * MARGIN);
+        critical
+            .into_iter()
+            .map(|c| self.score.first() + c as u64)
+            .collect()
+    }
+
+    /// The region with the cells of the smallest product outside it added.
+    pub(super) fn with_next_product(&self, critical: &[u64]) -> Vec<u64> {
+        let tails: Vec<BigUint> = (0..)
+            .zip(critical)
+            .map(|(t, _)| self.exceedances.tail_count(t))
+            .collect();
+        let next = |t: usize, c: u64| {
+            (c > self.score.first()).then(|| self.score.tail_count(c - 1) * &tails[t])
+        };
+        let smallest = critical
+            .iter()
+            .enumerate()
+            .filter_map(|(t, &c)| next(t, c))
+            .min();
+        let mut grown = critical.to_vec();
+        for (t, c) in grown.iter_mut().enumerate() {
+            while next(t, *c).is_some_and(|product| Some(product) <= smallest) {
+                *c -= 1;
+            }
+        }
+        grown
+    }
+}

@@ -1,0 +1,44 @@
+//! `run.json`: how a run came about.
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+
+/// How a run came about: `run.json`.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Manifest {
+    /// The config's file name.
+    pub config_name: String,
+    /// The config's text.
+    pub config: String,
+    /// SHA-256 of the text.
+    pub config_sha256: String,
+    /// Of liftsim.
+    pub version: String,
+    /// Of its source, where it was known when liftsim was built.
+    pub revision: String,
+    /// As typed.
+    pub command: String,
+    /// Where every draw started from.
+    pub seed: u64,
+    /// Trials per point.
+    pub trials: u64,
+    /// Whether points shared their noise.
+    pub common_random_numbers: bool,
+    /// Wall clock of the simulation.
+    pub seconds: f64,
+    /// Threads it ran on.
+    pub threads: usize,
+    /// Processor family and the features that change code paths.
+    pub architecture: String,
+    /// SHA-256 of the files beside this one.
+    pub files: BTreeMap<String, String>,
+}
+
+/// SHA-256 in hexadecimal.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes)
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect()
+}

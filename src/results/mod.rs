@@ -1,0 +1,13 @@
+//! What a run leaves behind: `points.csv`, `figure.png`, `figure.svg`, `run.json` in one directory.
+//!
+//! The CSV holds counts and every resolved parameter, and no clock or host, so that the same config
+//! and seed give the same bytes anywhere. Files are written beside their place and renamed into it,
+//! all after the last trial: a run that fails leaves what was there before.
+
+mod directory;
+mod manifest;
+mod row;
+
+pub use directory::{Directory, Identity, ResultsError};
+pub use manifest::{Manifest, sha256};
+pub use row::{Row, csv_bytes};

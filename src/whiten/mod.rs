@@ -1,0 +1,178 @@
+//! The whitening filter of eq. (9) of [^1]: y_i = r_i − Σ a_p r_{i−p}, its coefficients fitted to a
+//! record of rest.
+//!
+//! | fit | minimises | needs |
+//! |---|---|---|
+//! | least squares | the forward error over the record alone (covariance method) | 2m + 1 samples |
+//! | Yule–Walker | the error of the windowed record, by Levinson's recursion | m + 1 |
+//! | Burg | forward plus backward error, order by order | m + 2 |
+//!
+//! The record's mean is removed before the fit: a mean shifts every whitened sample alike, which
+//! ranks do not feel, but the fit does. With the sign convention of eq. (3) an impulse λ_i becomes
+//! λ_i − Σ a_p λ_{i−p}; (9) prints a plus there, which its own Δ(1 − β) contradicts.
+//!
+//! [^1]: see [`crate::signal`].
+
+mod fit;
+
+pub use fit::Fitter;
+
+use serde::Serialize;
+use std::fmt;
+
+/// How a filter comes by its coefficients.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Fit {
+    /// Covariance method.
+    LeastSquares,
+    /// Autocorrelation method.
+    YuleWalker,
+    /// Burg's method.
+    Burg,
+    /// The sensor's own coefficients, padded with zeros.
+    Known,
+}
+
+/// A whitening filter's order and where its coefficients come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Whitening {
+    order: usize,
+    fit: Fit,
+    training: usize,
+    includes_reference: bool,
+}
+
+/// Why a whitening was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum WhiteningError {
+    /// m = 0.
+    #[error("order must be at least 1, got 0")]
+    NoOrder,
+    /// The training record cannot determine the coefficients.
+    #[error(
+        "training: a {fit} fit of order {order} needs at least {needed} samples, got {training} \
+         (raise training or lower order)"
+    )]
+    TrainingTooShort {
+        /// The fit asked for.
+        fit: Fit,
+        /// Its order.
+        order: usize,
+        /// What it needs.
+        needed: usize,
+        /// What it was given.
+        training: usize,
+    },
+    /// A known filter that cannot hold the sensor's coefficients.
+    #[error(
+        "order: the known filter of this sensor has order {sensor}, got {order} \
+         (raise order to {sensor} or fit the filter)"
+    )]
+    BelowSensor {
+        /// The sensor's order.
+        sensor: usize,
+        /// The order asked for.
+        order: usize,
+    },
+}
+
+impl Whitening {
+    /// A filter of order `order` fitted to `training` samples of rest before X, or, with
+    /// `includes_reference`, to the `training` samples that end with X's last: a known mistake.
+    /// A known filter of a sensor of order `sensor_order` has no training.
+    ///
+    /// # Errors
+    /// Where the order is zero, the training too short for the fit, or the known filter too short
+    /// for the sensor.
+    pub fn new(
+        order: usize,
+        fit: Fit,
+        training: usize,
+        includes_reference: bool,
+        sensor_order: usize,
+    ) -> Result<Self, WhiteningError> {
+        if order == 0 {
+            return Err(WhiteningError::NoOrder);
+        }
+        let needed = match fit {
+            Fit::LeastSquares => 2 * order + 1,
+            Fit::YuleWalker => order + 1,
+            Fit::Burg => order + 2,
+            Fit::Known => 0,
+        };
+        if training < needed {
+            return Err(WhiteningError::TrainingTooShort {
+                fit,
+                order,
+                needed,
+                training,
+            });
+        }
+        if fit == Fit::Known && order < sensor_order {
+            return Err(WhiteningError::BelowSensor {
+                sensor: sensor_order,
+                order,
+            });
+        }
+        let fitted = fit != Fit::Known;
+        Ok(Self {
+            order,
+            fit,
+            training: if fitted { training } else { 0 },
+            includes_reference: includes_reference && fitted,
+        })
+    }
+
+    /// m.
+    pub fn order(&self) -> usize {
+        self.order
+    }
+
+    /// Where the coefficients come from.
+    pub fn fit(&self) -> Fit {
+        self.fit
+    }
+
+    /// Samples of rest the coefficients are fitted to; none for a known filter.
+    pub fn training(&self) -> usize {
+        self.training
+    }
+
+    /// Whether X is part of the training record.
+    pub fn includes_reference(&self) -> bool {
+        self.includes_reference
+    }
+
+    /// How many samples a record must have before X.
+    pub fn lead(&self) -> usize {
+        self.training.max(self.order)
+    }
+}
+
+/// The whitened sample y_i = r_i − Σ a_p r_{i−p}, where `past` ends with r_{i−1}.
+#[inline]
+pub fn step(coefficients: &[f64], past: &[f64], sample: f64) -> f64 {
+    coefficients
+        .iter()
+        .zip(past.iter().rev())
+        .fold(sample, |rest, (a, r)| rest - a * r)
+}
+
+/// Whitens `record[start..]` into `whitened`; what precedes the record counts as zero.
+pub fn whiten(coefficients: &[f64], record: &[f64], start: usize, whitened: &mut [f64]) {
+    let order = coefficients.len();
+    for (i, y) in (start..record.len()).zip(whitened) {
+        *y = step(coefficients, &record[i.saturating_sub(order)..i], record[i]);
+    }
+}
+
+impl fmt::Display for Fit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::LeastSquares => "least-squares",
+            Self::YuleWalker => "yule-walker",
+            Self::Burg => "burg",
+            Self::Known => "known",
+        })
+    }
+}
