@@ -4,7 +4,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use liftsim::config::Config;
-use liftsim::detect::{Alternative, Pooled, Region, Rule, Samples};
+use liftsim::detect::{Alternative, NullLaws, Pooled, Rule, Samples};
 use liftsim::plan::Plan;
 use liftsim::rng::Stream;
 use liftsim::signal::{Law, Noise, Sensor};
@@ -77,17 +77,13 @@ fn family(criterion: &mut Criterion) {
 
 /// Goal: 1 s at 200/200/200.
 fn design(criterion: &mut Criterion) {
-    let samples = Samples::contiguous(50, 50, 50).expect("sizes");
+    let samples = Samples::contiguous(200, 200, 200).expect("sizes");
     let mut group = criterion.benchmark_group("region");
     group.sample_size(10);
-    group.bench_function("product at 50/50/50", |b| {
+    group.bench_function("product at 200/200/200", |b| {
         b.iter(|| {
-            Region::new(
-                &Rule::Product,
-                Alternative::Greater,
-                0.01,
-                black_box(&samples),
-            )
+            NullLaws::new(Alternative::Greater, black_box(&samples))
+                .map(|laws| laws.region(&Rule::Product, 0.01))
         });
     });
     group.finish();

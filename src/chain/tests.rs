@@ -3,7 +3,7 @@
 
 use super::scenario::{Detector, Scenario};
 use super::{Family, family::Source};
-use crate::detect::{Alternative, Region, Rule, Samples, Statistics};
+use crate::detect::{Alternative, NullLaws, Region, Rule, Samples, Statistics};
 use crate::signal::{
     DeltaAt, Digitiser, During, ImpulseMemory, Impulses, Law, Motion, Noise, Profile, Sensor,
 };
@@ -85,7 +85,8 @@ fn region(scenario: &Scenario) -> Arc<Region> {
         rule,
         alternative,
     } = &scenario.detector;
-    Arc::new(Region::new(rule, *alternative, *alpha, &scenario.samples).unwrap())
+    let laws = NullLaws::new(*alternative, &scenario.samples).unwrap();
+    Arc::new(laws.region(rule, *alpha).unwrap())
 }
 
 /// One trial of one scenario, step by step.

@@ -126,7 +126,7 @@ impl Threshold {
         let rows: Vec<Vec<String>> = (region
             .critical_values()
             .into_iter()
-            .zip(region.conditional_sizes(laws)))
+            .zip(laws.conditional_sizes(region)))
         .enumerate()
         .map(|(t, (values, conditional))| {
             let mass = laws.exceedances().mass(t as u64);
@@ -161,7 +161,7 @@ impl Threshold {
         rule: &Rule,
         alternative: Alternative,
     ) -> String {
-        let conditional = region.conditional_sizes(laws);
+        let conditional = laws.conditional_sizes(region);
         let critical: Vec<_> = (0..)
             .zip(region.critical_values())
             .map(|(t, (lower, upper))| {

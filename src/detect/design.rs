@@ -55,7 +55,7 @@ impl NullLaws {
     /// The region of `rule` at level `alpha`.
     ///
     /// # Errors
-    /// As [`Region::new`].
+    /// Where `alpha` is no level, the rule cannot reach it, or a table exceeds it.
     pub fn region(&self, rule: &Rule, alpha: f64) -> Result<Region, RegionError> {
         if !(alpha > 0.0 && alpha < 1.0) {
             return Err(RegionError::Alpha(alpha));
@@ -92,6 +92,12 @@ impl NullLaws {
             critical,
             size,
         })
+    }
+
+    /// P(W decides H₁ | T) for T = 0 … M₂.
+    pub fn conditional_sizes(&self, region: &Region) -> Vec<f64> {
+        let critical = region.critical.iter();
+        critical.map(|&score| self.score.tail(score)).collect()
     }
 
     /// Eq. (15) by integers: Σ_T cases(T) · cases(score ≥ C(T)) over all cases.
@@ -187,12 +193,21 @@ mod tests {
     use super::*;
     use crate::detect::Statistics;
 
+    fn try_region(
+        rule: &Rule,
+        alternative: Alternative,
+        alpha: f64,
+        samples: &Samples,
+    ) -> Result<Region, RegionError> {
+        NullLaws::new(alternative, samples)?.region(rule, alpha)
+    }
+
     fn sizes(n: usize, m1: usize, m2: usize) -> Samples {
         Samples::contiguous(n, m1, m2).unwrap()
     }
 
     fn region(rule: Rule, alternative: Alternative, alpha: f64, samples: &Samples) -> Region {
-        Region::new(&rule, alternative, alpha, samples).unwrap()
+        try_region(&rule, alternative, alpha, samples).unwrap()
     }
 
     /// Every cell of the (W, T) plane with its probability.
@@ -234,7 +249,7 @@ mod tests {
         for samples in [sizes(12, 12, 12), sizes(9, 5, 7), sizes(8, 4, 1)] {
             for rule in &RULES {
                 for alternative in ALTERNATIVES {
-                    let Ok(region) = Region::new(rule, alternative, 0.01, &samples) else {
+                    let Ok(region) = try_region(rule, alternative, 0.01, &samples) else {
                         assert_eq!((rule, samples.scale()), (&Rule::Conjunction, 1));
                         continue;
                     };
@@ -375,7 +390,7 @@ mod tests {
     fn tables() {
         let samples = sizes(12, 12, 2);
         let table = |entries: &[Option<u64>]| {
-            Region::new(
+            try_region(
                 &Rule::Table(entries.to_vec()),
                 Alternative::Greater,
                 0.01,
@@ -399,7 +414,7 @@ mod tests {
     #[test]
     fn refusals_name_what_can_be_reached() {
         let refuse = |rule: &Rule, alpha, samples: &Samples| {
-            Region::new(rule, Alternative::Greater, alpha, samples).unwrap_err()
+            try_region(rule, Alternative::Greater, alpha, samples).unwrap_err()
         };
         for alpha in [0.0, 1.0, -0.1, f64::NAN] {
             let error = refuse(&Rule::Product, alpha, &sizes(3, 3, 3));
@@ -414,7 +429,7 @@ mod tests {
             let RegionError::Unreachable { reachable, .. } = refuse(rule, 1e-6, &samples) else {
                 panic!("{rule}");
             };
-            let at = |alpha| Region::new(rule, Alternative::Greater, alpha, &samples);
+            let at = |alpha| try_region(rule, Alternative::Greater, alpha, &samples);
             assert!(at(reachable * 1.0001).is_ok(), "{rule} {reachable}");
             assert!(at(reachable * 0.9999).is_err(), "{rule} {reachable}");
         }

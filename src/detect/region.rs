@@ -17,10 +17,8 @@
 //!
 //! [^1]: see [`crate::signal`].
 
-use super::design::NullLaws;
 use super::law::LawError;
 use super::rule::{Alternative, Rule};
-use super::samples::Samples;
 use super::statistics::Statistics;
 
 /// A region ϑ with its exact size.
@@ -38,19 +36,6 @@ pub struct Region {
 pub(super) const NEVER: u64 = u64::MAX;
 
 impl Region {
-    /// The region of `rule` at level `alpha`.
-    ///
-    /// # Errors
-    /// Where `alpha` is no level, the rule cannot reach it, or a table exceeds it.
-    pub fn new(
-        rule: &Rule,
-        alternative: Alternative,
-        alpha: f64,
-        samples: &Samples,
-    ) -> Result<Self, RegionError> {
-        NullLaws::new(alternative, samples)?.region(rule, alpha)
-    }
-
     /// δ(W, T) of eq. (10): whether this observation decides H₁.
     #[inline]
     pub fn contains(&self, statistics: Statistics) -> bool {
@@ -61,14 +46,6 @@ impl Region {
     /// P(ϑ | H₀), eq. (15), correctly rounded.
     pub fn size(&self) -> f64 {
         self.size
-    }
-
-    /// P(W decides H₁ | T) for T = 0 … M₂ under `laws`, those the region was made from.
-    pub fn conditional_sizes(&self, laws: &NullLaws) -> Vec<f64> {
-        self.critical
-            .iter()
-            .map(|&score| laws.score.tail(score))
-            .collect()
     }
 
     /// C_W(T) for T = 0 … M₂: (lower, upper) such that W ≤ lower or W ≥ upper decides H₁.
