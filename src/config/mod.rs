@@ -9,6 +9,8 @@ mod axis;
 mod error;
 mod file;
 mod resolve;
+#[cfg(test)]
+mod tests;
 mod value;
 
 pub use axis::{Axis, AxisValue, Parameter};

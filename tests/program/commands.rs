@@ -1,6 +1,7 @@
 //! What else users type.
 
 use super::{liftsim, outcome, project};
+use liftsim::config::Config;
 use std::fs;
 
 fn run(arguments: &[&str]) -> String {
@@ -133,4 +134,40 @@ fn closed_pipe_is_no_error() {
         .unwrap();
     assert!(output.stderr.is_empty());
     assert!(String::from_utf8_lossy(&output.stdout).ends_with("\n0\n"));
+}
+
+/// The config that the README explains says nothing but the defaults, the curve apart.
+#[test]
+fn readme_shows_the_defaults() {
+    let readme = fs::read_to_string(project().join("README.md")).unwrap();
+    let block = readme
+        .split("```toml\n")
+        .nth(1)
+        .unwrap()
+        .split("```")
+        .next()
+        .unwrap();
+    let (explained, curve) = block.split_once("[[curve]]").unwrap();
+    let minimal =
+        "question = \"?\"\nseed = 2014\n[axis]\ndelta = { from = 0.0, to = 3.0, step = 0.1 }\n";
+    let config =
+        |text: &str| Config::parse("README.md", text).unwrap_or_else(|error| panic!("{error}"));
+    let (shown, default) = (config(explained), config(minimal));
+    assert_eq!(
+        (shown.trials, shown.confidence),
+        (default.trials, default.confidence)
+    );
+    assert_eq!(shown.common_random_numbers, default.common_random_numbers);
+    for (a, b) in shown.axis.values.iter().zip(&default.axis.values) {
+        assert_eq!(
+            shown.scenario(0, a).unwrap(),
+            default.scenario(0, b).unwrap()
+        );
+    }
+    let with_curve = config(&format!("{explained}[[curve]]{curve}"));
+    let scenario = with_curve.scenario(0, &with_curve.axis.values[0]).unwrap();
+    assert_eq!(
+        (scenario.impulses.nu(), scenario.impulses.theta()),
+        (0.3, 20.0)
+    );
 }
