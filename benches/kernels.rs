@@ -14,7 +14,7 @@ use std::hint::black_box;
 const RECORD: usize = 72 + 256 + 36;
 
 fn kernels(criterion: &mut Criterion) {
-    let mut generator = Stream::new(1, "noise", &"bench").at(0);
+    let mut generator = Stream::new(1, "noise", "bench").at(0);
     let noise = Noise::new(Law::Normal).expect("a law");
     let sensor = Sensor::adxl105();
     let mut record = vec![0.0; RECORD];
@@ -71,7 +71,7 @@ fn family(criterion: &mut Criterion) {
     let plan = Plan::new(&config).expect("a plan");
     let mut counters = vec![0; plan.points.len()];
     criterion.bench_function("64 trials of Fig. 6, 156 points", |b| {
-        b.iter(|| plan.families[0].run(0, 0, 64, black_box(&mut counters)));
+        b.iter(|| plan.families[0].run(0..64, black_box(&mut counters)));
     });
 }
 

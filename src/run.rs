@@ -1,14 +1,14 @@
 //! Runs a plan: blocks of trials in parallel, counts that add.
 //!
-//! A block is [`BLOCK`] consecutive trials of one family and the unit of everything: its generators
-//! are addressed by its index, its counts depend on nothing else, and integers add up to the same
-//! sum in any order. So the number of threads, and who did which block, leave no trace.
+//! A block is up to [`BLOCK`] consecutive trials of one family: the unit of scheduling, no more. A
+//! trial's draws are addressed by its own index and integers add up to the same sum in any order, so
+//! neither the blocks nor the number of threads leave a trace.
 
 use crate::plan::Plan;
 use crate::tally::Tally;
 use rayon::prelude::*;
 
-/// Trials in a block. Part of every draw's coordinates: changing it changes results.
+/// Trials in a block.
 pub const BLOCK: u64 = 1024;
 
 /// Runs every trial of every family on the current thread pool and returns each point's tally.
@@ -21,9 +21,9 @@ pub fn run(plan: &Plan, progress: impl Fn(u64) + Sync) -> Vec<Tally> {
         .fold(none, |mut hits, task| {
             let (block, family) = (task % blocks, &plan.families[(task / blocks) as usize]);
             let first = block * BLOCK;
-            let trials = BLOCK.min(plan.trials - first);
-            family.run(block, first, trials, &mut hits);
-            progress(trials * family.points_per_trial() as u64);
+            let last = plan.trials.min(first + BLOCK);
+            family.run(first..last, &mut hits);
+            progress((last - first) * family.points_per_trial() as u64);
             hits
         })
         .reduce(none, |mut sum, hits| {

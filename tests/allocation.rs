@@ -52,7 +52,7 @@ fn trials_do_not_allocate() {
     for family in &plan.families {
         let mut allocations = |trials| {
             let before = ALLOCATIONS.load(Ordering::Relaxed);
-            family.run(0, 0, trials, &mut counts);
+            family.run(0..trials, &mut counts);
             ALLOCATIONS.load(Ordering::Relaxed) - before
         };
         assert_eq!(allocations(1), allocations(500));

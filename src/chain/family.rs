@@ -1,20 +1,21 @@
-//! The points that share one noise realisation, arranged so that nothing is computed twice: source →
+//! The points that share one noise realisation, arranged so that little is computed twice: source →
 //! branches (digitiser, filter) → courses (impulses, shape of the acceleration) → stages (Δ) →
-//! verdicts (regions).
+//! decisions (regions).
 
 use super::scenario::Scenario;
 use super::trial::Trial;
 use crate::detect::{Region, Samples};
 use crate::rng::Stream;
-use crate::signal::{Digitiser, During, Impulses, Motion, Noise, Sensor};
+use crate::signal::{Digitiser, During, Impulses, Noise, Sensor};
 use crate::whiten::Whitening;
-use serde::Serialize;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// All points that share their noise.
 #[derive(Clone, Debug)]
 pub struct Family {
     pub(super) source: Source,
+    subject: String,
     pub(super) noise: Stream,
     pub(super) impulses: Stream,
     pub(super) ties: Stream,
@@ -22,7 +23,7 @@ pub struct Family {
 }
 
 /// What the noise of a trial depends on, and how much of it there is.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Source {
     pub sensor: Sensor,
     pub noise: Noise,
@@ -45,6 +46,8 @@ pub(super) struct Course {
     pub impulses: Impulses,
     /// The acceleration in units of Δ, one value for each raw observation after X.
     pub shape: Vec<f64>,
+    /// Its block means.
+    pub observed_shape: Vec<f64>,
     pub stages: Vec<Stage>,
 }
 
@@ -52,12 +55,12 @@ pub(super) struct Course {
 #[derive(Clone, Debug)]
 pub(super) struct Stage {
     pub delta: f64,
-    pub verdicts: Vec<Verdict>,
+    pub decisions: Vec<Decision>,
 }
 
 /// One region, and the counter of its decisions.
 #[derive(Clone, Debug)]
-pub(super) struct Verdict {
+pub(super) struct Decision {
     pub region: Arc<Region>,
     pub counter: usize,
 }
@@ -77,8 +80,8 @@ pub struct RecordTooLong {
     pub limit: f64,
 }
 
-/// The most memory one record may take.
-const MEMORY_LIMIT: f64 = 5e8;
+/// The most memory the buffers of one trial may take, in GB; every thread has its own.
+const MEMORY_LIMIT: f64 = 0.5;
 
 impl Family {
     /// Arranges `points` (scenario and region; a point's place is its counter) into families. With
@@ -96,30 +99,26 @@ impl Family {
         for (counter, (scenario, region)) in points.into_iter().enumerate() {
             let source = Source::new(scenario);
             source
-                .check_memory(scenario.whitening.order())
+                .check_memory(scenario)
                 .map_err(|refusal| (counter, refusal))?;
-            let shares = |family: &&mut Self| {
-                family.source == source && (common_random_numbers || family.simulates(scenario))
+            let subject = match common_random_numbers {
+                true => source.subject(),
+                false => source.subject_of_all(scenario),
             };
-            let verdict = Verdict { region, counter };
-            match families.iter_mut().find(shares) {
-                Some(family) => family.insert(scenario, verdict),
-                None => {
-                    let mut family = match common_random_numbers {
-                        true => Self::new(source.clone(), seed, &source),
-                        false => Self::new(source.clone(), seed, &Source::and_all(scenario)),
-                    };
-                    family.insert(scenario, verdict);
-                    families.push(family);
-                }
-            }
+            let family = find_or_push(
+                &mut families,
+                |family| family.subject == subject,
+                || Self::new(source, seed, &subject),
+            );
+            family.insert(scenario, Decision { region, counter });
         }
         Ok(families)
     }
 
-    fn new(source: Source, seed: u64, subject: &impl Serialize) -> Self {
+    fn new(source: Source, seed: u64, subject: &str) -> Self {
         Self {
             source,
+            subject: subject.to_owned(),
             noise: Stream::new(seed, "noise", subject),
             impulses: Stream::new(seed, "impulses", subject),
             ties: Stream::new(seed, "ties", subject),
@@ -127,21 +126,16 @@ impl Family {
         }
     }
 
-    /// Runs the first `trials` trials of `block`, whose first trial has index `first`, and adds each
-    /// decision for H₁ to its counter. Trials of a block follow each other in one generator, so a
-    /// block always starts at its first trial.
-    pub fn run(&self, block: u64, first: u64, trials: u64, counters: &mut [u64]) {
+    /// Runs `trials` and adds each decision for H₁ to the counter of its point: the place the point
+    /// had in [`Family::arrange`].
+    ///
+    /// # Panics
+    /// Where `counters` has no place for a point.
+    pub fn run(&self, trials: Range<u64>, counters: &mut [u64]) {
         let mut trial = Trial::new(self);
-        let mut noise = self.noise.at(block);
-        let mut impulses = self.impulses.at(block);
-        for index in first..first + trials {
-            trial.run(index, &mut noise, &mut impulses, counters);
+        for index in trials {
+            trial.run(index, counters);
         }
-    }
-
-    /// Raw samples in one trial, burn-in included.
-    pub fn samples_per_trial(&self) -> usize {
-        self.source.burn_in() + self.source.raw_length()
     }
 
     /// How many (W, T) are computed in one trial.
@@ -151,19 +145,16 @@ impl Family {
         courses.map(stages).sum()
     }
 
-    /// Whether this family is the one of exactly this simulation.
-    pub(super) fn simulates(&self, scenario: &Scenario) -> bool {
-        self.branches.iter().all(|branch| {
-            branch.digitiser == scenario.digitiser
-                && branch.whitening == scenario.whitening
-                && branch.courses.iter().all(|course| {
-                    let delta = scenario.record_delta();
-                    course.is_of(scenario) && course.stages.iter().all(|s| s.delta == delta)
-                })
-        })
+    /// The counters this family adds to.
+    #[cfg(test)]
+    pub(super) fn counters(&self) -> Vec<usize> {
+        let courses = self.branches.iter().flat_map(|branch| &branch.courses);
+        let stages = courses.flat_map(|course| &course.stages);
+        let decisions = stages.flat_map(|stage| &stage.decisions);
+        decisions.map(|decision| decision.counter).collect()
     }
 
-    fn insert(&mut self, scenario: &Scenario, verdict: Verdict) {
+    fn insert(&mut self, scenario: &Scenario, decision: Decision) {
         let branch = find_or_push(
             &mut self.branches,
             |b| b.digitiser == scenario.digitiser && b.whitening == scenario.whitening,
@@ -184,10 +175,10 @@ impl Family {
             |stage| stage.delta == delta,
             || Stage {
                 delta,
-                verdicts: Vec::new(),
+                decisions: Vec::new(),
             },
         );
-        stage.verdicts.push(verdict);
+        stage.decisions.push(decision);
     }
 }
 
@@ -201,14 +192,40 @@ impl Source {
         }
     }
 
-    /// Everything a scenario simulates, decisions apart: the subject of noise that nothing shares.
-    fn and_all(scenario: &Scenario) -> (Self, Digitiser, Motion, Impulses, Whitening) {
-        (
-            Self::new(scenario),
-            scenario.digitiser,
-            scenario.motion,
-            scenario.impulses,
-            scenario.whitening,
+    /// What tells one source from another, in the words of the results. Part of every draw's
+    /// coordinates: changing it changes results.
+    fn subject(&self) -> String {
+        let Self {
+            sensor,
+            noise,
+            samples,
+            lead,
+        } = self;
+        let (gap, decimation) = (samples.gap(), samples.decimation());
+        format!("{sensor} {noise} lead {lead} samples {samples} gap {gap} decimation {decimation}")
+    }
+
+    /// The same with everything else a scenario simulates, decisions apart: the subject of noise that
+    /// nothing shares.
+    fn subject_of_all(&self, scenario: &Scenario) -> String {
+        let (motion, impulses) = (&scenario.motion, &scenario.impulses);
+        let (whitening, digitiser) = (&scenario.whitening, &scenario.digitiser);
+        format!(
+            "{} whitening {} {} {} {} digitiser {:?} {:?} motion {} {} {} {} impulses {} {} {}",
+            self.subject(),
+            whitening.fit(),
+            whitening.order(),
+            whitening.training(),
+            whitening.includes_reference(),
+            digitiser.quantum(),
+            digitiser.range(),
+            scenario.record_delta(),
+            motion.profile,
+            motion.duration,
+            motion.offset,
+            impulses.nu(),
+            impulses.theta(),
+            impulses.during(),
         )
     }
 
@@ -232,27 +249,38 @@ impl Source {
         self.samples.span() - self.samples.reference()
     }
 
-    fn check_memory(&self, order: usize) -> Result<(), RecordTooLong> {
-        let observations = self.lead as f64 + self.samples.span() as f64;
-        let samples = observations * self.samples.decimation() as f64 + self.burn_in() as f64;
-        let normal_equations = (order as f64 + 1.0).powi(2);
-        let bytes = 16.0 * samples + 8.0 * normal_equations;
-        if bytes > MEMORY_LIMIT {
-            return Err(RecordTooLong {
+    /// Refuses a trial whose buffers would not fit in memory: raw noise, what is observed and whitened
+    /// of it, the same again for the motion, and the fit.
+    fn check_memory(&self, scenario: &Scenario) -> Result<(), RecordTooLong> {
+        let decimation = self.samples.decimation() as f64;
+        let span = self.samples.span() as f64;
+        let after = span - self.samples.reference() as f64;
+        let observations = self.lead as f64 + span;
+        let samples = observations * decimation + self.burn_in() as f64;
+        let whitening = &scenario.whitening;
+        let fit = 2.0 * whitening.training() as f64 + (whitening.order() as f64 + 3.0).powi(2);
+        let values = samples + observations + 2.0 * span + after * (4.0 * decimation + 6.0) + fit;
+        let gigabytes = 8.0 * values / 1e9;
+        match gigabytes > MEMORY_LIMIT {
+            true => Err(RecordTooLong {
                 samples,
-                gigabytes: bytes / 1e9,
-                limit: MEMORY_LIMIT / 1e9,
-            });
+                gigabytes,
+                limit: MEMORY_LIMIT,
+            }),
+            false => Ok(()),
         }
-        Ok(())
     }
 }
 
 impl Course {
     fn new(scenario: &Scenario) -> Self {
+        let shape = shape(scenario);
+        let decimation = scenario.samples.decimation();
+        let mean = |block: &[f64]| block.iter().sum::<f64>() / decimation as f64;
         Self {
             impulses: scenario.impulses,
-            shape: shape(scenario),
+            observed_shape: shape.chunks_exact(decimation).map(mean).collect(),
+            shape,
             stages: Vec::new(),
         }
     }
@@ -280,12 +308,6 @@ fn shape(scenario: &Scenario) -> Vec<f64> {
     (0..raw)
         .map(|i| scenario.motion.shape((i as f64 + 0.5) / decimation as f64))
         .collect()
-}
-
-impl Scenario {
-    fn record_delta(&self) -> f64 {
-        self.motion.record_delta(self.sensor.step_gain())
-    }
 }
 
 fn find_or_push<T>(

@@ -56,4 +56,9 @@ impl Scenario {
     pub fn moves(&self) -> bool {
         self.motion.delta != 0.0 || !self.impulses.are_absent()
     }
+
+    /// The shift added to the record.
+    pub(super) fn record_delta(&self) -> f64 {
+        self.motion.record_delta(self.sensor.step_gain())
+    }
 }

@@ -36,7 +36,7 @@ struct MotionBuffers {
     pattern: Vec<f64>,
     /// The raw record with the motion in it.
     raw: Vec<f64>,
-    /// Block means of a shape or pattern.
+    /// Block means of the pattern.
     observed: Vec<f64>,
     /// Whitened step and impulses; noise and impulses; all three.
     step: Vec<f64>,
@@ -88,16 +88,11 @@ impl<'a> Trial<'a> {
     }
 
     /// Draws the noise of trial `index` and decides every point of the family on it.
-    pub fn run(
-        &mut self,
-        index: u64,
-        noise: &mut Generator,
-        impulses: &mut Generator,
-        counters: &mut [u64],
-    ) {
+    pub fn run(&mut self, index: u64, counters: &mut [u64]) {
         let source = &self.family.source;
         self.ties.start(index);
-        self.noise.draw(source, noise);
+        self.noise.draw(source, &mut self.family.noise.at(index));
+        let mut impulses = self.family.impulses.at(index);
         for draw in &mut self.motion.draws {
             *draw = impulses.next_u64();
         }
@@ -142,8 +137,8 @@ impl Stage {
     /// Counts the regions that decide H₁.
     #[inline]
     fn decide(&self, statistics: Statistics, counters: &mut [u64]) {
-        for verdict in &self.verdicts {
-            counters[verdict.counter] += u64::from(verdict.region.contains(statistics));
+        for decision in &self.decisions {
+            counters[decision.counter] += u64::from(decision.region.contains(statistics));
         }
     }
 }
@@ -186,10 +181,14 @@ impl MotionBuffers {
 
     /// Whitened responses to a unit step and to the impulses, and the whitened record without step.
     fn respond(&mut self, course: &Course, coefficients: &[f64], source: &Source, noise: &[f64]) {
+        whiten(coefficients, &course.observed_shape, 0, &mut self.step);
         let decimation = source.samples.decimation();
-        block_means(&course.shape, decimation, &mut self.observed);
-        whiten(coefficients, &self.observed, 0, &mut self.step);
-        block_means(&self.pattern, decimation, &mut self.observed);
+        observe(
+            &self.pattern,
+            &Digitiser::default(),
+            decimation,
+            &mut self.observed,
+        );
         whiten(coefficients, &self.observed, 0, &mut self.impulse);
         let theta = course.impulses.theta();
         let noise = &noise[source.samples.reference()..];
@@ -273,8 +272,4 @@ fn observe(raw: &[f64], digitiser: &Digitiser, decimation: usize, observed: &mut
     for (mean, block) in observed.iter_mut().zip(raw.chunks_exact(decimation)) {
         *mean = block.iter().map(|&x| digitiser.code(x)).sum::<f64>() * scale;
     }
-}
-
-fn block_means(raw: &[f64], decimation: usize, observed: &mut [f64]) {
-    observe(raw, &Digitiser::default(), decimation, observed);
 }

@@ -14,6 +14,7 @@ use anyhow::Context;
 use clap::{Args, Parser, Subcommand};
 use liftsim::config::{Config, ConfigError};
 use liftsim::plan::Plan;
+use liftsim::tally::MOST_TRIALS;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -88,7 +89,7 @@ struct Simulation {
     /// The experiment, a TOML file.
     config: PathBuf,
     /// Trials per point, instead of the config's.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_TRIALS))]
     trials: Option<u64>,
     /// Where every draw starts from, instead of the config's.
     #[arg(long, value_name = "S")]

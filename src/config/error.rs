@@ -3,6 +3,7 @@
 use crate::chain::RecordTooLong;
 use crate::detect::{RegionError, SamplesError};
 use crate::signal::{DigitiserError, ImpulsesError, LawError, MotionError, SensorError};
+use crate::tally::MOST_TRIALS;
 use crate::whiten::WhiteningError;
 use std::fmt;
 use std::io;
@@ -94,11 +95,14 @@ pub enum Problem {
     #[error("confidence must lie strictly between 0 and 1, got {0}")]
     Confidence(f64),
     /// A half-width out of reach.
-    #[error("half_width must lie in [0.000001, 0.5), got {0}")]
+    #[error("half_width must lie in [0.00001, 0.5), got {0}")]
     HalfWidth(f64),
     /// Two ways of saying how many trials.
     #[error("trials and half_width both fix the number of trials (leave one of them out)")]
     TrialsTwice,
+    /// More trials than anyone can run.
+    #[error("trials must be at most {limit}, got {0}", limit = MOST_TRIALS)]
+    TooManyTrials(u64),
     /// No trials.
     #[error("trials must be at least 1, got 0")]
     NoTrials,

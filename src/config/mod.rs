@@ -127,10 +127,13 @@ impl File {
             (Some(trials), None) if trials.get_ref().0 == 0 => {
                 refuse(trials.span(), Problem::NoTrials)
             }
+            (Some(trials), None) if trials.get_ref().0 > tally::MOST_TRIALS => {
+                refuse(trials.span(), Problem::TooManyTrials(trials.get_ref().0))
+            }
             (Some(trials), None) => Ok(trials.get_ref().0),
             (None, Some(half_width)) => {
                 let value = half_width.get_ref().0;
-                match (1e-6..0.5).contains(&value) {
+                match (1e-5..0.5).contains(&value) {
                     true => Ok(tally::trials_for_half_width(value, confidence)),
                     false => refuse(half_width.span(), Problem::HalfWidth(value)),
                 }

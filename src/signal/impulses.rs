@@ -149,7 +149,7 @@ mod tests {
         for steps in [1, 2, 5, 24] {
             let (mut plus, mut minus, mut none) = (0, 0, 0);
             let (mut at_zero, mut positive) = (0, 0);
-            let mut generator = Stream::new(2014, "impulses", &steps).at(0);
+            let mut generator = Stream::new(2014, "impulses", &steps.to_string()).at(0);
             for _ in 0..trials {
                 let mut memory = ImpulseMemory::default();
                 let mut last = 0.0;
@@ -182,7 +182,7 @@ mod tests {
     #[test]
     fn impulses_alternate() {
         let impulses = Impulses::new(0.4, 2.0, During::Motion).unwrap();
-        let mut generator = Stream::new(1, "impulses", &0).at(0);
+        let mut generator = Stream::new(1, "impulses", "").at(0);
         let draws: Vec<u64> = (0..10_000).map(|_| generator.next_u64()).collect();
         let mut pattern = vec![0.0; draws.len()];
         impulses.pattern(&draws, &mut pattern);

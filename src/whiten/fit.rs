@@ -182,7 +182,7 @@ mod tests {
     fn record(ar: &[f64], length: usize, position: u64) -> Vec<f64> {
         let sensor = Sensor::from_ar(ar.to_vec()).unwrap();
         let mut record = vec![0.0; length + sensor.burn_in()];
-        let mut generator = Stream::new(2014, "whiten", &"test").at(position);
+        let mut generator = Stream::new(2014, "whiten", "test").at(position);
         Noise::new(Law::Normal)
             .unwrap()
             .fill(&mut generator, &mut record);
