@@ -1,10 +1,15 @@
 //! Tells the program which revision it was built from.
 
+use std::path::Path;
 use std::process::Command;
 
 fn main() {
-    println!("cargo::rerun-if-changed=.git/HEAD");
-    println!("cargo::rerun-if-changed=.git/index");
+    for path in ["src", "Cargo.toml", "Cargo.lock", ".git/HEAD", ".git/index"] {
+        // A path that is not there would rebuild the program every time.
+        if Path::new(path).exists() {
+            println!("cargo::rerun-if-changed={path}");
+        }
+    }
     let revision = git(&["rev-parse", "HEAD"]).unwrap_or_else(|| "unknown".to_owned());
     let is_clean =
         git(&["status", "--porcelain", "--untracked-files=no"]).is_none_or(|s| s.is_empty());

@@ -82,3 +82,84 @@ pub fn overall(findings: &[Finding]) -> Verdict {
         Verdict::Pass
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Config;
+    use crate::plan::Plan;
+
+    const THREE: &str =
+        "question = \"?\"\nseed = 1\n[impulses]\nnu = 0.0\n[axis]\norder = [1, 2, 3]\n";
+
+    fn findings(hits: [u64; 3], trials: u64, nominal: Option<f64>) -> Vec<Finding> {
+        let plan = Plan::at_rest(&Config::parse("test", THREE).unwrap()).unwrap();
+        let tallies = hits.map(|hits| Tally { hits, trials });
+        judge(&plan.points, &tallies, nominal)
+    }
+
+    fn verdicts(hits: [u64; 3], trials: u64) -> Vec<Verdict> {
+        findings(hits, trials, None)
+            .iter()
+            .map(|f| f.verdict)
+            .collect()
+    }
+
+    /// Holm's rule rejects the second p-value at half the level once the first is gone; Bonferroni
+    /// would still ask for a third of it.
+    #[test]
+    fn scenarios_are_corrected_step_by_step() {
+        let n = 200_000;
+        let hits = |p: f64| {
+            let reach = |k: &u64| {
+                Tally {
+                    hits: *k,
+                    trials: n,
+                }
+                .p_value_above(0.01)
+                    <= p
+            };
+            (2000..3000).find(reach).unwrap()
+        };
+        let between = hits(FAMILY_LEVEL / 2.2);
+        assert_eq!(verdicts([between, 2000, 2000], n), [Verdict::Pass; 3]);
+        let first = hits(FAMILY_LEVEL / 4.0);
+        assert_eq!(
+            verdicts([between, first, 2000], n),
+            [Verdict::Fail, Verdict::Fail, Verdict::Pass]
+        );
+    }
+
+    /// The shortest run that may pass has power 0.99 against 0.012 at a third of the level; one
+    /// twentieth fewer trials may not.
+    #[test]
+    fn power_decides_between_pass_and_inconclusive() {
+        let power = |n| tally::power_against(0.012, 0.01, FAMILY_LEVEL / 3.0, n);
+        let enough = (10_000..200_000)
+            .step_by(500)
+            .find(|&n| power(n) >= 0.991)
+            .unwrap();
+        let few = enough * 19 / 20;
+        assert!(power(few) < 0.99, "{enough}");
+        let hits = |n: u64| [n / 100; 3];
+        assert_eq!(verdicts(hits(enough), enough), [Verdict::Pass; 3]);
+        assert_eq!(verdicts(hits(few), few), [Verdict::Inconclusive; 3]);
+        assert_eq!(
+            overall(&findings(hits(few), few, None)),
+            Verdict::Inconclusive
+        );
+    }
+
+    #[test]
+    fn nominal_replaces_alpha() {
+        let n = 200_000;
+        let strict = findings([2000; 3], n, Some(0.008));
+        assert!(
+            strict
+                .iter()
+                .all(|f| f.verdict == Verdict::Fail && f.nominal == 0.008)
+        );
+        assert_eq!(overall(&strict), Verdict::Fail);
+        assert_eq!(overall(&findings([2000; 3], n, None)), Verdict::Pass);
+    }
+}

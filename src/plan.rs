@@ -1,7 +1,7 @@
 //! What a config comes to: every point with its scenario and region, and the families that share
 //! noise. Whatever can go wrong goes wrong here, before the first trial.
 
-use crate::chain::{Family, Scenario};
+use crate::chain::{Detector, Family, Scenario};
 use crate::config::{AxisValue, Config, ConfigError, Problem};
 use crate::detect::{Alternative, NullLaws, Region, Samples};
 use std::sync::Arc;
@@ -13,6 +13,10 @@ pub struct Plan {
     pub points: Vec<Point>,
     /// Trials per point.
     pub trials: u64,
+    /// Where every draw starts from.
+    pub seed: u64,
+    /// Whether points share their noise.
+    pub common_random_numbers: bool,
     /// The points again, arranged by the noise they share.
     pub families: Vec<Family>,
 }
@@ -103,6 +107,8 @@ impl Plan {
         Ok(Self {
             points,
             trials: config.trials,
+            seed: config.seed,
+            common_random_numbers: config.common_random_numbers,
             families,
         })
     }
@@ -128,37 +134,33 @@ fn curves(config: &Config) -> Result<Vec<Curve>, ConfigError> {
         .collect()
 }
 
-/// Makes regions, each set of laws and each region once, and remembers what has been seen at rest.
+/// Makes each region once, and remembers what has been seen at rest. Of the laws, which are large, it
+/// keeps only those of the last sizes.
 #[derive(Default)]
 struct Designer {
-    laws: Vec<(Samples, Alternative, NullLaws)>,
-    regions: Vec<(Scenario, Arc<Region>)>,
+    laws: Option<(Samples, Alternative, NullLaws)>,
+    regions: Vec<(Samples, Detector, Arc<Region>)>,
     at_rest: Vec<Scenario>,
 }
 
 impl Designer {
     fn region(&mut self, scenario: &Scenario) -> Result<Arc<Region>, Problem> {
-        let (samples, detector) = (&scenario.samples, &scenario.detector);
-        let same = |other: &Scenario| other.samples == *samples && other.detector == *detector;
-        if let Some((_, region)) = self.regions.iter().find(|(other, _)| same(other)) {
+        let (samples, detector) = (scenario.samples, &scenario.detector);
+        let mut known = self.regions.iter();
+        if let Some((.., region)) = known.find(|(s, d, _)| *s == samples && d == detector) {
             return Ok(region.clone());
         }
         let alternative = detector.alternative;
-        let known = self
-            .laws
-            .iter()
-            .position(|(s, a, _)| s == samples && *a == alternative);
-        let known = match known {
-            Some(index) => index,
-            None => {
-                let laws = NullLaws::new(alternative, samples)
-                    .map_err(|error| Problem::Region(error.into()))?;
-                self.laws.push((*samples, alternative, laws));
-                self.laws.len() - 1
-            }
+        let laws = match self.laws.take() {
+            Some((s, a, laws)) if s == samples && a == alternative => laws,
+            _ => NullLaws::new(alternative, &samples)
+                .map_err(|error| Problem::Region(error.into()))?,
         };
-        let region = Arc::new(self.laws[known].2.region(&detector.rule, detector.alpha)?);
-        self.regions.push((scenario.clone(), region.clone()));
+        let region = laws.region(&detector.rule, detector.alpha).map(Arc::new);
+        self.laws = Some((samples, alternative, laws));
+        let region = region?;
+        self.regions
+            .push((samples, detector.clone(), region.clone()));
         Ok(region)
     }
 

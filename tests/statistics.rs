@@ -1,7 +1,7 @@
 //! Statistical tests of whole runs. Seeds are fixed; every test states its false-failure rate.
 
 use liftsim::config::Config;
-use liftsim::detect::{Law, Samples};
+use liftsim::detect::{NullLaw, Samples};
 use liftsim::plan::{Hypothesis, Plan};
 use liftsim::run;
 use liftsim::tally::Tally;
@@ -26,8 +26,8 @@ fn tallies(plan: &Plan) -> Vec<Tally> {
 #[test]
 fn joint_counts_at_rest_follow_the_exact_law() {
     let samples = Samples::contiguous(12, 12, 12).unwrap();
-    let w_law = Law::rank_sum(&samples).unwrap();
-    let t_law = Law::exceedances(&samples);
+    let w_law = NullLaw::rank_sum(&samples).unwrap();
+    let t_law = NullLaw::exceedances(&samples).unwrap();
     let w_edges = [78, 170, 195, 210, 222, 234, 249, 274, 367];
     let t_edges = [0, 1, 2, 3, 4, 6, 13];
     for law in ["normal", "laplace", "cauchy"] {

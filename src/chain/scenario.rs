@@ -59,6 +59,7 @@ impl Scenario {
 
     /// The shift added to the record.
     pub(super) fn record_delta(&self) -> f64 {
-        self.motion.record_delta(self.sensor.step_gain())
+        // Adding zero makes −0 the same as 0.
+        self.motion.record_delta(self.sensor.step_gain()) + 0.0
     }
 }

@@ -296,3 +296,39 @@ fn refuses_a_record_that_does_not_fit() {
     assert_eq!(point, 0);
     assert!(refusal.to_string().contains("GB"), "{refusal}");
 }
+
+/// What a point counts does not depend on where it stands, with shared noise or without.
+#[test]
+fn counts_do_not_depend_on_the_order_of_points() {
+    for common_random_numbers in [true, false] {
+        let mut scenarios = scenarios();
+        let counts = |scenarios: &[Scenario]| {
+            let mut counts = vec![0; scenarios.len()];
+            let points = scenarios.iter().map(|s| (s, region(s)));
+            for family in Family::arrange(points, 3, common_random_numbers).unwrap() {
+                family.run(0..100, &mut counts);
+            }
+            counts
+        };
+        let forwards = counts(&scenarios);
+        scenarios.reverse();
+        let backwards: Vec<u64> = counts(&scenarios).into_iter().rev().collect();
+        assert_eq!(forwards, backwards);
+    }
+}
+
+/// Noise, impulses and ties of every family are streams of their own.
+#[test]
+fn streams_are_all_different() {
+    for common_random_numbers in [true, false] {
+        let scenarios = scenarios();
+        let points = scenarios.iter().map(|s| (s, region(s)));
+        let families = Family::arrange(points, 3, common_random_numbers).unwrap();
+        let streams = families
+            .iter()
+            .flat_map(|f| [&f.noise, &f.impulses, &f.ties]);
+        let first: std::collections::HashSet<u64> =
+            streams.map(|stream| stream.at(0).next_u64()).collect();
+        assert_eq!(first.len(), 3 * families.len());
+    }
+}

@@ -20,7 +20,7 @@ impl Plot {
     pub fn run(self) -> Outcome {
         let directory = Directory::new(self.directory);
         let manifest = directory.manifest().map_err(Failure::input)?;
-        let rows = directory.rows().map_err(Failure::input)?;
+        let rows = directory.rows(&manifest).map_err(Failure::input)?;
         let config =
             Config::parse(&manifest.config_name, &manifest.config).map_err(Failure::input)?;
         let drawing = figure::sweep(&config, &rows, &manifest).map_err(Failure::run)?;

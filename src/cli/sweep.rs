@@ -5,7 +5,7 @@ use clap::Args;
 use liftsim::config::Config;
 use liftsim::figure;
 use liftsim::plan::Plan;
-use liftsim::results::{self, Directory, Identity, Manifest, Row};
+use liftsim::results::{self, Directory, Manifest, Row};
 use liftsim::run;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -36,14 +36,7 @@ impl Sweep {
                 .clone()
                 .unwrap_or_else(|| default_directory(&self.simulation.config)),
         );
-        let identity = Identity {
-            seed: config.seed,
-            common_random_numbers: config.common_random_numbers,
-            plan: &plan,
-        };
-        directory
-            .admit(&identity, self.fresh)
-            .map_err(Failure::input)?;
+        directory.admit(&plan, self.fresh).map_err(Failure::input)?;
 
         let bar = progress::bar(&plan, quiet);
         let start = Instant::now();

@@ -1,7 +1,7 @@
 //! `liftsim threshold`: C_W(T) and the exact size of a rule.
 
 use super::{Failure, Outcome, print, table};
-use anyhow::Context;
+use anyhow::{Context, anyhow};
 use clap::{Args, ValueEnum};
 use liftsim::detect::{Alternative, NullLaws, Region, Rule, Samples};
 use liftsim::figure;
@@ -38,7 +38,7 @@ pub struct Threshold {
     #[arg(long)]
     json: bool,
     /// Draw the plane of W and T with the region in it.
-    #[arg(long, value_name = "FILE.png")]
+    #[arg(long, value_name = "FILE.png|FILE.svg")]
     figure: Option<PathBuf>,
 }
 
@@ -67,6 +67,14 @@ enum Sign {
 impl Threshold {
     /// Runs the command.
     pub fn run(self) -> Outcome {
+        if let Some(path) = &self.figure
+            && !path.extension().is_some_and(|e| e == "png" || e == "svg")
+        {
+            return Err(Failure::Input(anyhow!(
+                "--figure must end in .png or .svg, got {}",
+                path.display()
+            )));
+        }
         let samples =
             Samples::contiguous(self.reference, self.shift, self.scale).map_err(Failure::input)?;
         let rule = match self.rule {
@@ -87,13 +95,20 @@ impl Threshold {
             false => self.as_table(&laws, &region, &rule, alternative),
         };
         if let Some(path) = &self.figure {
-            let title = format!(
-                "rule {rule}, alternative {alternative}, N/M_1/M_2 = {samples}, α = {}, exact size {:.6}",
-                self.alpha,
-                region.size()
-            );
+            let title = [
+                format!("rule {rule}"),
+                format!("alternative {alternative}"),
+                format!("N/M_1/M_2 = {samples}"),
+                format!("α = {}", self.alpha),
+                format!("exact size {:.6}", region.size()),
+                "orange: W and T decide H_1*".to_owned(),
+            ];
             let drawing = figure::region(&laws, &region, &title).map_err(Failure::run)?;
-            std::fs::write(path, drawing.png)
+            let bytes = match path.extension().and_then(|extension| extension.to_str()) {
+                Some("svg") => drawing.svg,
+                _ => drawing.png,
+            };
+            std::fs::write(path, bytes)
                 .with_context(|| {
                     format!(
                         "{}: cannot be written (give another --figure)",
@@ -132,9 +147,9 @@ impl Threshold {
             let mass = laws.exceedances().mass(t as u64);
             vec![
                 t.to_string(),
-                format!("{mass:.9}"),
+                probability(mass),
                 critical(values),
-                format!("{conditional:.9}"),
+                probability(conditional),
             ]
         })
         .collect();
@@ -149,7 +164,7 @@ impl Threshold {
             self.shift,
             self.scale,
             self.alpha,
-            table(&["T", "P(T)", name, "P(W)"], &rows),
+            table(&["T", "P(T)", name, &format!("P({name})")], &rows),
             region.size(),
         )
     }
@@ -185,5 +200,13 @@ impl Threshold {
             "critical": critical,
         });
         format!("{value:#}\n")
+    }
+}
+
+/// Nine decimals where they say something, a power of ten where they do not.
+fn probability(p: f64) -> String {
+    match p >= 1e-6 || p == 0.0 {
+        true => format!("{p:.9}"),
+        false => format!("{p:.4e}"),
     }
 }

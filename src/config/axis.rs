@@ -245,7 +245,13 @@ fn range(name: &'static str, steps: &Steps) -> Result<Vec<Value>, Problem> {
         });
     }
     let value = |i: usize| {
-        let value = twelve_digits(from + i as f64 * step);
+        let value = from + i as f64 * step;
+        // What rounding leaves of a zero is a zero.
+        let value = if value.abs() < 1e-9 * step {
+            0.0
+        } else {
+            twelve_digits(value)
+        };
         match value.fract() == 0.0
             && value.abs() < 1e15
             && from.fract() == 0.0
@@ -278,6 +284,7 @@ mod tests {
         let range = numbers("{ from = 0.0, to = 3.0, step = 0.1 }");
         assert_eq!(range.len(), 31);
         assert_eq!((range[3], range[30]), (0.3, 3.0));
+        assert_eq!(numbers("{ from = -0.7, to = 0.7, step = 0.1 }")[7], 0.0);
         assert_eq!(numbers("{ from = 2, to = 9, step = 3 }"), [2.0, 5.0, 8.0]);
         assert_eq!(numbers("{ from = 1.0, to = 1.0, step = 0.5 }"), [1.0]);
         assert_eq!(numbers("[1, 2.5]"), [1.0, 2.5]);

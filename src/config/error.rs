@@ -39,7 +39,7 @@ pub enum Problem {
     /// The file is no TOML, or holds something that does not belong there.
     #[error("{0}")]
     Toml(Refusal),
-    /// Neither a sweep nor anything else.
+    /// No axis, or more than one.
     #[error("axis: exactly one key says what is swept, got {0} (for instance delta = [0.0, 1.0])")]
     AxisKeys(usize),
     /// An axis that is no parameter.
@@ -109,31 +109,43 @@ pub enum Problem {
     /// Two sensors.
     #[error("sensor: model, ar and transfer exclude each other, got {0} of them (leave one)")]
     SensorTwice(usize),
-    /// See there.
+    /// The sensor's coefficients do not whiten block means.
+    #[error(
+        "whitening.fit: the known filter is that of single samples, not of means of {0} \
+         (fit the filter, or set decimation to 1)"
+    )]
+    KnownFilterDecimated(usize),
+    /// The sensor's coefficients do not say what whitening makes of block means.
+    #[error(
+        "motion.delta_at: the shift after whitening is known for single samples, not for means of {0} \
+         (set delta_at to \"record\", or decimation to 1)"
+    )]
+    WhitenedDeltaDecimated(usize),
+    /// A sensor that cannot be.
     #[error("sensor: {0}")]
     Sensor(#[from] SensorError),
-    /// See there.
+    /// A law of noise that cannot be.
     #[error("noise: {0}")]
     Law(#[from] LawError),
-    /// See there.
+    /// A converter that cannot be.
     #[error("noise: {0}")]
     Digitiser(#[from] DigitiserError),
-    /// See there.
+    /// A motion that cannot be.
     #[error("motion: {0}")]
     Motion(#[from] MotionError),
-    /// See there.
+    /// Impulses that cannot be.
     #[error("impulses: {0}")]
     Impulses(#[from] ImpulsesError),
-    /// See there.
+    /// A filter that cannot be.
     #[error("whitening: {0}")]
     Whitening(#[from] WhiteningError),
-    /// See there.
+    /// Samples that cannot be.
     #[error("samples: {0}")]
     Samples(#[from] SamplesError),
-    /// See there.
+    /// A region that cannot be designed.
     #[error("detector: {0}")]
     Region(#[from] RegionError),
-    /// See there.
+    /// A record that does not fit in memory.
     #[error("samples: {0}")]
     Record(#[from] RecordTooLong),
 }

@@ -72,6 +72,7 @@ impl Sections {
     fn resolve(&self) -> Result<Scenario, Blamed> {
         let sensor = self.sensor()?;
         let samples = self.samples()?;
+        self.check_decimation(&sensor, &samples)?;
         Ok(Scenario {
             noise: self.noise()?,
             digitiser: self.digitiser()?,
@@ -82,6 +83,33 @@ impl Sections {
             sensor,
             samples,
         })
+    }
+
+    /// Block means of a coloured record are no longer the sensor's autoregression, so nothing that
+    /// relies on its coefficients may be asked of them.
+    fn check_decimation(&self, sensor: &Sensor, samples: &Samples) -> Result<(), Blamed> {
+        let decimation = samples.decimation();
+        if decimation == 1 || sensor.ar().is_empty() {
+            return Ok(());
+        }
+        if matches!(
+            get(&self.whitening.fit, FitKind::LeastSquares),
+            FitKind::Known
+        ) {
+            let problem = Problem::KnownFilterDecimated(decimation);
+            return Err((problem, &[("whitening", "fit"), ("samples", "decimation")]));
+        }
+        if matches!(
+            get(&self.motion.delta_at, DeltaAtKind::Record),
+            DeltaAtKind::Whitened
+        ) {
+            let problem = Problem::WhitenedDeltaDecimated(decimation);
+            return Err((
+                problem,
+                &[("motion", "delta_at"), ("samples", "decimation")],
+            ));
+        }
+        Ok(())
     }
 
     /// Where the first of `keys` that the author wrote stands.
@@ -152,7 +180,9 @@ impl Sections {
 
     fn motion(&self, samples: &Samples) -> Result<Motion, Blamed> {
         let section = &self.motion;
-        let default_duration = Whole(samples.acceleration() as u64);
+        let offset = get(&section.offset, Whole(0)).size();
+        // Up to the last of Y₁, wherever it starts.
+        let default_duration = samples.acceleration().saturating_sub(offset);
         let motion = Motion {
             delta: get(&section.delta, Number(0.0)).0,
             delta_at: match get(&section.delta_at, DeltaAtKind::Record) {
@@ -163,13 +193,13 @@ impl Sections {
                 ProfileKind::Rectangular => Profile::Rectangular,
                 ProfileKind::Trapezoid { rise } => Profile::Trapezoid { rise: rise.0 },
             },
-            duration: get(&section.duration, default_duration).size(),
-            offset: get(&section.offset, Whole(0)).size(),
+            duration: get(&section.duration, Whole(default_duration as u64)).size(),
+            offset,
         };
         motion.checked().map_err(|error| {
             let keys: &[_] = match error {
                 MotionError::Delta(_) => &[("motion", "delta")],
-                MotionError::Duration(_) => &[("motion", "duration")],
+                MotionError::Duration { .. } => &[("motion", "duration"), ("motion", "offset")],
                 MotionError::Rise { .. } => &[("motion", "profile"), ("motion", "duration")],
             };
             (error.into(), keys)

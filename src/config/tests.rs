@@ -1,8 +1,10 @@
 //! How the parts of a config are laid over each other.
 
 use super::{Config, Parameter};
-use crate::signal::Sensor;
-use crate::whiten::Fit;
+use crate::chain::{Detector, Scenario};
+use crate::detect::{Alternative, Rule, Samples};
+use crate::signal::{DeltaAt, Digitiser, During, Impulses, Law, Motion, Noise, Profile, Sensor};
+use crate::whiten::{Fit, Whitening};
 
 fn config(rest: &str) -> Config {
     Config::parse("test", &format!("question = \"?\"\nseed = 1\n{rest}"))
@@ -62,24 +64,37 @@ fn all_samples_moves_three_sizes() {
     assert_eq!(samples.to_string(), "20/20/20");
 }
 
-/// Every parameter an axis can sweep reaches the scenario.
+/// Every parameter an axis can sweep does what the key of that name does in its section.
 #[test]
-fn every_parameter_can_be_swept() {
-    let at_default = config("[axis]\ndelta = [0.0]\n");
-    let default = at_default.scenario(0, &at_default.axis.values[0]).unwrap();
-    for (name, parameter) in Parameter::ALL {
-        let value = match parameter {
-            Parameter::Rule => "\"wilcoxon\"",
-            Parameter::Nu | Parameter::Alpha => "0.25",
-            _ => "7",
+fn every_parameter_does_what_its_key_does() {
+    for (name, _) in Parameter::ALL {
+        let (section, value) = match name {
+            "delta" | "duration" | "offset" => ("motion", "7"),
+            "nu" => ("impulses", "0.25"),
+            "theta" => ("impulses", "7"),
+            "quantum" | "range" => ("noise", "7"),
+            "training" | "order" => ("whitening", "7"),
+            "alpha" => ("detector", "0.25"),
+            "rule" => ("detector", "\"wilcoxon\""),
+            _ => ("samples", "7"),
         };
-        let config = config(&format!("[axis]\n{name} = [{value}]\n"));
-        assert_eq!(config.axis.parameter.name(), name);
-        assert_ne!(
-            config.scenario(0, &config.axis.values[0]).unwrap(),
-            default,
-            "{name}"
-        );
+        let keys = match name {
+            "all_samples" => format!("reference = {value}\nshift = {value}\nscale = {value}"),
+            _ => format!("{name} = {value}"),
+        };
+        // An axis that changes nothing lets the section speak.
+        let idle = if section == "impulses" {
+            "[axis]\ndelta = [0.0]"
+        } else {
+            "[axis]\nnu = [0.1]"
+        };
+        let section_says = config(&format!("[{section}]\n{keys}\n{idle}\n"));
+        let axis_says = config(&format!("[axis]\n{name} = [{value}]\n"));
+        let scenario = |config: &Config| config.scenario(0, &config.axis.values[0]).unwrap();
+        assert_eq!(scenario(&section_says), scenario(&axis_says), "{name}");
+        assert_eq!(axis_says.axis.parameter.name(), name);
+        let default = config("[axis]\nnu = [0.1]\n");
+        assert_ne!(scenario(&axis_says), scenario(&default), "{name}");
     }
 }
 
@@ -87,4 +102,111 @@ fn every_parameter_can_be_swept() {
 fn half_width_fixes_the_trials() {
     let trials = config("half_width = 0.01\n[axis]\ndelta = [0.0]\n").trials;
     assert!((9_600..9_800).contains(&trials), "{trials}");
+}
+
+/// Every key away from its default reaches its place in the scenario.
+#[test]
+fn every_key_reaches_the_scenario() {
+    let config = config(
+        "[sensor]\nar = [0.5, -0.25]\n\
+         [noise]\nlaw = \"logistic\"\nquantum = 0.5\nrange = 9.0\n\
+         [motion]\ndelta = 1.5\ndelta_at = \"whitened\"\nprofile = { trapezoid = { rise = 2.0 } }\nduration = 9\noffset = 4\n\
+         [impulses]\nnu = 0.2\ntheta = 3.0\nduring = \"inertial\"\n\
+         [whitening]\norder = 5\ntraining = 77\nfit = \"yule-walker\"\nincludes_reference = true\n\
+         [samples]\nreference = 10\nshift = 11\nscale = 13\ngap = 2\n\
+         [detector]\nalpha = 0.02\nrule = \"disjunction\"\nalternative = \"two-sided\"\n\
+         [axis]\nnu = [0.2]\n",
+    );
+    let expected = Scenario {
+        sensor: Sensor::from_ar(vec![0.5, -0.25]).unwrap(),
+        noise: Noise::new(Law::Logistic).unwrap(),
+        digitiser: Digitiser::new(Some(0.5), Some(9.0)).unwrap(),
+        motion: Motion {
+            delta: 1.5,
+            delta_at: DeltaAt::Whitened,
+            profile: Profile::Trapezoid { rise: 2.0 },
+            duration: 9,
+            offset: 4,
+        },
+        impulses: Impulses::new(0.2, 3.0, During::Inertial).unwrap(),
+        whitening: Whitening::new(5, Fit::YuleWalker, 77, true, 2).unwrap(),
+        samples: Samples::new(10, 11, 13, 2, 1).unwrap(),
+        detector: Detector {
+            alpha: 0.02,
+            rule: Rule::Disjunction,
+            alternative: Alternative::TwoSided,
+        },
+    };
+    assert_eq!(
+        config.scenario(0, &config.axis.values[0]).unwrap(),
+        expected
+    );
+}
+
+/// Each word of a config means what it says.
+#[test]
+fn words_mean_themselves() {
+    let scenario = |section: &str, key: &str, value: &str| {
+        let config = config(&format!(
+            "[{section}]\n{key} = {value}\n[axis]\nnu = [0.1]\n"
+        ));
+        config.scenario(0, &config.axis.values[0]).unwrap()
+    };
+    for (word, law) in [
+        ("normal", Law::Normal),
+        ("laplace", Law::Laplace),
+        ("logistic", Law::Logistic),
+        ("uniform", Law::Uniform),
+        ("cauchy", Law::Cauchy),
+    ] {
+        let noise = scenario("noise", "law", &format!("\"{word}\"")).noise;
+        assert_eq!(
+            (noise, noise.to_string()),
+            (Noise::new(law).unwrap(), word.to_owned())
+        );
+    }
+    assert_eq!(
+        scenario("noise", "law", "{ student_t = 3.0 }")
+            .noise
+            .to_string(),
+        "student_t(3)"
+    );
+    for word in ["least-squares", "yule-walker", "burg", "known"] {
+        assert_eq!(
+            scenario("whitening", "fit", &format!("\"{word}\""))
+                .whitening
+                .fit()
+                .to_string(),
+            word
+        );
+    }
+    for word in ["wilcoxon", "product", "disjunction", "conjunction"] {
+        assert_eq!(
+            scenario("detector", "rule", &format!("\"{word}\""))
+                .detector
+                .rule
+                .to_string(),
+            word
+        );
+    }
+    for word in ["greater", "less", "two-sided"] {
+        let detector = scenario("detector", "alternative", &format!("\"{word}\"")).detector;
+        assert_eq!(detector.alternative.to_string(), word);
+    }
+    assert_eq!(
+        scenario("samples", "decimation", "3").samples.decimation(),
+        3
+    );
+}
+
+/// By default Δ acts to the last of Y₁, however late it starts.
+#[test]
+fn duration_follows_the_offset() {
+    let config = config("[axis]\noffset = [0, 3, 11, 12]\n");
+    let scenario = |index: usize| config.scenario(0, &config.axis.values[index]);
+    for (index, expected) in [(0, 12), (1, 9), (2, 1)] {
+        assert_eq!(scenario(index).unwrap().motion.duration, expected);
+    }
+    let error = scenario(3).unwrap_err().to_string();
+    assert!(error.contains("lower offset"), "{error}");
 }

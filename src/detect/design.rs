@@ -1,21 +1,20 @@
 //! Filling regions: from the exact laws at one set of sizes to the critical values of each rule.
 
-use super::law::{Law, LawError, ratio};
+use super::law::{NullLaw, NullLawError, ratio};
 use super::region::{NEVER, Region, RegionError};
 use super::rule::{Alternative, Rule};
 use super::samples::Samples;
 use num_bigint::BigUint;
-use num_traits::Zero;
 
 /// The exact laws that all rules at one set of sizes and one alternative share.
 #[derive(Clone, Debug)]
 pub struct NullLaws {
     samples: Samples,
     alternative: Alternative,
-    rank_sum: Law,
+    rank_sum: NullLaw,
     /// Of what the alternative looks at.
-    pub(super) score: Law,
-    pub(super) exceedances: Law,
+    pub(super) score: NullLaw,
+    pub(super) exceedances: NullLaw,
 }
 
 /// The level that `conjunction` gives to T.
@@ -26,8 +25,8 @@ impl NullLaws {
     ///
     /// # Errors
     /// Where their counts would not fit in memory.
-    pub fn new(alternative: Alternative, samples: &Samples) -> Result<Self, LawError> {
-        let rank_sum = Law::rank_sum(samples)?;
+    pub fn new(alternative: Alternative, samples: &Samples) -> Result<Self, NullLawError> {
+        let rank_sum = NullLaw::rank_sum(samples)?;
         let score = match alternative {
             // W is symmetric about its mean, so its mirror image has the same law.
             Alternative::Greater | Alternative::Less => rank_sum.clone(),
@@ -38,17 +37,17 @@ impl NullLaws {
             alternative,
             rank_sum,
             score,
-            exceedances: Law::exceedances(samples),
+            exceedances: NullLaw::exceedances(samples)?,
         })
     }
 
     /// The law of W.
-    pub fn rank_sum(&self) -> &Law {
+    pub fn rank_sum(&self) -> &NullLaw {
         &self.rank_sum
     }
 
     /// The law of T.
-    pub fn exceedances(&self) -> &Law {
+    pub fn exceedances(&self) -> &NullLaw {
         &self.exceedances
     }
 
@@ -77,6 +76,8 @@ impl NullLaws {
             }
             Rule::Table(entries) => self.table(entries, alpha)?,
         };
+        let reachable = |c| if c > self.score.last() { NEVER } else { c };
+        let critical: Vec<u64> = critical.into_iter().map(reachable).collect();
         let size = self.size(&critical);
         if size == 0.0 && !matches!(rule, Rule::Table(_)) {
             return Err(RegionError::Unreachable {
@@ -102,7 +103,7 @@ impl NullLaws {
 
     /// Eq. (15) by integers: Σ_T cases(T) · cases(score ≥ C(T)) over all cases.
     pub(super) fn size(&self, critical: &[u64]) -> f64 {
-        let mut cases = BigUint::zero();
+        let mut cases = BigUint::ZERO;
         for (t, &c) in (0..).zip(critical) {
             cases += self.exceedances.count(t) * self.score.tail_count(c);
         }
@@ -127,11 +128,7 @@ impl NullLaws {
                 false => low = middle + 1,
             }
         }
-        let past = self.score.last() + 1;
         table(low)
-            .into_iter()
-            .map(|c| if c >= past { NEVER } else { c })
-            .collect()
     }
 
     /// Entries of a given table as scores.
@@ -212,8 +209,8 @@ mod tests {
 
     /// Every cell of the (W, T) plane with its probability.
     fn cells(samples: &Samples) -> Vec<(Statistics, f64)> {
-        let w = Law::rank_sum(samples).unwrap();
-        let t = Law::exceedances(samples);
+        let w = NullLaw::rank_sum(samples).unwrap();
+        let t = NullLaw::exceedances(samples).unwrap();
         let cell = |rank_sum, exceedances: u64| {
             let probability = w.mass(rank_sum) * t.mass(exceedances);
             let exceedances = exceedances as usize;
@@ -275,8 +272,8 @@ mod tests {
             (sizes(2, 3, 9), 0.2),
             (sizes(20, 8, 3), 1e-5),
         ] {
-            let w = Law::rank_sum(&samples).unwrap();
-            let t = Law::exceedances(&samples);
+            let w = NullLaw::rank_sum(&samples).unwrap();
+            let t = NullLaw::exceedances(&samples).unwrap();
             let mut ordered: Vec<(BigUint, u64, u64)> = (w.first()..=w.last())
                 .flat_map(|rank| (0..=t.last()).map(move |e| (rank, e)))
                 .map(|(rank, e)| (w.tail_count(rank) * t.tail_count(e), rank, e))
@@ -284,7 +281,7 @@ mod tests {
             ordered.sort();
             let all = w.total() * t.total();
             let mut inside = Vec::new();
-            let mut cases = BigUint::zero();
+            let mut cases = BigUint::ZERO;
             for group in ordered.chunk_by(|a, b| a.0 == b.0) {
                 let more: BigUint = group
                     .iter()
@@ -310,7 +307,10 @@ mod tests {
     #[test]
     fn equal_products_exist() {
         let samples = sizes(12, 12, 12);
-        let (w, t) = (Law::rank_sum(&samples).unwrap(), Law::exceedances(&samples));
+        let (w, t) = (
+            NullLaw::rank_sum(&samples).unwrap(),
+            NullLaw::exceedances(&samples).unwrap(),
+        );
         assert_eq!(
             w.tail_count(280 + 78) * t.tail_count(12),
             w.tail_count(288 + 78) * t.tail_count(10)
@@ -336,7 +336,7 @@ mod tests {
         let values = either.critical_values();
         // P(T ≥ 8) = .0047 ≤ α/2 < P(T ≥ 7), so from T = 8 on any W will do.
         assert!(values[8..].iter().all(|v| *v == (None, Some(78))));
-        let w = Law::rank_sum(&samples).unwrap();
+        let w = NullLaw::rank_sum(&samples).unwrap();
         let left = (0.01 - 0.004711267) / (1.0 - 0.004711267);
         assert!(
             values[..8]
@@ -344,7 +344,7 @@ mod tests {
                 .all(|v| *v == (None, Some(w.critical(left))))
         );
         let both = region(Rule::Conjunction, Alternative::Greater, 0.01, &samples);
-        let t = Law::exceedances(&samples).critical(0.1) as usize;
+        let t = NullLaw::exceedances(&samples).unwrap().critical(0.1) as usize;
         let values = both.critical_values();
         assert!(values[..t].iter().all(|v| *v == (None, None)));
         assert!(

@@ -21,11 +21,10 @@
 use super::samples::Samples;
 use super::statistics::smallest_rank_sum;
 use num_bigint::BigUint;
-use num_traits::{One, ToPrimitive, Zero};
 
 /// The law of an integer statistic whose values are counted by equally likely cases.
 #[derive(Clone, Debug)]
-pub struct Law {
+pub struct NullLaw {
     first: u64,
     /// How many cases reach `first + i` or more.
     tails: Vec<BigUint>,
@@ -33,13 +32,15 @@ pub struct Law {
 
 /// Why a law was refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum LawError {
+pub enum NullLawError {
     /// The counts would not fit in memory.
     #[error(
-        "the exact law of W at {reference}/{shift}/{scale} needs {gigabytes:.1} GB of counts, \
+        "the exact law of {statistic} at {reference}/{shift}/{scale} needs {gigabytes:.1} GB of counts, \
          more than the {limit:.0} GB allowed (lower reference, shift or scale)"
     )]
     TooLarge {
+        /// W or T.
+        statistic: char,
         /// N.
         reference: usize,
         /// M₁.
@@ -56,24 +57,18 @@ pub enum LawError {
 /// The most memory the counts of one law may take.
 const MEMORY_LIMIT: f64 = 1e9;
 
-impl Law {
+impl NullLaw {
     /// The law of the rank sum W.
     ///
     /// # Errors
     /// Where its counts would not fit in memory.
-    pub fn rank_sum(samples: &Samples) -> Result<Self, LawError> {
-        let (n, m1, m2) = (samples.reference(), samples.shift(), samples.scale());
-        let others = n.saturating_add(m2);
-        let bytes = rank_sum_bytes(m1 as f64, others as f64);
-        if bytes > MEMORY_LIMIT {
-            return Err(LawError::TooLarge {
-                reference: n,
-                shift: m1,
-                scale: m2,
-                gigabytes: bytes / 1e9,
-                limit: MEMORY_LIMIT / 1e9,
-            });
-        }
+    pub fn rank_sum(samples: &Samples) -> Result<Self, NullLawError> {
+        let (m1, others) = (
+            samples.shift(),
+            samples.reference().saturating_add(samples.scale()),
+        );
+        let values = m1 as f64 * others as f64 + 1.0;
+        check_memory('W', samples, values, m1, others)?;
         Ok(Self::from_counts(
             smallest_rank_sum(m1),
             gaussian_binomial(m1, others),
@@ -81,29 +76,33 @@ impl Law {
     }
 
     /// The law of the exceedances T.
-    pub fn exceedances(samples: &Samples) -> Self {
+    ///
+    /// # Errors
+    /// Where its counts would not fit in memory.
+    pub fn exceedances(samples: &Samples) -> Result<Self, NullLawError> {
         let (n, m2) = (samples.reference(), samples.scale());
+        check_memory('T', samples, m2 as f64 + 1.0, n, m2)?;
         if n == 1 {
-            let mut counts = vec![BigUint::zero(); m2];
+            let mut counts = vec![BigUint::ZERO; m2];
             counts.push(BigUint::from(m2 + 1));
-            return Self::from_counts(0, counts);
+            return Ok(Self::from_counts(0, counts));
         }
         // C(N+M₂−t−2, N−2) for t = M₂ … 0, each from the one before.
         let mut counts = Vec::with_capacity(m2 + 1);
-        let mut inside = BigUint::one();
+        let mut inside = BigUint::from(1u8);
         for t in (0..=m2).rev() {
             counts.push(&inside * (t + 1));
             let (top, chosen) = (n + m2 - t - 2, n - 2);
             inside = inside * (top + 1) / (top + 1 - chosen);
         }
         counts.reverse();
-        Self::from_counts(0, counts)
+        Ok(Self::from_counts(0, counts))
     }
 
     /// The law of |2S − 2E S| for this S, which must be symmetric: what a two-sided rule looks at.
     pub fn doubled_deviation(&self) -> Self {
         let last = 2 * self.first + self.tails.len() as u64 - 1;
-        let mut counts = vec![BigUint::zero(); self.tails.len()];
+        let mut counts = vec![BigUint::ZERO; self.tails.len()];
         for (i, count) in self.counts().enumerate() {
             let doubled = 2 * (self.first + i as u64);
             counts[doubled.abs_diff(last) as usize] += count;
@@ -173,18 +172,18 @@ impl Law {
 
 /// `numerator`/`denominator` as the nearest f64.
 pub(super) fn ratio(numerator: &BigUint, denominator: &BigUint) -> f64 {
-    if numerator.is_zero() {
+    if *numerator == BigUint::ZERO {
         return 0.0;
     }
-    // 66 bits or more of quotient, and a last bit that remembers whether anything was left over, so
+    // 66 or 67 bits of quotient, and a last bit that remembers whether anything was left over, so
     // that the one rounding is that of the conversion.
     let shift = (denominator.bits() + 66).saturating_sub(numerator.bits());
     let scaled = numerator << shift;
     let mut quotient = &scaled / denominator;
     if &quotient * denominator != scaled {
-        quotient |= BigUint::one();
+        quotient |= BigUint::from(1u8);
     }
-    let mantissa = quotient.to_f64().expect("a big integer always converts");
+    let mantissa = u128::try_from(quotient).expect("the quotient has at most 67 bits") as f64;
     // Two exact steps, since 2^−shift alone may underflow where the result does not.
     let half = (shift / 2) as i32;
     mantissa * 2f64.powi(-half) * 2f64.powi(half - shift as i32)
@@ -196,8 +195,8 @@ fn gaussian_binomial(chosen: usize, others: usize) -> Vec<BigUint> {
     let degree = chosen * others;
     let half = degree / 2;
     let (short, long) = (chosen.min(others), chosen.max(others));
-    let mut counts = vec![BigUint::zero(); half + 1];
-    counts[0] = BigUint::one();
+    let mut counts = vec![BigUint::ZERO; half + 1];
+    counts[0] = BigUint::from(1u8);
     for i in 1..=short {
         for u in i..=half {
             let (low, high) = counts.split_at_mut(u);
@@ -214,13 +213,30 @@ fn gaussian_binomial(chosen: usize, others: usize) -> Vec<BigUint> {
     counts
 }
 
-/// Bytes of the counts of W: their number, the digits of C(chosen + others, chosen), and what a
+/// Refuses a law of `values` counts, none above C(chosen + others, chosen): their digits, and what a
 /// vector of digits costs beside them.
-fn rank_sum_bytes(chosen: f64, others: f64) -> f64 {
-    let n = chosen + others;
-    let share = chosen / n;
+fn check_memory(
+    statistic: char,
+    samples: &Samples,
+    values: f64,
+    chosen: usize,
+    others: usize,
+) -> Result<(), NullLawError> {
+    let n = chosen as f64 + others as f64;
+    let share = chosen as f64 / n;
     let entropy = -share * libm::log2(share) - (1.0 - share) * libm::log2(1.0 - share);
-    (chosen * others + 1.0) * (n * entropy / 8.0 + 40.0)
+    let bytes = values * (n * entropy / 8.0 + 40.0);
+    match bytes > MEMORY_LIMIT {
+        true => Err(NullLawError::TooLarge {
+            statistic,
+            reference: samples.reference(),
+            shift: samples.shift(),
+            scale: samples.scale(),
+            gigabytes: bytes / 1e9,
+            limit: MEMORY_LIMIT / 1e9,
+        }),
+        false => Ok(()),
+    }
 }
 
 #[cfg(test)]
@@ -283,7 +299,10 @@ mod tests {
                 all += 1;
             });
             let samples = sizes(n, m1, m2);
-            let (w, t) = (Law::rank_sum(&samples).unwrap(), Law::exceedances(&samples));
+            let (w, t) = (
+                NullLaw::rank_sum(&samples).unwrap(),
+                NullLaw::exceedances(&samples).unwrap(),
+            );
             let cases = w.total() * t.total();
             assert_eq!(cases, BigUint::from(all as u64), "{n}/{m1}/{m2}: (13)");
             for rank_sum in w.first()..=w.last() {
@@ -321,7 +340,7 @@ mod tests {
     #[test]
     fn rank_sum_agrees_with_the_recursion() {
         for (n, m1, m2) in [(12, 12, 12), (30, 20, 25)] {
-            let law = Law::rank_sum(&sizes(n, m1, m2)).unwrap();
+            let law = NullLaw::rank_sum(&sizes(n, m1, m2)).unwrap();
             for (u, count) in recursion(m1, n + m2).into_iter().enumerate() {
                 assert_eq!(law.count(law.first() + u as u64), BigUint::from(count));
             }
@@ -335,7 +354,7 @@ mod tests {
     #[test]
     fn exceedances_agree_with_the_formula() {
         for (n, m2) in [(12u128, 12u128), (30, 25), (2, 7)] {
-            let law = Law::exceedances(&sizes(n as usize, 1, m2 as usize));
+            let law = NullLaw::exceedances(&sizes(n as usize, 1, m2 as usize)).unwrap();
             assert_eq!(*law.total(), BigUint::from(choose(n + m2, n)));
             for t in 0..=m2 {
                 let count = (t + 1) * choose(n + m2 - t - 2, n - 2);
@@ -349,7 +368,10 @@ mod tests {
     #[test]
     fn anchors() {
         let samples = sizes(12, 12, 12);
-        let (w, t) = (Law::rank_sum(&samples).unwrap(), Law::exceedances(&samples));
+        let (w, t) = (
+            NullLaw::rank_sum(&samples).unwrap(),
+            NullLaw::exceedances(&samples).unwrap(),
+        );
         assert_eq!(w.critical(0.01), 291);
         assert!((w.tail(291) - 0.009972063).abs() < 5e-10);
         assert!((t.tail(7) - 0.0135953695).abs() < 5e-11);
@@ -361,18 +383,18 @@ mod tests {
     /// Nothing overflows, no tail is lost: the last mass is 1/C(600, 200), about 1e-165.
     #[test]
     fn large_sizes_keep_their_tails() {
-        let law = Law::rank_sum(&sizes(200, 200, 200)).unwrap();
+        let law = NullLaw::rank_sum(&sizes(200, 200, 200)).unwrap();
         let last = (0..200).fold(1.0, |p, i| p * f64::from(200 - i) / f64::from(600 - i));
         assert!((law.mass(law.last()) / last - 1.0).abs() < 1e-12);
         assert_eq!(law.tail(law.first()), 1.0);
-        let t = Law::exceedances(&sizes(200, 200, 200));
+        let t = NullLaw::exceedances(&sizes(200, 200, 200)).unwrap();
         assert!(t.tail(200) > 0.0 && t.tail(0) == 1.0);
     }
 
     #[test]
     fn doubled_deviation_folds_the_law() {
         for (n, m1, m2) in [(3, 2, 2), (3, 3, 2), (12, 12, 12)] {
-            let law = Law::rank_sum(&sizes(n, m1, m2)).unwrap();
+            let law = NullLaw::rank_sum(&sizes(n, m1, m2)).unwrap();
             let folded = law.doubled_deviation();
             let centre = law.first() + law.last();
             for deviation in 0..=folded.last() {
@@ -387,9 +409,11 @@ mod tests {
 
     #[test]
     fn refuses_what_does_not_fit_and_says_how_much() {
-        let error = Law::rank_sum(&sizes(100_000, 100_000, 100_000)).unwrap_err();
+        let error = NullLaw::rank_sum(&sizes(100_000, 100_000, 100_000)).unwrap_err();
         assert!(error.to_string().contains("GB"), "{error}");
-        assert!(Law::rank_sum(&sizes(5000, 12, 5000)).is_ok());
+        assert!(NullLaw::rank_sum(&sizes(5000, 12, 5000)).is_ok());
+        let error = NullLaw::exceedances(&sizes(300_000, 1, 300_000)).unwrap_err();
+        assert!(error.to_string().contains("law of T"), "{error}");
     }
 
     #[test]
@@ -400,7 +424,10 @@ mod tests {
         assert_eq!(ratio(&big(2), &big(3)), 2.0 / 3.0);
         assert_eq!(ratio(&big(0), &big(3)), 0.0);
         assert_eq!(
-            ratio(&(BigUint::one() << 2000u32), &(BigUint::one() << 2900u32)),
+            ratio(
+                &(BigUint::from(1u8) << 2000u32),
+                &(BigUint::from(1u8) << 2900u32)
+            ),
             2f64.powi(-900)
         );
     }

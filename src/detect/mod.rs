@@ -12,7 +12,7 @@ mod samples;
 mod statistics;
 
 pub use design::NullLaws;
-pub use law::{Law, LawError};
+pub use law::{NullLaw, NullLawError};
 pub use region::{Region, RegionError};
 pub use rule::{Alternative, Rule};
 pub use samples::{Samples, SamplesError};

@@ -4,7 +4,6 @@
 //! not tell them apart. So the order of the cells near the boundary is decided in whole numbers.
 
 use super::design::NullLaws;
-use super::region::NEVER;
 use num_bigint::BigUint;
 
 impl NullLaws {
@@ -16,11 +15,7 @@ impl NullLaws {
         loop {
             let grown = self.with_next_product(&critical);
             if self.size(&grown) > alpha {
-                let past = self.score.last() + 1;
-                return critical
-                    .into_iter()
-                    .map(|c| if c >= past { NEVER } else { c })
-                    .collect();
+                return critical;
             }
             critical = grown;
         }

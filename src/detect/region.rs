@@ -17,7 +17,7 @@
 //!
 //! [^1]: see [`crate::signal`].
 
-use super::law::LawError;
+use super::law::NullLawError;
 use super::rule::{Alternative, Rule};
 use super::statistics::Statistics;
 
@@ -114,7 +114,7 @@ pub enum RegionError {
     },
     /// The laws themselves.
     #[error(transparent)]
-    Law(#[from] LawError),
+    Law(#[from] NullLawError),
 }
 
 /// Four digits, never below the value.

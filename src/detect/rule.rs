@@ -1,10 +1,9 @@
 //! What a region is made for: the rule that fills it and the sign of Δ it looks for.
 
-use serde::Serialize;
 use std::fmt;
 
 /// How a region is filled.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Rule {
     /// W alone.
     Wilcoxon,
@@ -19,7 +18,7 @@ pub enum Rule {
 }
 
 /// The sign of Δ that a region is made for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Alternative {
     /// Δ > 0.
     Greater,

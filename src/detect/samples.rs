@@ -4,12 +4,11 @@
 //!
 //! [^1]: see [`crate::signal`].
 
-use serde::Serialize;
 use std::fmt;
 use std::ops::Range;
 
 /// Sizes and spacing of X, Y₁ and Y₂.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Samples {
     reference: usize,
     shift: usize,

@@ -2,131 +2,190 @@
 //! false-alarm rate.
 
 use super::FigureError;
-use super::frame::{CAPTION, Frame, SMALL, Scale};
-use super::sheet::{Align, Marker, Picture, Sheet, Style, text_width};
-use super::words::{axis_label, caption, legend, rule_name};
+use super::frame::{CAPTION, Frame, Scale};
+use super::legend::Legend;
+use super::sheet::{Align, Look, Picture, Sheet, Style};
+use super::words::{axis_label, caption, is_held_against_alpha, legend};
 use crate::config::{Config, Parameter};
 use crate::results::{Manifest, Row};
-use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor, WHITE};
-
-/// Colours that remain apart for colour-blind readers (Okabe and Ito), each with its marker.
-const LOOKS: [(RGBColor, Marker); 6] = [
-    (RGBColor(0, 114, 178), Marker::Disc),
-    (RGBColor(213, 94, 0), Marker::Square),
-    (RGBColor(0, 158, 115), Marker::Triangle),
-    (RGBColor(204, 121, 167), Marker::Diamond),
-    (RGBColor(230, 159, 0), Marker::Wedge),
-    (RGBColor(86, 180, 233), Marker::Cross),
-];
+use plotters::prelude::{BLACK, Color, DrawingBackend, WHITE};
 
 const WIDTH: f64 = 396.0;
-const HEIGHT: f64 = 290.0;
+/// Without legend above and caption below.
+const HEIGHT: f64 = 262.0;
 const LINE: f64 = 1.1;
+const MARKER: f64 = 2.3;
 const CAPTION_STEP: f64 = 10.5;
 const CAPTION_LEFT: f64 = 10.0;
-const CAPTION_WIDTH: f64 = WIDTH - 2.0 * CAPTION_LEFT;
-const MARKER: f64 = 2.3;
+/// Values that span more than this are drawn on a logarithmic axis.
+const LONG_RANGE: f64 = 30.0;
 
 /// The picture of a sweep.
 pub(super) struct Curves {
     curves: Vec<Curve>,
     axis: Parameter,
-    /// Axis values that are names, in order.
-    names: Option<Vec<String>>,
+    scale: Scale,
+    /// Whether the axis holds names, with curves side by side at each.
+    is_named: bool,
+    is_whitened: bool,
     /// What a unit of Δ in the record becomes after whitening, where every curve agrees.
     whitened_unit: Option<f64>,
-    alpha: Option<f64>,
+    /// The level that false-alarm rates are held against.
+    nominal: Option<f64>,
     is_false_alarm: bool,
     caption: Vec<String>,
 }
 
 struct Curve {
     legend: String,
-    look: (RGBColor, Marker),
-    /// x, rate, low, high.
-    points: Vec<(f64, f64, f64, f64)>,
+    look: Look,
+    points: Vec<Point>,
+}
+
+/// A rate and its interval, at a place on the axis.
+#[derive(Clone, Copy)]
+struct Point {
+    x: f64,
+    rate: f64,
+    low: f64,
+    high: f64,
 }
 
 impl Curves {
     pub fn new(config: &Config, rows: &[Row], manifest: &Manifest) -> Result<Self, FigureError> {
         let axis = config.axis.parameter;
-        let names = (axis == Parameter::Rule).then(|| distinct(rows.iter().map(rule_name)));
         let drawn: Vec<Vec<&Row>> = (1..=config.curves.len())
             .map(|index| rows_of(rows, index))
             .collect();
         let all: Vec<&Row> = drawn.iter().flatten().copied().collect();
-        let Some(first) = all.first() else {
+        if all.is_empty() {
             return Err(FigureError::Empty(axis.name()));
-        };
-        let x = |row: &Row| match &names {
-            Some(names) => names
-                .iter()
-                .position(|name| *name == rule_name(row))
-                .unwrap_or(0) as f64,
-            None => column(row, axis),
-        };
-        let curves = drawn
+        }
+        let ruler = Ruler::new(config, &all);
+        let mut curves: Vec<Curve> = Vec::new();
+        for (index, rows) in drawn
             .iter()
             .enumerate()
             .filter(|(_, rows)| !rows.is_empty())
-            .map(|(index, rows)| Curve {
+        {
+            let mut points: Vec<Point> = (0..rows.len())
+                .map(|i| point(ruler.place(rows, i), rows[i]))
+                .collect();
+            points.sort_by(|a, b| a.x.total_cmp(&b.x));
+            curves.push(Curve {
                 legend: legend(rows, &all, axis),
-                look: LOOKS[index % LOOKS.len()],
-                points: rows
-                    .iter()
-                    .map(|row| (x(row), row.rate, row.low, row.high))
-                    .collect(),
+                look: Look::of(index),
+                points,
             });
+        }
+        let places: Vec<f64> = curves
+            .iter()
+            .flat_map(|curve| &curve.points)
+            .map(|p| p.x)
+            .collect();
         Ok(Self {
-            curves: curves.collect(),
+            scale: ruler.scale(&places),
+            is_named: !ruler.rules.is_empty(),
+            is_whitened: all.iter().all(|row| row.delta_at == "whitened"),
             whitened_unit: whitened_unit(config, &all),
-            alpha: all
-                .iter()
-                .all(|row| row.alpha == first.alpha)
-                .then_some(first.alpha),
+            nominal: is_held_against_alpha(&all).then_some(all[0].alpha),
             is_false_alarm: all.iter().all(|row| row.is_at_rest()),
-            caption: caption(&all, axis, manifest, CAPTION_WIDTH),
+            caption: caption(&all, axis, manifest, WIDTH - 2.0 * CAPTION_LEFT),
+            curves,
             axis,
-            names,
         })
     }
 
-    fn frame(&self) -> Frame {
-        let points = || self.curves.iter().flat_map(|curve| &curve.points);
-        let low = points().map(|p| p.0).fold(f64::INFINITY, f64::min);
-        let high = points().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);
-        let x = match &self.names {
-            Some(names) => Scale::names(names),
-            None if low == high => Scale::linear(low - 0.5, high + 0.5, 4),
-            None => Scale::linear(low, high, 7),
-        };
+    fn points(&self) -> impl Iterator<Item = &Point> {
+        self.curves.iter().flat_map(|curve| &curve.points)
+    }
+
+    /// The frame with `above` points left free over it.
+    fn frame(&self, above: f64) -> Frame {
         let y = match self.is_false_alarm {
             false => Scale {
                 to: 1.03,
                 ..Scale::linear(0.0, 1.0, 5)
             },
             true => {
-                let bottom = points()
-                    .map(|p| p.2)
-                    .chain(self.alpha)
+                let bottom = self
+                    .points()
+                    .map(|p| p.low)
+                    .chain(self.nominal)
                     .fold(f64::INFINITY, f64::min);
-                let top = points().map(|p| p.3).chain(self.alpha).fold(0.0, f64::max);
+                let top = self
+                    .points()
+                    .map(|p| p.high)
+                    .chain(self.nominal)
+                    .fold(0.0, f64::max);
                 let room = (top - bottom).max(1e-9);
-                Scale::linear((bottom - 0.1 * room).max(0.0), top + 0.8 * room, 6)
+                Scale::linear((bottom - 0.1 * room).max(0.0), top + 0.1 * room, 6)
             }
         };
-        Frame {
-            left: 48.0,
-            right: WIDTH - 10.0,
-            top: if self.whitened_unit.is_some() {
+        let top = above
+            + if self.whitened_unit.is_some() {
                 32.0
             } else {
                 10.0
-            },
-            bottom: HEIGHT - 40.0 - CAPTION_STEP * self.caption.len() as f64,
-            x,
+            };
+        Frame {
+            left: 48.0,
+            right: WIDTH - 16.0,
+            top,
+            bottom: above + HEIGHT - 40.0,
+            x: self.scale.clone(),
             y,
         }
+    }
+
+    /// Where each curve stands beside the others at a name.
+    fn aside(&self, index: usize) -> f64 {
+        let step = 0.11f64.min(0.8 / self.curves.len() as f64);
+        match self.is_named {
+            true => step * (index as f64 - (self.curves.len() - 1) as f64 / 2.0),
+            false => 0.0,
+        }
+    }
+
+    /// The legend and its place; none for one curve without a name of its own.
+    fn legend(&self) -> Option<(Legend, Option<(f64, f64)>)> {
+        let entries: Vec<_> = self
+            .curves
+            .iter()
+            .map(|curve| (curve.legend.clone(), curve.look))
+            .collect();
+        if entries.len() == 1 && entries[0].0 == "1" {
+            return None;
+        }
+        let legend = Legend {
+            entries,
+            with_lines: !self.is_named,
+        };
+        let corner = legend.free_corner(&self.frame(0.0), &self.covered());
+        Some((legend, corner))
+    }
+
+    /// Points on the sheet that a legend must not hide: bands and lines, finely.
+    fn covered(&self) -> Vec<(f64, f64)> {
+        let frame = self.frame(0.0);
+        let mut covered = Vec::new();
+        for (index, curve) in self.curves.iter().enumerate() {
+            let ends =
+                |p: &Point| [p.low, p.rate, p.high].map(|y| frame.at(p.x + self.aside(index), y));
+            covered.extend(curve.points.iter().flat_map(ends));
+            for pair in curve.points.windows(2).filter(|_| !self.is_named) {
+                for (a, b) in ends(&pair[0]).into_iter().zip(ends(&pair[1])) {
+                    let between = |i: i32| f64::from(i) / 16.0;
+                    covered.extend((1..16).map(|i| {
+                        (
+                            a.0 + between(i) * (b.0 - a.0),
+                            a.1 + between(i) * (b.1 - a.1),
+                        )
+                    }));
+                }
+            }
+        }
+        covered
     }
 
     fn draw_lines<B: DrawingBackend>(
@@ -134,139 +193,102 @@ impl Curves {
         sheet: &Sheet<B>,
         frame: &Frame,
     ) -> Result<(), FigureError> {
-        for curve in &self.curves {
-            let at = |pick: fn(&(f64, f64, f64, f64)) -> f64| {
-                curve.points.iter().map(move |p| frame.at(p.0, pick(p)))
-            };
-            let band: Vec<_> = at(|p| p.3).chain(at(|p| p.2).rev()).collect();
-            sheet.area(&band, curve.look.0.mix(0.18))?;
-            let line: Vec<_> = at(|p| p.1).collect();
-            sheet.line(&line, LINE, curve.look.0.to_rgba())?;
-        }
-        for curve in &self.curves {
-            for &(x, rate, ..) in &curve.points {
-                sheet.marker(curve.look.1, frame.at(x, rate), MARKER, curve.look.0)?;
-            }
+        for Curve { points, look, .. } in &self.curves {
+            let upper = points.iter().map(|p| frame.at(p.x, p.high));
+            let lower = points.iter().rev().map(|p| frame.at(p.x, p.low));
+            let band: Vec<_> = upper.chain(lower).collect();
+            sheet.area(&band, look.colour.mix(0.18))?;
+            let line: Vec<_> = points.iter().map(|p| frame.at(p.x, p.rate)).collect();
+            sheet.line(&line, LINE, look.colour.to_rgba())?;
         }
         Ok(())
     }
 
-    /// Beside each other at every name: a marker and its interval.
+    /// Each interval as an upright bar.
     fn draw_bars<B: DrawingBackend>(
         &self,
         sheet: &Sheet<B>,
         frame: &Frame,
     ) -> Result<(), FigureError> {
-        let middle = (self.curves.len() - 1) as f64 / 2.0;
-        for (index, curve) in self.curves.iter().enumerate() {
-            let aside = 0.11 * (index as f64 - middle);
-            for &(x, rate, low, high) in &curve.points {
-                let ends = [frame.at(x + aside, low), frame.at(x + aside, high)];
-                sheet.line(&ends, LINE, curve.look.0.to_rgba())?;
-                sheet.marker(
-                    curve.look.1,
-                    frame.at(x + aside, rate),
-                    MARKER,
-                    curve.look.0,
+        for (index, Curve { points, look, .. }) in self.curves.iter().enumerate() {
+            for p in points {
+                let x = p.x + self.aside(index);
+                sheet.line(
+                    &[frame.at(x, p.low), frame.at(x, p.high)],
+                    LINE,
+                    look.colour.to_rgba(),
                 )?;
             }
         }
         Ok(())
     }
 
-    /// The level that false-alarm rates are held against.
+    fn draw_markers<B: DrawingBackend>(
+        &self,
+        sheet: &Sheet<B>,
+        frame: &Frame,
+    ) -> Result<(), FigureError> {
+        for (index, Curve { points, look, .. }) in self.curves.iter().enumerate() {
+            for p in points {
+                let centre = frame.at(p.x + self.aside(index), p.rate);
+                sheet.marker(look.marker, centre, MARKER, look.colour)?;
+            }
+        }
+        Ok(())
+    }
+
     fn draw_nominal<B: DrawingBackend>(
         &self,
         sheet: &Sheet<B>,
         frame: &Frame,
     ) -> Result<(), FigureError> {
-        let Some(alpha) = self.alpha.filter(|_| self.is_false_alarm) else {
+        let Some(nominal) = self.nominal else {
             return Ok(());
         };
-        let (left, y) = frame.at(frame.x.from, alpha);
+        let (left, y) = frame.at(frame.x.from, nominal);
         sheet.line(&[(left, y), (frame.right, y)], 0.8, BLACK.mix(0.6))
     }
 
-    /// In the corner that covers the least of the curves.
-    fn draw_legend<B: DrawingBackend>(
-        &self,
-        sheet: &Sheet<B>,
-        frame: &Frame,
-    ) -> Result<(), FigureError> {
-        const STEP: f64 = 11.5;
-        let text = self
-            .curves
-            .iter()
-            .map(|curve| text_width(&curve.legend, SMALL));
-        let width = text.fold(0.0, f64::max) + 32.0;
-        let height = STEP * self.curves.len() as f64 + 6.0;
-        let (left, right) = (frame.left + 6.0, frame.right - 6.0 - width);
-        let (top, bottom) = (frame.top + 6.0, frame.bottom - 6.0 - height);
-        let corners = [(right, bottom), (left, top), (right, top), (left, bottom)];
-        let covered = |&(x, y): &(f64, f64)| {
-            let inside = |(px, py): (f64, f64)| {
-                px > x - 4.0 && px < x + width + 4.0 && py > y - 4.0 && py < y + height + 4.0
-            };
-            let points = self.curves.iter().flat_map(|curve| &curve.points);
-            points.filter(|p| inside(frame.at(p.0, p.1))).count()
-        };
-        let (x, y) = corners
-            .into_iter()
-            .min_by_key(covered)
-            .unwrap_or(corners[0]);
-        let box_corners = [
-            (x, y),
-            (x + width, y),
-            (x + width, y + height),
-            (x, y + height),
-        ];
-        sheet.area(&box_corners, WHITE.to_rgba())?;
-        let outline: Vec<_> = box_corners.into_iter().chain([(x, y)]).collect();
-        sheet.line(&outline, 0.4, BLACK.mix(0.3))?;
-        for (index, curve) in self.curves.iter().enumerate() {
-            let middle = y + 3.0 + STEP * (index as f64 + 0.5);
-            let (colour, marker) = curve.look;
-            if self.names.is_none() {
-                sheet.line(
-                    &[(x + 4.0, middle), (x + 22.0, middle)],
-                    LINE,
-                    colour.to_rgba(),
-                )?;
-            }
-            sheet.marker(marker, (x + 13.0, middle), MARKER, colour)?;
-            let style = Style::plain(SMALL, Align::Left);
-            sheet.text(&curve.legend, (x + 27.0, middle + 0.36 * SMALL), style)?;
+    /// What the legend takes above the plot, where no corner is free.
+    fn above(&self) -> f64 {
+        match self.legend() {
+            Some((legend, None)) => legend.height() + 8.0,
+            _ => 0.0,
         }
-        Ok(())
     }
 }
 
 impl Picture for Curves {
     fn size(&self) -> (f64, f64) {
-        (WIDTH, HEIGHT)
+        let caption = CAPTION_STEP * self.caption.len() as f64;
+        (WIDTH, self.above() + HEIGHT + caption)
     }
 
     fn draw<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
-        let frame = self.frame();
+        let (width, height) = self.size();
+        let frame = self.frame(self.above());
         sheet.area(
-            &[(0.0, 0.0), (WIDTH, 0.0), (WIDTH, HEIGHT), (0.0, HEIGHT)],
+            &[(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)],
             WHITE.to_rgba(),
         )?;
         frame.draw_grid(sheet)?;
         self.draw_nominal(sheet, &frame)?;
-        match self.names {
-            None => self.draw_lines(sheet, &frame)?,
-            Some(_) => self.draw_bars(sheet, &frame)?,
+        match self.is_named {
+            false => self.draw_lines(sheet, &frame)?,
+            true => self.draw_bars(sheet, &frame)?,
         }
-        self.draw_legend(sheet, &frame)?;
         let y_label = match self.is_false_alarm {
             true => "false-alarm rate",
             false => "D, probability of detection",
         };
-        frame.draw_axes(sheet, axis_label(self.axis), y_label)?;
+        frame.draw_axes(sheet, axis_label(self.axis, self.is_whitened), y_label)?;
         if let Some(unit) = self.whitened_unit {
             let scale = Scale::linear(frame.x.from * unit, frame.x.to * unit, 8);
-            frame.draw_top(sheet, &scale, "Δ(1 − β)/σ_ξ, the shift after whitening")?;
+            frame.draw_top(sheet, &scale, axis_label(Parameter::Delta, true))?;
+        }
+        self.draw_markers(sheet, &frame)?;
+        if let Some((legend, corner)) = self.legend() {
+            legend.draw(sheet, corner.unwrap_or((frame.left, 4.0)))?;
         }
         for (line, text) in (0..).zip(&self.caption) {
             let baseline = frame.bottom + 41.0 + CAPTION_STEP * f64::from(line);
@@ -280,6 +302,99 @@ impl Picture for Curves {
     }
 }
 
+/// Where the rows of a sweep stand on its axis.
+struct Ruler<'a> {
+    config: &'a Config,
+    is_logarithmic: bool,
+    /// The rules on a rule axis, in order.
+    rules: Vec<String>,
+}
+
+impl<'a> Ruler<'a> {
+    fn new(config: &'a Config, rows: &[&Row]) -> Self {
+        let mut rules: Vec<String> = Vec::new();
+        for row in rows
+            .iter()
+            .filter(|_| config.axis.parameter == Parameter::Rule)
+        {
+            if !rules.contains(&row.rule) {
+                rules.push(row.rule.clone());
+            }
+        }
+        let values = || config.axis.values.iter().filter_map(|value| value.number());
+        let smallest = values().fold(f64::INFINITY, f64::min);
+        let largest = values().fold(f64::NEG_INFINITY, f64::max);
+        Self {
+            config,
+            is_logarithmic: smallest > 0.0 && largest >= LONG_RANGE * smallest,
+            rules,
+        }
+    }
+
+    /// Of the row at `index` among those of its curve. A curve with a row for each value of the axis
+    /// is placed by the values themselves, which a row need not repeat (a known filter has no
+    /// training); at rest equal points are told once, and the rows must do.
+    fn place(&self, rows: &[&Row], index: usize) -> f64 {
+        let (row, values) = (rows[index], &self.config.axis.values);
+        if !self.rules.is_empty() {
+            return self
+                .rules
+                .iter()
+                .position(|rule| *rule == row.rule)
+                .unwrap_or(0) as f64;
+        }
+        let value = match rows.len() == values.len() {
+            true => values[index].number().unwrap_or(0.0),
+            false => column(row, self.config.axis.parameter),
+        };
+        if self.is_logarithmic {
+            libm::log10(value)
+        } else {
+            value
+        }
+    }
+
+    /// From the first place to the last, with a little room on either side.
+    fn scale(&self, places: &[f64]) -> Scale {
+        let low = places.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let room = 0.015 * (high - low);
+        let scale = match (self.rules.is_empty(), self.is_logarithmic) {
+            (false, _) => return Scale::names(&self.names()),
+            (true, _) if low == high => return Scale::single(low),
+            (true, true) => Scale::logarithms(low, high),
+            (true, false) => Scale::linear(low, high, 7),
+        };
+        Scale {
+            from: low - room,
+            to: high + room,
+            ..scale
+        }
+    }
+
+    /// The rules without their tables, tables numbered where there are several.
+    fn names(&self) -> Vec<String> {
+        let is_table = |rule: &&String| rule.starts_with("table");
+        let several = self.rules.iter().filter(is_table).count() > 1;
+        let mut tables = 0;
+        let name = |rule: &String| match (several && is_table(&rule), rule.split('(').next()) {
+            (true, _) => {
+                tables += 1;
+                format!("table {tables}")
+            }
+            (false, name) => name.unwrap_or_default().to_owned(),
+        };
+        self.rules.iter().map(name).collect()
+    }
+}
+
+/// A row's rate and interval, from its counts.
+fn point(x: f64, row: &Row) -> Point {
+    let (low, high) = row.tally().interval(row.confidence);
+    let rate = row.tally().rate();
+    Point { x, rate, low, high }
+}
+
 /// The rows a curve is drawn from: those in motion, or at rest where nothing ever moves.
 fn rows_of(rows: &[Row], curve: usize) -> Vec<&Row> {
     let of_curve = || rows.iter().filter(|row| row.curve == curve);
@@ -288,16 +403,6 @@ fn rows_of(rows: &[Row], curve: usize) -> Vec<&Row> {
         true => of_curve().collect(),
         false => in_motion,
     }
-}
-
-fn distinct(values: impl Iterator<Item = String>) -> Vec<String> {
-    let mut seen = Vec::new();
-    for value in values {
-        if !seen.contains(&value) {
-            seen.push(value);
-        }
-    }
-    seen
 }
 
 /// The value of the axis at a row.
@@ -309,7 +414,7 @@ fn column(row: &Row, parameter: Parameter) -> f64 {
         Parameter::Nu => row.nu,
         Parameter::Theta => row.theta,
         Parameter::Quantum => row.quantum.unwrap_or(0.0),
-        Parameter::Range => row.range.unwrap_or(f64::INFINITY),
+        Parameter::Range => row.range.unwrap_or(0.0),
         Parameter::Training => row.training as f64,
         Parameter::Order => row.order as f64,
         Parameter::AllSamples | Parameter::Shift => row.shift as f64,
@@ -322,14 +427,14 @@ fn column(row: &Row, parameter: Parameter) -> f64 {
     }
 }
 
-/// 1 − β, where the axis is Δ in the record and every curve has the same sensor.
+/// 1 − β, where the axis is Δ in the record and every curve has the same sensor, undecimated.
 fn whitened_unit(config: &Config, rows: &[&Row]) -> Option<f64> {
     let first = rows.first()?;
-    let agree = rows
-        .iter()
-        .all(|row| row.delta_at == "record" && row.sensor == first.sensor);
+    let agrees =
+        |row: &&Row| row.delta_at == "record" && row.sensor == first.sensor && row.decimation == 1;
     let scenario = config
         .scenario(first.curve - 1, config.axis.values.first()?)
         .ok()?;
-    (agree && config.axis.parameter == Parameter::Delta).then(|| scenario.sensor.step_gain())
+    let is_delta = config.axis.parameter == Parameter::Delta;
+    (is_delta && rows.iter().all(agrees)).then(|| scenario.sensor.step_gain())
 }

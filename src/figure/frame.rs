@@ -52,6 +52,35 @@ impl Scale {
         }
     }
 
+    /// One value in the middle.
+    pub fn single(value: f64) -> Self {
+        Self {
+            from: value - 0.5,
+            to: value + 0.5,
+            ticks: vec![(value, minus_sign(value.to_string()))],
+        }
+    }
+
+    /// Decimal logarithms, `from` to `to`, with ticks at 1, 2 and 5 times the powers of ten.
+    pub fn logarithms(from: f64, to: f64) -> Self {
+        let powers = (from.floor() as i32)..=(to.ceil() as i32);
+        let values =
+            powers.flat_map(|power| [1.0, 2.0, 5.0].map(|factor| factor * 10f64.powi(power)));
+        let ticks = values.map(|value| {
+            (
+                libm::log10(value),
+                format!("{}", (value * 1e12).round() / 1e12),
+            )
+        });
+        Self {
+            from,
+            to,
+            ticks: ticks
+                .filter(|(x, _)| (from - 1e-9..=to + 1e-9).contains(x))
+                .collect(),
+        }
+    }
+
     /// Names at 0, 1, 2, …
     pub fn names(names: &[String]) -> Self {
         Self {

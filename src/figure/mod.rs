@@ -5,6 +5,7 @@
 
 mod curves;
 mod frame;
+mod legend;
 mod region;
 mod sheet;
 mod svg;
@@ -48,18 +49,23 @@ pub fn sweep(config: &Config, rows: &[Row], manifest: &Manifest) -> Result<Drawi
         "liftsim {}, config {} ({}), seed {}, {} trials per point",
         manifest.version,
         manifest.config_name,
-        &manifest.config_sha256[..12],
+        manifest.short_hash(),
         manifest.seed,
         manifest.trials
     );
     sheet::render(&curves::Curves::new(config, rows, manifest)?, &provenance)
 }
 
-/// Draws the plane of W and T: the null probability of every cell, and the region in it.
+/// Draws the plane of W and T: the null probability of every cell, and the region in it. `title` is in
+/// parts, between which a line may break.
 ///
 /// # Errors
 /// Where drawing fails.
-pub fn region(laws: &NullLaws, region: &Region, title: &str) -> Result<Drawing, FigureError> {
-    let provenance = format!("liftsim {}, {title}", env!("CARGO_PKG_VERSION"));
+pub fn region(laws: &NullLaws, region: &Region, title: &[String]) -> Result<Drawing, FigureError> {
+    let provenance = format!(
+        "liftsim {}, {}",
+        env!("CARGO_PKG_VERSION"),
+        title.join("; ")
+    );
     sheet::render(&region::Plane::new(laws, region, title), &provenance)
 }

@@ -1,14 +1,15 @@
 //! The plane of W and T: the null probability of every cell on a logarithmic scale, and the region ϑ.
 
 use super::FigureError;
-use super::frame::{Frame, NORMAL, SMALL, Scale};
+use super::frame::{CAPTION, Frame, SMALL, Scale};
 use super::sheet::{Align, Picture, Sheet, Style};
+use super::words::wrap;
 use crate::detect::{NullLaws, Region, Statistics};
 use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor};
 
 const WIDTH: f64 = 396.0;
 const HEIGHT: f64 = 290.0;
-/// Cells less probable than this are left white.
+/// Cells less probable than this are as pale as it.
 const FAINTEST: f64 = 1e-12;
 /// Columns of the picture; a wide law is drawn by the largest probability in each.
 const COLUMNS: usize = 160;
@@ -17,11 +18,12 @@ const COLUMNS: usize = 160;
 pub(super) struct Plane<'a> {
     laws: &'a NullLaws,
     region: &'a Region,
-    title: &'a str,
+    title: Vec<String>,
 }
 
 impl<'a> Plane<'a> {
-    pub fn new(laws: &'a NullLaws, region: &'a Region, title: &'a str) -> Self {
+    pub fn new(laws: &'a NullLaws, region: &'a Region, title: &[String]) -> Self {
+        let title = wrap(title, WIDTH - 58.0);
         Self {
             laws,
             region,
@@ -48,7 +50,7 @@ impl Picture for Plane<'_> {
         let frame = Frame {
             left: 48.0,
             right: WIDTH - 76.0,
-            top: 22.0,
+            top: 12.0 + 10.5 * self.title.len() as f64,
             bottom: HEIGHT - 40.0,
             x: Scale::linear(low as f64 - 0.5, high as f64 + 0.5, 7),
             y: Scale::linear(-0.5, exceedances.last() as f64 + 0.5, 8),
@@ -61,11 +63,11 @@ impl Picture for Plane<'_> {
         self.draw_cells(sheet, &frame, low, high)?;
         self.draw_key(sheet, &frame)?;
         frame.draw_axes(sheet, "W, rank sum of Y_1", "T, exceedances of Y_2")?;
-        sheet.text(
-            self.title,
-            (frame.left, 14.0),
-            Style::plain(SMALL, Align::Left),
-        )
+        for (line, text) in (0..).zip(&self.title) {
+            let baseline = (frame.left, 13.0 + 10.5 * f64::from(line));
+            sheet.text(text, baseline, Style::plain(CAPTION, Align::Left))?;
+        }
+        Ok(())
     }
 }
 
@@ -83,18 +85,23 @@ impl Plane<'_> {
             let mass = self.laws.exceedances().mass(t);
             for from in (low..=high).step_by(width as usize) {
                 let to = (from + width - 1).min(high);
-                let statistics = |rank_sum| Statistics {
-                    rank_sum,
-                    exceedances: t as usize,
-                };
                 let of_column = &rank_sum[(from - low) as usize..=(to - low) as usize];
                 let probability = of_column.iter().copied().fold(0.0, f64::max) * mass;
-                let is_inside =
-                    self.region.contains(statistics(from)) || self.region.contains(statistics(to));
-                let (left, bottom) = frame.at(from as f64 - 0.5, t as f64 - 0.5);
-                let (right, top) = frame.at(to as f64 + 0.5, t as f64 + 0.5);
-                let cell = [(left, top), (right, top), (right, bottom), (left, bottom)];
-                sheet.area(&cell, shade(probability, is_inside).to_rgba())?;
+                let is_inside = |rank_sum: &u64| {
+                    self.region.contains(Statistics {
+                        rank_sum: *rank_sum,
+                        exceedances: t as usize,
+                    })
+                };
+                // A column is split where the region's boundary runs through it.
+                let cells: Vec<u64> = (from..=to).collect();
+                for run in cells.chunk_by(|a, b| is_inside(a) == is_inside(b)) {
+                    let (first, last) = (run[0] as f64, run[run.len() - 1] as f64);
+                    let (left, bottom) = frame.at(first - 0.5, t as f64 - 0.5);
+                    let (right, top) = frame.at(last + 0.5, t as f64 + 0.5);
+                    let cell = [(left, top), (right, top), (right, bottom), (left, bottom)];
+                    sheet.area(&cell, shade(probability, is_inside(&run[0])).to_rgba())?;
+                }
             }
         }
         Ok(())
@@ -129,9 +136,9 @@ impl Plane<'_> {
         }
         let below = top + step * 6.0 + 8.0;
         sheet.text(
-            "P(W, T)",
+            "P(W, T | H_0)",
             (left, below),
-            Style::plain(0.9 * NORMAL, Align::Left),
+            Style::plain(SMALL, Align::Left),
         )
     }
 }

@@ -78,6 +78,40 @@ pub(super) enum Marker {
     Wedge,
 }
 
+/// What tells one curve from another.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Look {
+    pub colour: RGBColor,
+    pub marker: Marker,
+}
+
+impl Look {
+    /// The look of curve `index`: colours that remain apart for colour-blind readers (Okabe and Ito),
+    /// and markers that shift against them, so that 36 curves differ.
+    pub fn of(index: usize) -> Self {
+        const COLOURS: [RGBColor; 6] = [
+            RGBColor(0, 114, 178),
+            RGBColor(213, 94, 0),
+            RGBColor(0, 158, 115),
+            RGBColor(204, 121, 167),
+            RGBColor(230, 159, 0),
+            RGBColor(86, 180, 233),
+        ];
+        const MARKERS: [Marker; 6] = [
+            Marker::Disc,
+            Marker::Square,
+            Marker::Triangle,
+            Marker::Diamond,
+            Marker::Wedge,
+            Marker::Cross,
+        ];
+        Self {
+            colour: COLOURS[index % 6],
+            marker: MARKERS[(index + index / 6) % 6],
+        }
+    }
+}
+
 /// Draws `picture` in both its forms.
 pub(super) fn render(picture: &impl Picture, provenance: &str) -> Result<Drawing, FigureError> {
     register_embedded_font();
@@ -168,18 +202,26 @@ fn register_embedded_font() {
     });
 }
 
+/// Stands for an underscore that is meant as one.
+const UNDERSCORE: char = '\u{e000}';
+
+/// A user's own words: an underscore in them lowers nothing.
+pub(super) fn literal(text: &str) -> String {
+    text.replace('_', &UNDERSCORE.to_string())
+}
+
 /// Width of a text in points at `size`, subscripts included.
 pub(super) fn text_width(text: &str, size: f64) -> f64 {
     runs(text).iter().map(|run| run.width(size)).sum()
 }
 
 /// A stretch of text on one line, or one character below it.
-struct Run<'a> {
-    text: &'a str,
+struct Run {
+    text: String,
     is_subscript: bool,
 }
 
-impl Run<'_> {
+impl Run {
     fn scale(&self) -> f64 {
         if self.is_subscript { 0.7 } else { 1.0 }
     }
@@ -192,7 +234,7 @@ impl Run<'_> {
     }
 }
 
-fn runs(text: &str) -> Vec<Run<'_>> {
+fn runs(text: &str) -> Vec<Run> {
     let mut runs = Vec::new();
     for (index, part) in text.split('_').enumerate() {
         let lowered = match index {
@@ -201,6 +243,7 @@ fn runs(text: &str) -> Vec<Run<'_>> {
         };
         for (text, is_subscript) in [(&part[..lowered], true), (&part[lowered..], false)] {
             if !text.is_empty() {
+                let text = text.replace(UNDERSCORE, "_");
                 runs.push(Run { text, is_subscript });
             }
         }
@@ -309,7 +352,7 @@ impl<B: DrawingBackend> Sheet<B> {
                 true => font.transform(FontTransform::Rotate270),
             };
             let drawn = TextStyle::from(font).color(&style.colour);
-            self.put(&Text::new(run.text.to_owned(), self.at(position), drawn))?;
+            self.put(&Text::new(run.text.clone(), self.at(position), drawn))?;
             along += run.width(style.size);
         }
         Ok(())

@@ -1,12 +1,200 @@
-//! What a picture says about its curves: legend, axis, caption.
+//! What a picture says about its curves: legend, axis, caption, all from the rows themselves.
+//!
+//! Every parameter is a [`Fact`] in words. What all points share stands in the caption, unless it is
+//! a default nobody needs to be told; what tells curves apart stands in the legend.
 
 use super::frame::CAPTION;
-use super::sheet::text_width;
+use super::sheet::{literal, text_width};
 use crate::config::Parameter;
 use crate::results::{Manifest, Row};
 
-pub(super) fn axis_label(parameter: Parameter) -> &'static str {
+/// One parameter, or a few that belong together, in words.
+struct Fact {
+    /// The axes that would say the same.
+    axes: &'static [Parameter],
+    text: String,
+    /// Whether a caption may leave it out.
+    is_usual: bool,
+}
+
+/// The facts of a row, always the same ones in the same order.
+fn facts(row: &Row) -> Vec<Fact> {
+    use Parameter as P;
+    let said = |axes: &'static [P], text: String| Fact {
+        axes,
+        text,
+        is_usual: false,
+    };
+    let unless = |is_usual: bool, axes: &'static [P], text: String| Fact {
+        axes,
+        text,
+        is_usual,
+    };
+    let rest = row.is_at_rest();
+    let duration = (row.shift + row.gap).saturating_sub(row.offset);
+    let delta = match row.delta_at.as_str() {
+        "whitened" => format!("Δ(1 − β)/σ_ξ = {}", row.delta),
+        _ => format!("Δ/σ_ξ = {}", row.delta),
+    };
+    let number = |value: Option<f64>| value.map_or("none".to_owned(), |v| v.to_string());
+    vec![
+        said(&[P::Alpha], format!("α = {}", row.alpha)),
+        said(&[P::Rule], format!("rule {}", rule_name(row))),
+        unless(
+            row.alternative == "greater",
+            &[],
+            format!("alternative {}", row.alternative),
+        ),
+        said(
+            &[P::AllSamples, P::Reference],
+            format!("N = {}", row.reference),
+        ),
+        said(&[P::AllSamples, P::Shift], format!("M_1 = {}", row.shift)),
+        said(&[P::AllSamples, P::Scale], format!("M_2 = {}", row.scale)),
+        unless(row.gap == 0, &[P::Gap], format!("gap {}", row.gap)),
+        unless(
+            row.decimation == 1,
+            &[P::Decimation],
+            format!("means of {}", row.decimation),
+        ),
+        unless(rest, &[P::Delta], delta),
+        unless(
+            rest || row.profile == "rectangular",
+            &[],
+            literal(&row.profile),
+        ),
+        unless(
+            rest || row.duration == duration,
+            &[P::Duration],
+            format!("duration {}", row.duration),
+        ),
+        unless(
+            rest || row.offset == 0,
+            &[P::Offset],
+            format!("offset {}", row.offset),
+        ),
+        unless(rest, &[P::Nu], format!("ν = {}", row.nu)),
+        unless(rest, &[P::Theta], format!("θ/σ_ξ = {}", row.theta)),
+        unless(
+            rest || row.during == "motion",
+            &[],
+            "impulses in Y_2 alone".to_owned(),
+        ),
+        said(&[], format!("{} noise", literal(&row.noise))),
+        unless(
+            row.sensor == "ar(-1.5365 -0.75056)",
+            &[],
+            row.sensor.clone(),
+        ),
+        unless(
+            row.quantum.is_none(),
+            &[P::Quantum],
+            format!("step {} σ_ξ", number(row.quantum)),
+        ),
+        unless(
+            row.range.is_none(),
+            &[P::Range],
+            format!("range {} σ_ξ", number(row.range)),
+        ),
+        said(&[], format!("{} filter", row.fit)),
+        said(&[P::Order], format!("order {}", row.order)),
+        unless(
+            row.training == 0,
+            &[P::Training],
+            format!("training {}", row.training),
+        ),
+        unless(
+            !row.includes_reference,
+            &[],
+            "X inside the training record".to_owned(),
+        ),
+    ]
+}
+
+/// A label that is more than a number speaks for itself; a number is followed by what tells the curve
+/// from the others.
+pub(super) fn legend(rows: &[&Row], all: &[&Row], axis: Parameter) -> String {
+    let label = literal(&rows[0].label);
+    if rows[0].label.parse::<f64>().is_err() {
+        return label;
+    }
+    let here = facts(rows[0]);
+    let tells_apart = |index: usize, fact: &Fact| {
+        let says = |row: &&Row| facts(row)[index].text == fact.text;
+        !fact.axes.contains(&axis) && rows.iter().all(says) && !all.iter().all(says)
+    };
+    let parts = here
+        .iter()
+        .enumerate()
+        .filter(|(index, fact)| tells_apart(*index, fact));
+    let parts: Vec<&str> = parts.map(|(_, fact)| fact.text.as_str()).collect();
+    match parts.is_empty() {
+        true => label,
+        false => format!("{label}:  {}", parts.join(", ")),
+    }
+}
+
+/// What all points share, and what the bands are, in lines of at most `width` points.
+pub(super) fn caption(
+    rows: &[&Row],
+    axis: Parameter,
+    manifest: &Manifest,
+    width: f64,
+) -> Vec<String> {
+    let row = rows[0];
+    let shared = |index: usize, fact: &Fact| {
+        let says = |row: &&Row| facts(row)[index].text == fact.text;
+        !fact.is_usual && !fact.axes.contains(&axis) && rows.iter().all(says)
+    };
+    let here = facts(row);
+    let facts = here
+        .iter()
+        .enumerate()
+        .filter(|(index, fact)| shared(*index, fact));
+    let mut parts: Vec<String> = facts.map(|(_, fact)| fact.text.clone()).collect();
+    if rows.iter().all(|other| other.size == row.size) {
+        parts.insert(1, format!("exact size {:.6}", row.size));
+    }
+    let band = if axis == Parameter::Rule {
+        "bars"
+    } else {
+        "bands"
+    };
+    parts.push(format!("{} trials per point", thousands(row.trials)));
+    parts.push(format!("seed {}", manifest.seed));
+    parts.push(format!(
+        "{band}: pointwise exact {} % intervals",
+        100.0 * row.confidence
+    ));
+    if is_held_against_alpha(rows) {
+        parts.push("line: the nominal level".to_owned());
+    }
+    wrap(&parts, width)
+}
+
+/// Whether these are false-alarm rates of one level.
+pub(super) fn is_held_against_alpha(rows: &[&Row]) -> bool {
+    rows.iter()
+        .all(|row| row.is_at_rest() && row.alpha == rows[0].alpha)
+}
+
+/// The parts in lines of at most `width` points, broken between parts.
+pub(super) fn wrap(parts: &[String], width: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for part in parts {
+        let longer = lines.last().map(|line| format!("{line}; {part}"));
+        match longer.filter(|line| text_width(line, CAPTION) <= width) {
+            Some(line) => *lines.last_mut().expect("there is a line") = line,
+            None => lines.push(part.clone()),
+        }
+    }
+    lines
+}
+
+/// The axis in words.
+pub(super) fn axis_label(parameter: Parameter, is_whitened: bool) -> &'static str {
     match parameter {
+        Parameter::Delta if is_whitened => "Δ(1 − β)/σ_ξ, the shift after whitening",
         Parameter::Delta => "Δ/σ_ξ",
         Parameter::Duration => "duration of the acceleration, samples",
         Parameter::Offset => "start of the acceleration after X, samples",
@@ -21,121 +209,30 @@ pub(super) fn axis_label(parameter: Parameter) -> &'static str {
         Parameter::Shift => "M_1, samples",
         Parameter::Scale => "M_2, samples",
         Parameter::Gap => "gap, samples",
-        Parameter::Decimation => "decimation, observations per sample",
+        Parameter::Decimation => "decimation, raw observations per sample",
         Parameter::Alpha => "α",
         Parameter::Rule => "decision rule",
     }
 }
 
-/// A label that is more than a number speaks for itself; a number is followed by what the curve
-/// does not share with the others.
-pub(super) fn legend(rows: &[&Row], all: &[&Row], axis: Parameter) -> String {
-    let row = rows[0];
-    if row.label.parse::<f64>().is_err() {
-        return row.label.clone();
-    }
-    let differs = |value: fn(&Row) -> String| all.iter().any(|other| value(other) != value(row));
-    let mut parts = Vec::new();
-    if axis != Parameter::Nu && differs(|row| row.nu.to_string()) {
-        parts.push(format!("ν = {}", row.nu));
-    }
-    if axis != Parameter::Theta && differs(|row| row.theta.to_string()) {
-        parts.push(format!("θ/σ_ξ = {}", row.theta));
-    }
-    if differs(|row| row.noise.clone()) {
-        parts.push(row.noise.clone());
-    }
-    if differs(|row| row.fit.clone()) {
-        parts.push(row.fit.clone());
-    }
-    match parts.is_empty() {
-        true => row.label.clone(),
-        false => format!("{}:  {}", row.label, parts.join(", ")),
-    }
-}
-
-/// What all points share, and what the bands are.
-pub(super) fn caption(
-    rows: &[&Row],
-    axis: Parameter,
-    manifest: &Manifest,
-    width: f64,
-) -> Vec<String> {
-    let row = rows[0];
-    let same = |value: &dyn Fn(&Row) -> String| rows.iter().all(|other| value(other) == value(row));
-    let mut parts = Vec::new();
-    if axis != Parameter::Alpha && same(&|row| row.alpha.to_string()) {
-        parts.push(match same(&|row| row.size.to_string()) {
-            true => format!("α = {} (exact size {:.6})", row.alpha, row.size),
-            false => format!("α = {}", row.alpha),
-        });
-    }
-    if same(&|row| row.rule.clone()) {
-        parts.push(format!("rule {}", rule_name(row)));
-    }
-    if same(&|row| format!("{}/{}/{}", row.reference, row.shift, row.scale)) {
-        parts.push(sizes(row));
-    }
-    if same(&|row| row.noise.clone()) {
-        parts.push(format!("{} noise", row.noise));
-    }
-    if same(&|row| format!("{} {} {}", row.fit, row.order, row.training)) {
-        parts.push(match row.training {
-            0 => format!("known filter of order {}", row.order),
-            training => format!(
-                "{} filter of order {} fitted on {training} samples",
-                row.fit, row.order
-            ),
-        });
-    }
-    let (trials, confidence) = (thousands(row.trials), 100.0 * row.confidence);
-    let band = if axis == Parameter::Rule {
-        "bars"
-    } else {
-        "bands"
-    };
-    parts.push(format!("{trials} trials per point, seed {}", manifest.seed));
-    parts.push(format!("{band}: pointwise exact {confidence} % intervals"));
-    if rows.iter().all(|row| row.is_at_rest()) {
-        parts.push("line: the nominal level".to_owned());
-    }
-    wrap(&parts, width)
-}
-
-/// The parts in lines of at most `width` points, broken between parts.
-fn wrap(parts: &[String], width: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for part in parts {
-        let longer = lines.last().map(|line| format!("{line}; {part}"));
-        match longer.filter(|line| text_width(line, CAPTION) <= width) {
-            Some(line) => *lines.last_mut().expect("there is a line") = line,
-            None => lines.push(part.clone()),
-        }
-    }
-    lines
-}
-
-fn sizes(row: &Row) -> String {
-    let (n, m1, m2) = (row.reference, row.shift, row.scale);
-    match n == m1 && m1 == m2 {
-        true => format!("N = M_1 = M_2 = {n}"),
-        false => format!("N = {n}, M_1 = {m1}, M_2 = {m2}"),
-    }
+/// The rule without its table.
+fn rule_name(row: &Row) -> &str {
+    row.rule.split('(').next().unwrap_or_default()
 }
 
 /// 200000 as 200 000, with thin spaces.
 fn thousands(number: u64) -> String {
     let digits = number.to_string();
-    let groups: Vec<&str> = digits
+    let first = digits.len() % 3;
+    let (head, tail) = digits.split_at(first);
+    let groups = tail
         .as_bytes()
-        .rchunks(3)
-        .rev()
-        .map(|group| std::str::from_utf8(group).unwrap_or(""))
+        .chunks(3)
+        .map(|group| String::from_utf8_lossy(group).into_owned());
+    let groups: Vec<String> = [head.to_owned()]
+        .into_iter()
+        .filter(|h| !h.is_empty())
+        .chain(groups)
         .collect();
     groups.join("\u{2009}")
-}
-
-/// The rule without its table.
-pub(super) fn rule_name(row: &Row) -> String {
-    row.rule.split('(').next().unwrap_or_default().to_owned()
 }

@@ -1,6 +1,6 @@
 //! The directory of one experiment: what it holds, what may replace it, how files get there.
 
-use super::{Manifest, Row};
+use super::{Manifest, Row, sha256};
 use crate::plan::Plan;
 use crate::tally::Tally;
 use std::io::{self, Write};
@@ -10,17 +10,6 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug)]
 pub struct Directory {
     path: PathBuf,
-}
-
-/// What a run must know about the results it may replace.
-#[derive(Clone, Copy, Debug)]
-pub struct Identity<'a> {
-    /// Where every draw starts from.
-    pub seed: u64,
-    /// Whether points share their noise.
-    pub common_random_numbers: bool,
-    /// Every point.
-    pub plan: &'a Plan,
 }
 
 /// Why results cannot be read or written.
@@ -33,6 +22,18 @@ pub enum ResultsError {
         path: PathBuf,
         /// Why.
         error: io::Error,
+    },
+    /// Files that no `sweep` has put there.
+    #[error(
+        "{}: holds {name}, but no run.json that tells where it comes from \
+         (give another --out, or --fresh to replace it)",
+        path.display()
+    )]
+    Foreign {
+        /// Which directory.
+        path: PathBuf,
+        /// What it holds.
+        name: &'static str,
     },
     /// A file is not what this program writes.
     #[error("{}: not a result of liftsim: {error} (simulate again with --fresh)", path.display())]
@@ -78,6 +79,9 @@ pub enum ResultsError {
     },
 }
 
+const MANIFEST: &str = "run.json";
+const POINTS: &str = "points.csv";
+
 impl Directory {
     /// The directory at `path`, whether it exists or not.
     pub fn new(path: impl Into<PathBuf>) -> Self {
@@ -89,24 +93,28 @@ impl Directory {
         &self.path
     }
 
-    /// Finds out, before anything is simulated, whether the results of `identity` may go here:
+    /// Finds out, before anything is simulated, whether the results of `plan` may go here:
     /// the place can be written, and holds no other experiment and no more trials, unless a `fresh`
     /// start was asked for.
     ///
     /// # Errors
     /// Where not.
-    pub fn admit(&self, identity: &Identity, fresh: bool) -> Result<(), ResultsError> {
+    pub fn admit(&self, plan: &Plan, fresh: bool) -> Result<(), ResultsError> {
         self.check_writable()?;
-        if fresh || !self.holds_anything() {
+        let Some(name) = self.held().filter(|_| !fresh) else {
             return Ok(());
+        };
+        if !self.path.join(MANIFEST).exists() {
+            let path = self.path.clone();
+            return Err(ResultsError::Foreign { path, name });
         }
         let held = self.manifest()?;
-        let rows = self.rows()?;
-        if let Some(difference) = difference(&held, &rows, identity) {
+        let rows = self.rows(&held)?;
+        if let Some(difference) = difference(&held, &rows, plan) {
             let path = self.path.clone();
             return Err(ResultsError::Different { path, difference });
         }
-        let asked = identity.plan.trials;
+        let asked = plan.trials;
         if held.trials > asked {
             return Err(ResultsError::FewerTrials {
                 path: self.path.clone(),
@@ -117,10 +125,10 @@ impl Directory {
         Ok(())
     }
 
-    fn holds_anything(&self) -> bool {
-        ["points.csv", "run.json"]
-            .iter()
-            .any(|name| self.path.join(name).exists())
+    /// A file that a run would replace.
+    fn held(&self) -> Option<&'static str> {
+        let mut names = [MANIFEST, POINTS, "figure.png", "figure.svg"].into_iter();
+        names.find(|name| self.path.join(name).exists())
     }
 
     /// Whether a file can be made here, or a directory where this one is to be.
@@ -139,19 +147,23 @@ impl Directory {
     /// # Errors
     /// Where `run.json` is missing or damaged.
     pub fn manifest(&self) -> Result<Manifest, ResultsError> {
-        let (path, bytes) = self.read("run.json")?;
+        let (path, bytes) = self.read(MANIFEST)?;
         serde_json::from_slice(&bytes).map_err(|error| ResultsError::Damaged {
             path,
             error: error.to_string(),
         })
     }
 
-    /// The rows of `points.csv`.
+    /// The rows of `points.csv`, which must be the file that `manifest` vouches for.
     ///
     /// # Errors
-    /// Where it is missing or damaged.
-    pub fn rows(&self) -> Result<Vec<Row>, ResultsError> {
-        let (path, bytes) = self.read("points.csv")?;
+    /// Where it is missing, damaged or changed.
+    pub fn rows(&self, manifest: &Manifest) -> Result<Vec<Row>, ResultsError> {
+        let (path, bytes) = self.read(POINTS)?;
+        if manifest.files.get(POINTS) != Some(&sha256(&bytes)) {
+            let error = "its bytes are not those that run.json vouches for".to_owned();
+            return Err(ResultsError::Damaged { path, error });
+        }
         csv::Reader::from_reader(&bytes[..])
             .deserialize()
             .collect::<Result<_, csv::Error>>()
@@ -212,22 +224,19 @@ fn make_readable(_: &std::fs::File) -> io::Result<()> {
     Ok(())
 }
 
-/// The first thing that keeps held results from being those of `identity`; labels, captions and
+/// The first thing that keeps held results from being those of `plan`; labels, captions and
 /// the number of trials do not count.
-fn difference(held: &Manifest, rows: &[Row], identity: &Identity) -> Option<String> {
-    if held.seed != identity.seed {
-        return Some(format!(
-            "seed is {} there, {} here",
-            held.seed, identity.seed
-        ));
+fn difference(held: &Manifest, rows: &[Row], plan: &Plan) -> Option<String> {
+    if held.seed != plan.seed {
+        return Some(format!("seed is {} there, {} here", held.seed, plan.seed));
     }
-    if held.common_random_numbers != identity.common_random_numbers {
-        let (there, here) = (held.common_random_numbers, identity.common_random_numbers);
+    if held.common_random_numbers != plan.common_random_numbers {
+        let (there, here) = (held.common_random_numbers, plan.common_random_numbers);
         return Some(format!(
             "common_random_numbers is {there} there, {here} here"
         ));
     }
-    let points = &identity.plan.points;
+    let points = &plan.points;
     if rows.len() != points.len() {
         return Some(format!(
             "{} points there, {} here",

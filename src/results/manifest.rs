@@ -35,6 +35,13 @@ pub struct Manifest {
     pub files: BTreeMap<String, String>,
 }
 
+impl Manifest {
+    /// Enough of the config's hash to tell it from others.
+    pub fn short_hash(&self) -> &str {
+        self.config_sha256.get(..12).unwrap_or(&self.config_sha256)
+    }
+}
+
 /// SHA-256 in hexadecimal.
 pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes)

@@ -8,6 +8,6 @@ mod directory;
 mod manifest;
 mod row;
 
-pub use directory::{Directory, Identity, ResultsError};
+pub use directory::{Directory, ResultsError};
 pub use manifest::{Manifest, sha256};
 pub use row::{Row, csv_bytes};

@@ -96,9 +96,17 @@ impl Row {
         self.hypothesis == "H0"
     }
 
-    /// The parameters alone, by column, as the CSV writes them.
+    /// The counts that everything else about the outcome derives from.
+    pub fn tally(&self) -> Tally {
+        Tally {
+            hits: self.detections,
+            trials: self.trials,
+        }
+    }
+
+    /// The parameters alone, by column.
     pub(super) fn parameters(&self) -> Vec<(String, String)> {
-        let derived = [
+        const DERIVED: [&str; 8] = [
             "label",
             "trials",
             "detections",
@@ -108,18 +116,15 @@ impl Row {
             "confidence",
             "size",
         ];
-        let table = csv_bytes(std::slice::from_ref(self));
-        let mut lines = csv::ReaderBuilder::new()
-            .has_headers(false)
-            .from_reader(&table[..])
-            .into_records();
-        let mut cells = || lines.next().and_then(Result::ok).unwrap_or_default();
-        let (names, values) = (cells(), cells());
-        names
-            .iter()
-            .zip(&values)
-            .filter(|(name, _)| !derived.contains(name))
-            .map(|(name, value)| (name.to_owned(), value.to_owned()))
+        let columns = match serde_json::to_value(self) {
+            Ok(serde_json::Value::Object(columns)) => columns,
+            _ => unreachable!("a row is plain data"),
+        };
+        let parameters = columns
+            .into_iter()
+            .filter(|(name, _)| !DERIVED.contains(&name.as_str()));
+        parameters
+            .map(|(name, value)| (name, value.to_string()))
             .collect()
     }
 }

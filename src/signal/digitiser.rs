@@ -3,10 +3,8 @@
 //! A quantised record has ties, and a clipped one is not linear in Δ; both break an assumption of
 //! the exact laws, which is why they can be simulated.
 
-use serde::Serialize;
-
 /// Rounds to multiples of a quantum, then clips.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Digitiser {
     quantum: Option<f64>,
     range: Option<f64>,
@@ -16,7 +14,7 @@ pub struct Digitiser {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum DigitiserError {
     /// A step that is no size.
-    #[error("quantum must be positive and finite, got {0} (leave it out for a continuous record)")]
+    #[error("quantum must lie in [1e-9, 1e9], got {0} (leave it out for a continuous record)")]
     Quantum(f64),
     /// Limits that are no size.
     #[error("range must be positive and finite, got {0} (leave it out for an unlimited record)")]
@@ -30,7 +28,7 @@ impl Digitiser {
     /// Where one is not a positive, finite number.
     pub fn new(quantum: Option<f64>, range: Option<f64>) -> Result<Self, DigitiserError> {
         let bad = |value: &f64| !(*value > 0.0 && value.is_finite());
-        if let Some(value) = quantum.filter(bad) {
+        if let Some(value) = quantum.filter(|quantum| !(1e-9..=1e9).contains(quantum)) {
             return Err(DigitiserError::Quantum(value));
         }
         if let Some(value) = range.filter(bad) {
@@ -64,7 +62,9 @@ impl Digitiser {
             (None, Some(range)) => limit(range, x),
             (Some(quantum), None) => (x / quantum).round_ties_even(),
             (Some(quantum), Some(range)) => {
-                limit((range / quantum).floor(), (x / quantum).round_ties_even())
+                // 0.3 is meant to be three steps of 0.1.
+                let last = (range / quantum * (1.0 + 1e-12)).floor();
+                limit(last, (x / quantum).round_ties_even())
             }
         }
     }
@@ -86,6 +86,8 @@ mod tests {
         assert_eq!(digitiser.code(0.6), 1.0);
         assert_eq!(digitiser.code(-0.8), -2.0);
         assert_eq!(digitiser.code(9.0) * digitiser.unit(), 2.0);
+        let meant = Digitiser::new(Some(0.1), Some(0.3)).unwrap();
+        assert_eq!(meant.code(9.0), 3.0);
         let limited = Digitiser::new(None, Some(2.2)).unwrap();
         assert_eq!((limited.code(1.3), limited.code(-5.0)), (1.3, -2.2));
         assert!(Digitiser::default().is_transparent());

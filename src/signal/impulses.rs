@@ -9,11 +9,10 @@
 //!
 //! [^1]: see [`crate::signal`].
 
-use serde::Serialize;
 use std::fmt;
 
 /// Impulse noise: how often, how strong, from when.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impulses {
     nu: f64,
     theta: f64,
@@ -21,7 +20,7 @@ pub struct Impulses {
 }
 
 /// From when on impulses act.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum During {
     /// From the first observation after X.
     Motion,

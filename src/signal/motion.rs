@@ -5,11 +5,10 @@
 //!
 //! [^1]: see [`crate::signal`].
 
-use serde::Serialize;
 use std::fmt;
 
 /// An acceleration: how strong, of what shape, where in the trial.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
     /// Δ/σ_ξ, of either sign.
     pub delta: f64,
@@ -24,7 +23,7 @@ pub struct Motion {
 }
 
 /// Where Δ is measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DeltaAt {
     /// The shift in the record.
     Record,
@@ -33,7 +32,7 @@ pub enum DeltaAt {
 }
 
 /// The shape of an acceleration in time.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Profile {
     /// Δ at once, and off at once, as in (8).
     Rectangular,
@@ -51,8 +50,16 @@ pub enum MotionError {
     #[error("delta must be finite, got {0}")]
     Delta(f64),
     /// A duration of no samples.
-    #[error("duration must be at least 1, got {0}")]
-    Duration(usize),
+    #[error(
+        "duration must be at least 1, got {duration} with offset {offset} \
+         (by default Δ acts to the last of Y1: lower offset or give a duration)"
+    )]
+    Duration {
+        /// As given or by default.
+        duration: usize,
+        /// Where it starts.
+        offset: usize,
+    },
     /// A rise that does not fit twice into the duration.
     #[error(
         "trapezoid.rise must lie between 0 and half the duration of {duration} samples, got {rise}"
@@ -75,7 +82,10 @@ impl Motion {
             return Err(MotionError::Delta(self.delta));
         }
         if self.duration == 0 {
-            return Err(MotionError::Duration(self.duration));
+            return Err(MotionError::Duration {
+                duration: self.duration,
+                offset: self.offset,
+            });
         }
         if let Profile::Trapezoid { rise } = self.profile
             && !(rise >= 0.0 && 2.0 * rise <= self.duration as f64)

@@ -1,8 +1,9 @@
 //! Laws of the white noise ξ that drives the sensor: unit variance where it exists, else unit scale.
 //!
 //! Every sampler but the normal one is a closed form in uniform draws (inversion, or Bailey's polar
-//! method [^1] for Student's t) over `libm`, so the bits do not depend on the system's own
-//! elementary functions.
+//! method [^1] for Student's t) over `libm`, so its bits do not depend on the system's own elementary
+//! functions. The normal one is rand_distr's ziggurat: products of draws and constants, but for one
+//! draw in a hundred or so that also asks the system's exp or ln, mostly only to be compared.
 //!
 //! [^1]: R. W. Bailey, "Polar generation of random variates with the t-distribution",
 //! Math. Comp. 62, 1994.
@@ -11,12 +12,11 @@ use crate::rng::Generator;
 use libm::{log, pow, sqrt, tan};
 use rand::{Rng, RngExt};
 use rand_distr::StandardNormal;
-use serde::Serialize;
 use std::f64::consts::PI;
 use std::fmt;
 
 /// A family of distributions, symmetric about zero.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Law {
     /// N(0, 1).
     Normal,
@@ -43,22 +43,21 @@ pub enum Law {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum LawError {
     /// Student's ν.
-    #[error("student_t must have positive, finite degrees of freedom, got {0}")]
+    #[error("student_t must have at least 0.25 and finite degrees of freedom, got {0}")]
     DegreesOfFreedom(f64),
     /// A share that is no probability.
     #[error("contaminated.share must lie in [0, 1], got {0}")]
     Share(f64),
     /// A scale that is no deviation.
-    #[error("contaminated.scale must be positive and finite, got {0}")]
+    #[error("contaminated.scale must lie in [1e-6, 1e6], got {0}")]
     Scale(f64),
 }
 
 /// A source of independent draws from a [`Law`].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
     law: Law,
     /// What brings the law's natural scale to unit variance.
-    #[serde(skip)]
     unit: f64,
 }
 
@@ -74,7 +73,8 @@ impl Noise {
             Law::Logistic => sqrt(3.0) / PI,
             Law::Uniform => sqrt(3.0),
             Law::StudentT(freedom) => {
-                if !(freedom > 0.0 && freedom.is_finite()) {
+                // Below a quarter the tails leave the range of floating point.
+                if !(freedom >= 0.25 && freedom.is_finite()) {
                     return Err(LawError::DegreesOfFreedom(freedom));
                 }
                 match freedom > 2.0 {
@@ -86,7 +86,7 @@ impl Noise {
                 if !(0.0..=1.0).contains(&share) {
                     return Err(LawError::Share(share));
                 }
-                if !(scale > 0.0 && scale.is_finite()) {
+                if !(1e-6..=1e6).contains(&scale) {
                     return Err(LawError::Scale(scale));
                 }
                 1.0 / sqrt(1.0 - share + share * scale * scale)

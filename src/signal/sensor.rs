@@ -7,14 +7,14 @@
 //!
 //! [^1]: see [`crate::signal`].
 
-use serde::Serialize;
 use std::fmt;
 
 /// A stable autoregression driven by unit-scale white noise.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Sensor {
     /// φ₁, φ₂, …; empty for a sensor whose noise is already white.
     ar: Vec<f64>,
+    burn_in: usize,
 }
 
 /// K(p) = 1/(a p² + b p + c) and the sampling period, eq. (1).
@@ -90,9 +90,9 @@ const BURN_IN_DEFICIT: f64 = 1e-9;
 impl Sensor {
     /// The ADXL105 by the coefficients printed in (2).
     pub fn adxl105() -> Self {
-        Self {
-            ar: vec![-1.5365, -0.75056],
-        }
+        let ar = vec![-1.5365, -0.75056];
+        let burn_in = burn_in(&ar);
+        Self { ar, burn_in }
     }
 
     /// φ₁, φ₂, … as given; none for white noise.
@@ -111,14 +111,14 @@ impl Sensor {
                 reflection,
             });
         }
-        let sensor = Self { ar };
-        if sensor.burn_in() > LONGEST_BURN_IN {
-            return Err(SensorError::BarelyStable {
-                ar: sensor.ar,
+        let burn_in = burn_in(&ar);
+        match burn_in > LONGEST_BURN_IN {
+            true => Err(SensorError::BarelyStable {
+                ar,
                 limit: LONGEST_BURN_IN,
-            });
+            }),
+            false => Ok(Self { ar, burn_in }),
         }
-        Ok(sensor)
     }
 
     /// By impulse invariance from the transfer function, eq. (1) → eq. (2).
@@ -161,10 +161,7 @@ impl Sensor {
     /// The next sample after `past` (oldest first, at least the sensor's order) for one innovation.
     #[inline]
     pub fn step(&self, past: &[f64], innovation: f64) -> f64 {
-        self.ar
-            .iter()
-            .zip(past.iter().rev())
-            .fold(innovation, |sum, (phi, x)| sum + phi * x)
+        predict(&self.ar, past, innovation)
     }
 
     /// Turns white noise into sensor noise in place, from the zero state.
@@ -183,28 +180,9 @@ impl Sensor {
         }
     }
 
-    /// How many samples after the zero state lack no more than a billionth of the stationary
-    /// variance: the tail Σ_{k≥n} h_k² of the impulse response, whose decay the poles set.
+    /// Samples after the zero state until the noise is stationary but for a billionth of its variance.
     pub fn burn_in(&self) -> usize {
-        if self.ar.is_empty() {
-            return 0;
-        }
-        let order = self.ar.len();
-        let mut response = vec![1.0];
-        let mut energy = vec![0.0, 1.0];
-        let mut quiet = 0;
-        while response.len() <= 2 * LONGEST_BURN_IN && quiet < 64 + order {
-            let next = self.step(&response[response.len().saturating_sub(order)..], 0.0);
-            response.push(next);
-            let total = energy[energy.len() - 1] + next * next;
-            energy.push(total);
-            quiet = match next * next < 1e-20 * total {
-                true => quiet + 1,
-                false => 0,
-            };
-        }
-        let total = energy[energy.len() - 1];
-        energy.partition_point(|&sum| total - sum > BURN_IN_DEFICIT * total)
+        self.burn_in
     }
 }
 
@@ -214,6 +192,37 @@ impl fmt::Display for Sensor {
         let coefficients: Vec<String> = self.ar.iter().map(f64::to_string).collect();
         write!(f, "ar({})", coefficients.join(" "))
     }
+}
+
+/// How many samples after the zero state lack no more than a billionth of the stationary variance:
+/// the tail Σ_{k≥n} h_k² of the impulse response, whose decay the poles set.
+fn burn_in(ar: &[f64]) -> usize {
+    if ar.is_empty() {
+        return 0;
+    }
+    let mut response = vec![1.0];
+    let mut energy = vec![0.0, 1.0];
+    let mut quiet = 0;
+    while response.len() <= 2 * LONGEST_BURN_IN && quiet < 64 + ar.len() {
+        let next = predict(ar, &response, 0.0);
+        response.push(next);
+        let total = energy[energy.len() - 1] + next * next;
+        energy.push(total);
+        quiet = match next * next < 1e-20 * total {
+            true => quiet + 1,
+            false => 0,
+        };
+    }
+    let total = energy[energy.len() - 1];
+    energy.partition_point(|&sum| total - sum > BURN_IN_DEFICIT * total)
+}
+
+/// Σ φ_p x_{i−p} + ξ, where `past` ends with x_{i−1} and what precedes it counts as zero.
+#[inline]
+fn predict(ar: &[f64], past: &[f64], innovation: f64) -> f64 {
+    ar.iter()
+        .zip(past.iter().rev())
+        .fold(innovation, |sum, (phi, x)| sum + phi * x)
 }
 
 /// The first reflection coefficient outside (−1, 1), with its index, by the step-down recursion.

@@ -17,11 +17,10 @@ mod fit;
 
 pub use fit::Fitter;
 
-use serde::Serialize;
 use std::fmt;
 
 /// How a filter comes by its coefficients.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fit {
     /// Covariance method.
     LeastSquares,
@@ -34,7 +33,7 @@ pub enum Fit {
 }
 
 /// A whitening filter's order and where its coefficients come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Whitening {
     order: usize,
     fit: Fit,

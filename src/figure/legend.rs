@@ -1,0 +1,74 @@
+//! The legend: in a corner that covers no data, or above the plot where there is none.
+
+use super::FigureError;
+use super::frame::{Frame, SMALL};
+use super::sheet::{Align, Look, Sheet, Style, text_width};
+use plotters::prelude::{BLACK, Color, DrawingBackend, WHITE};
+
+const STEP: f64 = 11.5;
+const MARGIN: f64 = 6.0;
+const MARKER: f64 = 2.3;
+const LINE: f64 = 1.1;
+
+/// The entries of a legend.
+pub(super) struct Legend {
+    pub entries: Vec<(String, Look)>,
+    /// Whether a line runs through each marker.
+    pub with_lines: bool,
+}
+
+impl Legend {
+    fn width(&self) -> f64 {
+        let widths = self.entries.iter().map(|(text, _)| text_width(text, SMALL));
+        widths.fold(0.0, f64::max) + 32.0
+    }
+
+    /// What it takes from the top to bottom.
+    pub fn height(&self) -> f64 {
+        STEP * self.entries.len() as f64 + 6.0
+    }
+
+    /// The corner of `frame` where it covers nothing of `data`, points on the sheet.
+    pub fn free_corner(&self, frame: &Frame, data: &[(f64, f64)]) -> Option<(f64, f64)> {
+        let (width, height) = (self.width(), self.height());
+        let (left, right) = (frame.left + MARGIN, frame.right - MARGIN - width);
+        let (top, bottom) = (frame.top + MARGIN, frame.bottom - MARGIN - height);
+        let is_free = |&(x, y): &(f64, f64)| {
+            let near = |&(px, py): &(f64, f64)| {
+                px > x - 4.0 && px < x + width + 4.0 && py > y - 4.0 && py < y + height + 4.0
+            };
+            x >= left && y >= top && !data.iter().any(near)
+        };
+        let corners = [(right, bottom), (left, top), (right, top), (left, bottom)];
+        corners.into_iter().find(is_free)
+    }
+
+    /// Draws it with its upper left corner at (`x`, `y`).
+    pub fn draw<B: DrawingBackend>(
+        &self,
+        sheet: &Sheet<B>,
+        (x, y): (f64, f64),
+    ) -> Result<(), FigureError> {
+        let (width, height) = (self.width(), self.height());
+        let corners = [
+            (x, y),
+            (x + width, y),
+            (x + width, y + height),
+            (x, y + height),
+        ];
+        sheet.area(&corners, WHITE.to_rgba())?;
+        let outline: Vec<_> = corners.into_iter().chain([(x, y)]).collect();
+        sheet.line(&outline, 0.4, BLACK.mix(0.3))?;
+        for (index, (text, look)) in self.entries.iter().enumerate() {
+            let middle = y + 3.0 + STEP * (index as f64 + 0.5);
+            if self.with_lines {
+                let ends = [(x + 4.0, middle), (x + 22.0, middle)];
+                sheet.line(&ends, LINE, look.colour.to_rgba())?;
+            }
+            sheet.marker(look.marker, (x + 13.0, middle), MARKER, look.colour)?;
+            let baseline = (x + 27.0, middle + 0.36 * SMALL);
+            sheet.text(text, baseline, Style::plain(SMALL, Align::Left))?;
+        }
+        Ok(())
+    }
+}
