@@ -71,6 +71,23 @@ pub fn judge(points: &[Point], tallies: &[Tally], nominal: Option<f64>) -> Vec<F
         .collect()
 }
 
+/// How many trials would give every scenario the power to pass, rounded up to two digits; none where
+/// no run that anyone can make would do.
+pub fn trials_for_power(findings: &[Finding]) -> Option<u64> {
+    let strictest = FAMILY_LEVEL / findings.len() as f64;
+    let nominal = findings
+        .iter()
+        .map(|finding| finding.nominal)
+        .fold(1.0, f64::min);
+    let excess = (EXCESS * nominal).min(1.0);
+    let sizes = (3..11).flat_map(|power| (10..100).map(move |digits| digits * 10u64.pow(power)));
+    sizes.into_iter().find(|&trials| {
+        // A size is worth a look only where the excess stands out at all.
+        let deviations = (excess - nominal) * (trials as f64 / nominal).sqrt();
+        deviations > 4.0 && tally::power_against(excess, nominal, strictest, trials) >= POWER
+    })
+}
+
 /// The conclusion over all: the worst of them.
 pub fn overall(findings: &[Finding]) -> Verdict {
     let any = |verdict| findings.iter().any(|finding| finding.verdict == verdict);

@@ -67,10 +67,14 @@ fn report(config: &Config, plan: &Plan, findings: &[Finding]) -> String {
         .collect();
     let count = |verdict| findings.iter().filter(|f| f.verdict == verdict).count();
     let power = findings.iter().map(|f| f.power).fold(1.0, f64::min);
+    let advice = match gate::trials_for_power(findings) {
+        Some(trials) if power < gate::POWER => format!("a run of {trials} trials could tell\n"),
+        _ => String::new(),
+    };
     format!(
         "{}\n{} scenarios at seed {}: {} pass, {} inconclusive, {} fail\n\
          family-wise level {FAMILY_LEVEL}; power against {EXCESS} times nominal at least {power:.4}; \
-         {} % intervals\n",
+         {} % intervals\n{advice}",
         table(&header, &rows),
         findings.len(),
         config.seed,
@@ -105,9 +109,10 @@ fn row(config: &Config, point: &Point, finding: &Finding) -> Vec<String> {
 
 /// Four decimals where they say something, a power of ten where they do not.
 fn p_value(p: f64) -> String {
-    match p < 1e-3 {
-        true => format!("{p:.2e}"),
-        false => format!("{p:.4}"),
+    match p {
+        0.0 => "<1e-300".to_owned(),
+        _ if p < 1e-3 => format!("{p:.2e}"),
+        _ => format!("{p:.4}"),
     }
 }
 

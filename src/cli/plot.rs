@@ -1,5 +1,6 @@
 //! `liftsim plot DIR`: draws the figure again from the stored counts.
 
+use super::sweep::store;
 use super::{Failure, Outcome, print};
 use clap::Args;
 use liftsim::config::Config;
@@ -19,19 +20,17 @@ impl Plot {
     /// Runs the command.
     pub fn run(self) -> Outcome {
         let directory = Directory::new(self.directory);
-        let manifest = directory.manifest().map_err(Failure::input)?;
+        let mut manifest = directory.manifest().map_err(Failure::input)?;
         let rows = directory.rows(&manifest).map_err(Failure::input)?;
         let config =
             Config::parse(&manifest.config_name, &manifest.config).map_err(Failure::input)?;
         let drawing = figure::sweep(&config, &rows, &manifest).map_err(Failure::run)?;
-        for (name, bytes) in [("figure.png", drawing.png), ("figure.svg", drawing.svg)] {
-            let is_new = directory.write(name, &bytes).map_err(Failure::run)?;
-            let note = if is_new { "written" } else { "unchanged" };
-            print(&format!(
-                "{}  {note}\n",
-                directory.path().join(name).display()
-            ))?;
+        for (name, bytes) in drawing.files() {
+            print(&store(&directory, &mut manifest, name, bytes)?)?;
         }
+        directory
+            .write("run.json", &manifest.to_json())
+            .map_err(Failure::run)?;
         Ok(ExitCode::SUCCESS)
     }
 }

@@ -66,26 +66,37 @@ fn write(
 ) -> Result<(), Failure> {
     let mut manifest = manifest(config, seconds);
     let drawing = figure::sweep(config, rows, &manifest).map_err(Failure::run)?;
-    let mut report = String::new();
-    let files = [
-        ("points.csv", results::csv_bytes(rows)),
-        ("figure.png", drawing.png),
-        ("figure.svg", drawing.svg),
-    ];
-    for (name, bytes) in &files {
-        let is_new = directory.write(name, bytes).map_err(Failure::run)?;
-        manifest
-            .files
-            .insert((*name).to_owned(), results::sha256(bytes));
-        let note = if is_new { "written" } else { "unchanged" };
-        report += &format!("{}  {note}\n", directory.path().join(name).display());
+    let counts = results::csv_bytes(rows);
+    let mut report = store(directory, &mut manifest, "points.csv", &counts)?;
+    for (name, bytes) in drawing.files() {
+        report += &store(directory, &mut manifest, name, bytes)?;
     }
-    let json = serde_json::to_vec_pretty(&manifest).expect("a manifest is plain data");
-    directory.write("run.json", &json).map_err(Failure::run)?;
+    directory
+        .write("run.json", &manifest.to_json())
+        .map_err(Failure::run)?;
+    report += &format!("{}  written\n", directory.path().join("run.json").display());
     let trials = config.trials;
     print(&format!(
         "{} points of {trials} trials in {seconds:.1} s\n{report}",
         rows.len()
+    ))
+}
+
+/// Writes a file, lets the manifest vouch for it, and says whether it is new.
+pub(super) fn store(
+    directory: &Directory,
+    manifest: &mut Manifest,
+    name: &str,
+    bytes: &[u8],
+) -> Result<String, Failure> {
+    let is_new = directory.write(name, bytes).map_err(Failure::run)?;
+    manifest
+        .files
+        .insert(name.to_owned(), results::sha256(bytes));
+    let note = if is_new { "written" } else { "unchanged" };
+    Ok(format!(
+        "{}  {note}\n",
+        directory.path().join(name).display()
     ))
 }
 
@@ -96,7 +107,7 @@ fn manifest(config: &Config, seconds: f64) -> Manifest {
         config_sha256: results::sha256(config.text().as_bytes()),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         revision: env!("LIFTSIM_REVISION").to_owned(),
-        command: command_line(),
+        command: command_line(config),
         seed: config.seed,
         trials: config.trials,
         common_random_numbers: config.common_random_numbers,
@@ -107,19 +118,13 @@ fn manifest(config: &Config, seconds: f64) -> Manifest {
     }
 }
 
-/// What was typed, the program and absolute paths by their last name alone: where things are on this
-/// machine is nobody else's business, and would make equal runs look different.
-fn command_line() -> String {
-    let shown = |argument: String| match Path::new(&argument).is_absolute() {
-        true => file_name(&argument),
-        false => argument,
-    };
-    let arguments = std::env::args().skip(1).map(shown);
-    let words: Vec<String> = ["liftsim".to_owned()]
-        .into_iter()
-        .chain(arguments)
-        .collect();
-    words.join(" ")
+/// The command that makes the same results, wherever the files are.
+fn command_line(config: &Config) -> String {
+    let Config { seed, trials, .. } = config;
+    format!(
+        "liftsim sweep {} --seed {seed} --trials {trials}",
+        file_name(config.name())
+    )
 }
 
 fn file_name(path: &str) -> String {

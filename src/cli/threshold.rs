@@ -164,7 +164,7 @@ impl Threshold {
             self.shift,
             self.scale,
             self.alpha,
-            table(&["T", "P(T)", name, &format!("P({name})")], &rows),
+            table(&["T", "P(T)", name, "P(H1* | T)"], &rows),
             region.size(),
         )
     }

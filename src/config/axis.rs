@@ -95,6 +95,35 @@ impl Parameter {
     }
 }
 
+impl Parameter {
+    /// The sections and keys it stands for.
+    pub(super) fn keys(self) -> &'static [(&'static str, &'static str)] {
+        match self {
+            Self::Delta => &[("motion", "delta")],
+            Self::Duration => &[("motion", "duration")],
+            Self::Offset => &[("motion", "offset")],
+            Self::Nu => &[("impulses", "nu")],
+            Self::Theta => &[("impulses", "theta")],
+            Self::Quantum => &[("noise", "quantum")],
+            Self::Range => &[("noise", "range")],
+            Self::Training => &[("whitening", "training")],
+            Self::Order => &[("whitening", "order")],
+            Self::AllSamples => &[
+                ("samples", "reference"),
+                ("samples", "shift"),
+                ("samples", "scale"),
+            ],
+            Self::Reference => &[("samples", "reference")],
+            Self::Shift => &[("samples", "shift")],
+            Self::Scale => &[("samples", "scale")],
+            Self::Gap => &[("samples", "gap")],
+            Self::Decimation => &[("samples", "decimation")],
+            Self::Alpha => &[("detector", "alpha")],
+            Self::Rule => &[("detector", "rule")],
+        }
+    }
+}
+
 impl AxisValue {
     /// The number, where it is one.
     pub fn number(&self) -> Option<f64> {

@@ -91,6 +91,14 @@ pub enum Problem {
         /// What is allowed.
         limit: usize,
     },
+    /// A parameter that is both set and swept.
+    #[error(
+        "the axis sweeps {0}, so it cannot be set here too (take it out here, or sweep another)"
+    )]
+    FixedAndSwept(&'static str),
+    /// A label that tells no curve from another.
+    #[error("curve.label must be there and differ from every other, got \"{0}\"")]
+    Label(String),
     /// A confidence that is none.
     #[error("confidence must lie strictly between 0 and 1, got {0}")]
     Confidence(f64),
@@ -202,12 +210,27 @@ impl fmt::Display for Refusal {
             );
         }
         if let Some(name) = message.strip_prefix("missing field ") {
-            return write!(f, "required key {name} is missing (add it)");
+            let example = match name {
+                "`axis`" => "add what is swept, for instance [axis] delta = [0.0, 1.0]",
+                _ => "add it",
+            };
+            return write!(f, "required key {name} is missing ({example})");
+        }
+        if message.contains("expected newtype variant")
+            || message.contains("expected struct variant")
+        {
+            return f.write_str(
+                "needs its parameters (write { student_t = 3.0 }, { table = [...] }, ...)",
+            );
         }
         let value = message
             .strip_prefix("invalid type: ")
             .or(message.strip_prefix("invalid value: "));
         match value.and_then(|value| value.split_once(", expected ")) {
+            Some((got, "a sequence")) => write!(
+                f,
+                "must be a list, got one {got} (write [[curve]] for [curve])"
+            ),
             Some((got, expected)) => write!(f, "must be {expected}, got {got}"),
             None => f.write_str(message),
         }

@@ -161,7 +161,7 @@ with_sections! {
 
 with_sections! {
     /// `[[curve]]`
-    CurveTable { label: Option<String> }
+    CurveTable { label: Option<Spanned<String>> }
 }
 
 impl File {

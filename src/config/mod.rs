@@ -77,11 +77,19 @@ impl Config {
         let base = file.sections();
         let mut curves: Vec<Curve> = Vec::new();
         for (index, curve) in file.curves().iter().enumerate() {
+            let fixed = |sections: &Sections| sections.first_span(axis.parameter.keys());
+            if let Some(span) = fixed(&base).or(fixed(&curve.sections())) {
+                let name = axis.parameter.name();
+                return Err(source.at(Some(span), Problem::FixedAndSwept(name)));
+            }
+            let given = curve.label.as_ref();
+            let label = given.map_or((index + 1).to_string(), |label| label.get_ref().clone());
+            if label.trim().is_empty() || curves.iter().any(|other| other.label == label) {
+                let span = given.map(toml::Spanned::span);
+                return Err(source.at(span, Problem::Label(label)));
+            }
             curves.push(Curve {
-                label: curve
-                    .label
-                    .clone()
-                    .unwrap_or_else(|| (index + 1).to_string()),
+                label,
                 sections: curve.sections().over(&base),
             });
         }

@@ -113,7 +113,7 @@ impl Sections {
     }
 
     /// Where the first of `keys` that the author wrote stands.
-    fn first_span(&self, keys: &[(&str, &str)]) -> Option<Range<usize>> {
+    pub(super) fn first_span(&self, keys: &[(&str, &str)]) -> Option<Range<usize>> {
         keys.iter().find_map(|&(section, key)| match section {
             "sensor" => self.sensor.span(key),
             "noise" => self.noise.span(key),

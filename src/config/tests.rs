@@ -15,8 +15,8 @@ fn config(rest: &str) -> Config {
 #[test]
 fn curves_lie_over_the_file_and_the_axis_over_both() {
     let config = config(
-        "[impulses]\nnu = 0.2\ntheta = 5.0\n[whitening]\nfit = \"burg\"\n[axis]\ntheta = [7.0]\n\
-         [[curve]]\n[[curve]]\nlabel = \"b\"\nimpulses = { nu = 0.4, theta = 6.0 }\n",
+        "[impulses]\nnu = 0.2\nduring = \"inertial\"\n[whitening]\nfit = \"burg\"\n[axis]\ntheta = [7.0]\n\
+         [[curve]]\n[[curve]]\nlabel = \"b\"\nimpulses = { nu = 0.4 }\n",
     );
     let labels: Vec<&str> = config.curves.iter().map(|c| c.label.as_str()).collect();
     assert_eq!(labels, ["1", "b"]);
@@ -27,6 +27,7 @@ fn curves_lie_over_the_file_and_the_axis_over_both() {
     );
     assert_eq!((first.impulses.nu(), first.impulses.theta()), (0.2, 7.0));
     assert_eq!((second.impulses.nu(), second.impulses.theta()), (0.4, 7.0));
+    assert_eq!(second.impulses.during(), During::Inertial);
     assert_eq!(second.whitening.fit(), Fit::Burg);
 }
 
@@ -111,7 +112,7 @@ fn every_key_reaches_the_scenario() {
         "[sensor]\nar = [0.5, -0.25]\n\
          [noise]\nlaw = \"logistic\"\nquantum = 0.5\nrange = 9.0\n\
          [motion]\ndelta = 1.5\ndelta_at = \"whitened\"\nprofile = { trapezoid = { rise = 2.0 } }\nduration = 9\noffset = 4\n\
-         [impulses]\nnu = 0.2\ntheta = 3.0\nduring = \"inertial\"\n\
+         [impulses]\ntheta = 3.0\nduring = \"inertial\"\n\
          [whitening]\norder = 5\ntraining = 77\nfit = \"yule-walker\"\nincludes_reference = true\n\
          [samples]\nreference = 10\nshift = 11\nscale = 13\ngap = 2\n\
          [detector]\nalpha = 0.02\nrule = \"disjunction\"\nalternative = \"two-sided\"\n\

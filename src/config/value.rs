@@ -65,6 +65,12 @@ impl Visitor<'_> for WholeVisitor {
     fn visit_u64<E: Error>(self, value: u64) -> Result<Whole, E> {
         Ok(Whole(value))
     }
+
+    fn visit_f64<E: Error>(self, value: f64) -> Result<Whole, E> {
+        Err(E::custom(format_args!(
+            "must be a whole number, written without point or exponent, got {value}"
+        )))
+    }
 }
 
 impl Visitor<'_> for CriticalVisitor {

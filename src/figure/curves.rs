@@ -119,7 +119,8 @@ impl Curves {
                     .chain(self.nominal)
                     .fold(0.0, f64::max);
                 let room = (top - bottom).max(1e-9);
-                Scale::linear((bottom - 0.1 * room).max(0.0), top + 0.1 * room, 6)
+                // Room above for the legend.
+                Scale::linear((bottom - 0.1 * room).max(0.0), top + 0.8 * room, 6)
             }
         };
         let top = above

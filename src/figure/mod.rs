@@ -24,6 +24,13 @@ pub struct Drawing {
     pub svg: Vec<u8>,
 }
 
+impl Drawing {
+    /// Both forms by the names they have among results.
+    pub fn files(&self) -> [(&'static str, &[u8]); 2] {
+        [("figure.png", &self.png), ("figure.svg", &self.svg)]
+    }
+}
+
 /// Why a picture could not be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum FigureError {

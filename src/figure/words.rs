@@ -111,30 +111,38 @@ fn facts(row: &Row) -> Vec<Fact> {
     ]
 }
 
-/// A label that is more than a number speaks for itself; a number is followed by what tells the curve
-/// from the others.
+/// What more than half of the rows say of fact `index`.
+fn majority(rows: &[&Row], index: usize) -> Option<Fact> {
+    let says = |text: &str| {
+        rows.iter()
+            .filter(|row| facts(row)[index].text == text)
+            .count()
+    };
+    let mut candidates = rows.iter().map(|row| facts(row).swap_remove(index));
+    candidates.find(|fact| 2 * says(&fact.text) > rows.len())
+}
+
+/// A label that is more than a number speaks for itself; a number is followed by what the curve does
+/// not share with most others.
 pub(super) fn legend(rows: &[&Row], all: &[&Row], axis: Parameter) -> String {
     let label = literal(&rows[0].label);
     if rows[0].label.parse::<f64>().is_err() {
         return label;
     }
-    let here = facts(rows[0]);
-    let tells_apart = |index: usize, fact: &Fact| {
+    let tells_apart = |&(index, ref fact): &(usize, Fact)| {
         let says = |row: &&Row| facts(row)[index].text == fact.text;
-        !fact.axes.contains(&axis) && rows.iter().all(says) && !all.iter().all(says)
+        let is_common = majority(all, index).is_some_and(|common| common.text == fact.text);
+        !fact.is_usual && !fact.axes.contains(&axis) && rows.iter().all(says) && !is_common
     };
-    let parts = here
-        .iter()
-        .enumerate()
-        .filter(|(index, fact)| tells_apart(*index, fact));
-    let parts: Vec<&str> = parts.map(|(_, fact)| fact.text.as_str()).collect();
+    let here = facts(rows[0]).into_iter().enumerate().filter(tells_apart);
+    let parts: Vec<String> = here.map(|(_, fact)| fact.text).collect();
     match parts.is_empty() {
         true => label,
         false => format!("{label}:  {}", parts.join(", ")),
     }
 }
 
-/// What all points share, and what the bands are, in lines of at most `width` points.
+/// What most points share, and what the bands are, in lines of at most `width` points.
 pub(super) fn caption(
     rows: &[&Row],
     axis: Parameter,
@@ -142,18 +150,11 @@ pub(super) fn caption(
     width: f64,
 ) -> Vec<String> {
     let row = rows[0];
-    let shared = |index: usize, fact: &Fact| {
-        let says = |row: &&Row| facts(row)[index].text == fact.text;
-        !fact.is_usual && !fact.axes.contains(&axis) && rows.iter().all(says)
-    };
-    let here = facts(row);
-    let facts = here
-        .iter()
-        .enumerate()
-        .filter(|(index, fact)| shared(*index, fact));
-    let mut parts: Vec<String> = facts.map(|(_, fact)| fact.text.clone()).collect();
+    let common = (0..facts(row).len()).filter_map(|index| majority(rows, index));
+    let shown = common.filter(|fact| !fact.is_usual && !fact.axes.contains(&axis));
+    let mut parts: Vec<String> = shown.map(|fact| fact.text).collect();
     if rows.iter().all(|other| other.size == row.size) {
-        parts.insert(1, format!("exact size {:.6}", row.size));
+        parts.insert(1.min(parts.len()), format!("exact size {:.6}", row.size));
     }
     let band = if axis == Parameter::Rule {
         "bars"

@@ -17,7 +17,7 @@ pub struct Manifest {
     pub version: String,
     /// Of its source, where it was known when liftsim was built.
     pub revision: String,
-    /// As typed.
+    /// What makes the same results again.
     pub command: String,
     /// Where every draw started from.
     pub seed: u64,
@@ -36,6 +36,13 @@ pub struct Manifest {
 }
 
 impl Manifest {
+    /// As the file has it.
+    pub fn to_json(&self) -> Vec<u8> {
+        let mut json = serde_json::to_vec_pretty(self).expect("a manifest is plain data");
+        json.push(b'\n');
+        json
+    }
+
     /// Enough of the config's hash to tell it from others.
     pub fn short_hash(&self) -> &str {
         self.config_sha256.get(..12).unwrap_or(&self.config_sha256)

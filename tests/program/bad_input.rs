@@ -152,6 +152,47 @@ const CONFIGS: &[(&str, &str)] = &[
         "[axis]\ndelta = [1.0]\n[whitening]\ntraining = 1000000000000\n",
     ),
     (
+        "set and swept",
+        "[axis]\nnu = [0.1]\n[[curve]]\nimpulses = { nu = 0.2 }\n",
+    ),
+    (
+        "equal labels",
+        "[axis]\nnu = [0.1]\n[[curve]]\nlabel = \"a\"\n[[curve]]\nlabel = \"a\"\n",
+    ),
+    (
+        "single brackets",
+        "[axis]\nnu = [0.1]\n[curve]\nlabel = \"a\"\n",
+    ),
+    (
+        "a law without its parameter",
+        "[axis]\nnu = [0.1]\n[noise]\nlaw = \"student_t\"\n",
+    ),
+    ("an exponent for a size", "[axis]\ntraining = [1e3]\n"),
+    (
+        "law of T that does not fit",
+        "[axis]\ndelta = [1.0]\n[samples]\nreference = 300000\nshift = 1\nscale = 300000\n",
+    ),
+    (
+        "offset past Y1",
+        "[axis]\ndelta = [1.0]\n[motion]\noffset = 12\n",
+    ),
+    (
+        "known filter of means",
+        "[axis]\ndelta = [1.0]\n[whitening]\nfit = \"known\"\n[samples]\ndecimation = 2\n",
+    ),
+    (
+        "whitened delta of means",
+        "[axis]\ndecimation = [1, 2]\n[motion]\ndelta_at = \"whitened\"\n",
+    ),
+    (
+        "wide contamination",
+        "[axis]\ndelta = [1.0]\n[noise]\nlaw = { contaminated = { share = 0.1, scale = 1e9 } }\n",
+    ),
+    (
+        "small half-width",
+        "half_width = 0.000001\n[axis]\ndelta = [1.0]\n",
+    ),
+    (
         "two numbers of trials",
         "half_width = 0.01\n[axis]\ndelta = [1.0]\n",
     ),
@@ -258,7 +299,7 @@ fn arguments_and_places() {
         (
             "foreign results",
             vec!["sweep", "good.toml", "--out", "foreign"],
-            "run.json: cannot be read",
+            "foreign: holds points.csv, but no run.json",
         ),
         (
             "nothing to plot",
