@@ -130,7 +130,7 @@ impl Curves {
                 10.0
             };
         Frame {
-            left: 48.0,
+            left: 54.0,
             right: WIDTH - 16.0,
             top,
             bottom: above + HEIGHT - 40.0,

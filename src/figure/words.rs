@@ -111,7 +111,7 @@ fn facts(row: &Row) -> Vec<Fact> {
     ]
 }
 
-/// What more than half of the rows say of fact `index`.
+/// What more than two thirds of the rows say of fact `index`.
 fn majority(rows: &[&Row], index: usize) -> Option<Fact> {
     let says = |text: &str| {
         rows.iter()
@@ -119,7 +119,7 @@ fn majority(rows: &[&Row], index: usize) -> Option<Fact> {
             .count()
     };
     let mut candidates = rows.iter().map(|row| facts(row).swap_remove(index));
-    candidates.find(|fact| 2 * says(&fact.text) > rows.len())
+    candidates.find(|fact| 3 * says(&fact.text) > 2 * rows.len())
 }
 
 /// A label that is more than a number speaks for itself; a number is followed by what the curve does
