@@ -4,6 +4,7 @@
 use super::FigureError;
 use super::frame::{CAPTION, Frame, Scale};
 use super::legend::Legend;
+use super::ruler::Ruler;
 use super::sheet::{Align, Look, Picture, Sheet, Style};
 use super::words::{axis_label, caption, is_held_against_alpha, legend};
 use crate::config::{Config, Parameter};
@@ -17,8 +18,6 @@ const LINE: f64 = 1.1;
 const MARKER: f64 = 2.3;
 const CAPTION_STEP: f64 = 10.5;
 const CAPTION_LEFT: f64 = 10.0;
-/// Values that span more than this are drawn on a logarithmic axis.
-const LONG_RANGE: f64 = 30.0;
 
 /// The picture of a sweep.
 pub(super) struct Curves {
@@ -85,7 +84,7 @@ impl Curves {
             .collect();
         Ok(Self {
             scale: ruler.scale(&places),
-            is_named: !ruler.rules.is_empty(),
+            is_named: ruler.is_named(),
             is_whitened: all.iter().all(|row| row.delta_at == "whitened"),
             whitened_unit: whitened_unit(config, &all),
             nominal: is_held_against_alpha(&all).then_some(all[0].alpha),
@@ -303,92 +302,6 @@ impl Picture for Curves {
     }
 }
 
-/// Where the rows of a sweep stand on its axis.
-struct Ruler<'a> {
-    config: &'a Config,
-    is_logarithmic: bool,
-    /// The rules on a rule axis, in order.
-    rules: Vec<String>,
-}
-
-impl<'a> Ruler<'a> {
-    fn new(config: &'a Config, rows: &[&Row]) -> Self {
-        let mut rules: Vec<String> = Vec::new();
-        for row in rows
-            .iter()
-            .filter(|_| config.axis.parameter == Parameter::Rule)
-        {
-            if !rules.contains(&row.rule) {
-                rules.push(row.rule.clone());
-            }
-        }
-        let values = || config.axis.values.iter().filter_map(|value| value.number());
-        let smallest = values().fold(f64::INFINITY, f64::min);
-        let largest = values().fold(f64::NEG_INFINITY, f64::max);
-        Self {
-            config,
-            is_logarithmic: smallest > 0.0 && largest >= LONG_RANGE * smallest,
-            rules,
-        }
-    }
-
-    /// Of the row at `index` among those of its curve. A curve with a row for each value of the axis
-    /// is placed by the values themselves, which a row need not repeat (a known filter has no
-    /// training); at rest equal points are told once, and the rows must do.
-    fn place(&self, rows: &[&Row], index: usize) -> f64 {
-        let (row, values) = (rows[index], &self.config.axis.values);
-        if !self.rules.is_empty() {
-            return self
-                .rules
-                .iter()
-                .position(|rule| *rule == row.rule)
-                .unwrap_or(0) as f64;
-        }
-        let value = match rows.len() == values.len() {
-            true => values[index].number().unwrap_or(0.0),
-            false => column(row, self.config.axis.parameter),
-        };
-        if self.is_logarithmic {
-            libm::log10(value)
-        } else {
-            value
-        }
-    }
-
-    /// From the first place to the last, with a little room on either side.
-    fn scale(&self, places: &[f64]) -> Scale {
-        let low = places.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let room = 0.015 * (high - low);
-        let scale = match (self.rules.is_empty(), self.is_logarithmic) {
-            (false, _) => return Scale::names(&self.names()),
-            (true, _) if low == high => return Scale::single(low),
-            (true, true) => Scale::logarithms(low, high),
-            (true, false) => Scale::linear(low, high, 7),
-        };
-        Scale {
-            from: low - room,
-            to: high + room,
-            ..scale
-        }
-    }
-
-    /// The rules without their tables, tables numbered where there are several.
-    fn names(&self) -> Vec<String> {
-        let is_table = |rule: &&String| rule.starts_with("table");
-        let several = self.rules.iter().filter(is_table).count() > 1;
-        let mut tables = 0;
-        let name = |rule: &String| match (several && is_table(&rule), rule.split('(').next()) {
-            (true, _) => {
-                tables += 1;
-                format!("table {tables}")
-            }
-            (false, name) => name.unwrap_or_default().to_owned(),
-        };
-        self.rules.iter().map(name).collect()
-    }
-}
-
 /// A row's rate and interval, from its counts.
 fn point(x: f64, row: &Row) -> Point {
     let (low, high) = row.tally().interval(row.confidence);
@@ -403,28 +316,6 @@ fn rows_of(rows: &[Row], curve: usize) -> Vec<&Row> {
     match in_motion.is_empty() {
         true => of_curve().collect(),
         false => in_motion,
-    }
-}
-
-/// The value of the axis at a row.
-fn column(row: &Row, parameter: Parameter) -> f64 {
-    match parameter {
-        Parameter::Delta => row.delta,
-        Parameter::Duration => row.duration as f64,
-        Parameter::Offset => row.offset as f64,
-        Parameter::Nu => row.nu,
-        Parameter::Theta => row.theta,
-        Parameter::Quantum => row.quantum.unwrap_or(0.0),
-        Parameter::Range => row.range.unwrap_or(0.0),
-        Parameter::Training => row.training as f64,
-        Parameter::Order => row.order as f64,
-        Parameter::AllSamples | Parameter::Shift => row.shift as f64,
-        Parameter::Reference => row.reference as f64,
-        Parameter::Scale => row.scale as f64,
-        Parameter::Gap => row.gap as f64,
-        Parameter::Decimation => row.decimation as f64,
-        Parameter::Alpha => row.alpha,
-        Parameter::Rule => 0.0,
     }
 }
 

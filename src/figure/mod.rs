@@ -7,6 +7,7 @@ mod curves;
 mod frame;
 mod legend;
 mod region;
+mod ruler;
 mod sheet;
 mod svg;
 mod words;

@@ -1,0 +1,121 @@
+//! The axis of a sweep: where each row stands on it, and what its ticks say.
+
+use super::frame::Scale;
+use crate::config::{Config, Parameter};
+use crate::results::Row;
+
+/// Values that span more than this are drawn on a logarithmic axis.
+const LONG_RANGE: f64 = 30.0;
+
+/// Where the rows of a sweep stand on its axis.
+pub(super) struct Ruler<'a> {
+    config: &'a Config,
+    is_logarithmic: bool,
+    /// The rules on a rule axis, in order.
+    rules: Vec<String>,
+}
+
+impl<'a> Ruler<'a> {
+    pub fn new(config: &'a Config, rows: &[&Row]) -> Self {
+        let mut rules: Vec<String> = Vec::new();
+        for row in rows
+            .iter()
+            .filter(|_| config.axis.parameter == Parameter::Rule)
+        {
+            if !rules.contains(&row.rule) {
+                rules.push(row.rule.clone());
+            }
+        }
+        let values = || config.axis.values.iter().filter_map(|value| value.number());
+        let smallest = values().fold(f64::INFINITY, f64::min);
+        let largest = values().fold(f64::NEG_INFINITY, f64::max);
+        Self {
+            config,
+            is_logarithmic: smallest > 0.0 && largest >= LONG_RANGE * smallest,
+            rules,
+        }
+    }
+
+    /// Whether the axis holds names.
+    pub fn is_named(&self) -> bool {
+        !self.rules.is_empty()
+    }
+
+    /// Of the row at `index` among those of its curve. A curve with a row for each value of the axis
+    /// is placed by the values themselves, which a row need not repeat (a known filter has no
+    /// training); at rest equal points are told once, and the rows must do.
+    pub fn place(&self, rows: &[&Row], index: usize) -> f64 {
+        let (row, values) = (rows[index], &self.config.axis.values);
+        if !self.rules.is_empty() {
+            return self
+                .rules
+                .iter()
+                .position(|rule| *rule == row.rule)
+                .unwrap_or(0) as f64;
+        }
+        let value = match rows.len() == values.len() {
+            true => values[index].number().unwrap_or(0.0),
+            false => column(row, self.config.axis.parameter),
+        };
+        if self.is_logarithmic {
+            libm::log10(value)
+        } else {
+            value
+        }
+    }
+
+    /// From the first place to the last, with a little room on either side.
+    pub fn scale(&self, places: &[f64]) -> Scale {
+        let low = places.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let room = 0.015 * (high - low);
+        let scale = match (self.rules.is_empty(), self.is_logarithmic) {
+            (false, _) => return Scale::names(&self.names()),
+            (true, _) if low == high => return Scale::single(low),
+            (true, true) => Scale::logarithms(low, high),
+            (true, false) => Scale::linear(low, high, 7),
+        };
+        Scale {
+            from: low - room,
+            to: high + room,
+            ..scale
+        }
+    }
+
+    /// The rules without their tables, tables numbered where there are several.
+    fn names(&self) -> Vec<String> {
+        let is_table = |rule: &&String| rule.starts_with("table");
+        let several = self.rules.iter().filter(is_table).count() > 1;
+        let mut tables = 0;
+        let name = |rule: &String| match (several && is_table(&rule), rule.split('(').next()) {
+            (true, _) => {
+                tables += 1;
+                format!("table {tables}")
+            }
+            (false, name) => name.unwrap_or_default().to_owned(),
+        };
+        self.rules.iter().map(name).collect()
+    }
+}
+
+/// The value of the axis at a row.
+fn column(row: &Row, parameter: Parameter) -> f64 {
+    match parameter {
+        Parameter::Delta => row.delta,
+        Parameter::Duration => row.duration as f64,
+        Parameter::Offset => row.offset as f64,
+        Parameter::Nu => row.nu,
+        Parameter::Theta => row.theta,
+        Parameter::Quantum => row.quantum.unwrap_or(0.0),
+        Parameter::Range => row.range.unwrap_or(0.0),
+        Parameter::Training => row.training as f64,
+        Parameter::Order => row.order as f64,
+        Parameter::AllSamples | Parameter::Shift => row.shift as f64,
+        Parameter::Reference => row.reference as f64,
+        Parameter::Scale => row.scale as f64,
+        Parameter::Gap => row.gap as f64,
+        Parameter::Decimation => row.decimation as f64,
+        Parameter::Alpha => row.alpha,
+        Parameter::Rule => 0.0,
+    }
+}
