@@ -6,7 +6,7 @@ use super::frame::{CAPTION, Frame, Scale};
 use super::legend::Legend;
 use super::ruler::Ruler;
 use super::sheet::{Align, Look, Picture, Sheet, Style};
-use super::words::{axis_label, caption, is_held_against_alpha, legend};
+use super::words::{axis_label, caption, common_facts, is_held_against_alpha, legend};
 use crate::config::{Config, Parameter};
 use crate::results::{Manifest, Row};
 use plotters::prelude::{BLACK, Color, DrawingBackend, WHITE};
@@ -60,6 +60,7 @@ impl Curves {
         if all.is_empty() {
             return Err(FigureError::Empty(axis.name()));
         }
+        let common = common_facts(&all);
         let ruler = Ruler::new(config, &all);
         let mut curves: Vec<Curve> = Vec::new();
         for (index, rows) in drawn
@@ -72,7 +73,7 @@ impl Curves {
                 .collect();
             points.sort_by(|a, b| a.x.total_cmp(&b.x));
             curves.push(Curve {
-                legend: legend(rows, &all, axis),
+                legend: legend(rows, &common, axis),
                 look: Look::of(index),
                 points,
             });
@@ -89,7 +90,7 @@ impl Curves {
             whitened_unit: whitened_unit(config, &all),
             nominal: is_held_against_alpha(&all).then_some(all[0].alpha),
             is_false_alarm: all.iter().all(|row| row.is_at_rest()),
-            caption: caption(&all, axis, manifest, WIDTH - 2.0 * CAPTION_LEFT),
+            caption: caption(&all, common, axis, manifest, WIDTH - 2.0 * CAPTION_LEFT),
             curves,
             axis,
         })

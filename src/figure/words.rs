@@ -8,8 +8,9 @@ use super::sheet::{literal, text_width};
 use crate::config::Parameter;
 use crate::results::{Manifest, Row};
 
-/// One parameter, or a few that belong together, in words.
-struct Fact {
+/// One parameter in words.
+#[derive(Clone)]
+pub(super) struct Fact {
     /// The axes that would say the same.
     axes: &'static [Parameter],
     text: String,
@@ -111,31 +112,37 @@ fn facts(row: &Row) -> Vec<Fact> {
     ]
 }
 
-/// What more than two thirds of the rows say of fact `index`.
-fn majority(rows: &[&Row], index: usize) -> Option<Fact> {
-    let says = |text: &str| {
-        rows.iter()
-            .filter(|row| facts(row)[index].text == text)
-            .count()
+/// What more than two thirds of the rows say, fact by fact.
+pub(super) fn common_facts(rows: &[&Row]) -> Vec<Option<Fact>> {
+    let table: Vec<Vec<Fact>> = rows.iter().map(|row| facts(row)).collect();
+    let common = |index: usize| {
+        let column = || table.iter().map(move |facts| &facts[index]);
+        let is_common = |fact: &&Fact| {
+            let agreeing = column().filter(|other| other.text == fact.text).count();
+            3 * agreeing > 2 * table.len()
+        };
+        column().find(is_common).cloned()
     };
-    let mut candidates = rows.iter().map(|row| facts(row).swap_remove(index));
-    candidates.find(|fact| 3 * says(&fact.text) > 2 * rows.len())
+    (0..table.first().map_or(0, Vec::len)).map(common).collect()
 }
 
 /// A label that is more than a number speaks for itself; a number is followed by what the curve does
 /// not share with most others.
-pub(super) fn legend(rows: &[&Row], all: &[&Row], axis: Parameter) -> String {
+pub(super) fn legend(rows: &[&Row], common: &[Option<Fact>], axis: Parameter) -> String {
     let label = literal(&rows[0].label);
     if rows[0].label.parse::<f64>().is_err() {
         return label;
     }
-    let tells_apart = |&(index, ref fact): &(usize, Fact)| {
-        let says = |row: &&Row| facts(row)[index].text == fact.text;
-        let is_common = majority(all, index).is_some_and(|common| common.text == fact.text);
-        !fact.is_usual && !fact.axes.contains(&axis) && rows.iter().all(says) && !is_common
+    let table: Vec<Vec<Fact>> = rows.iter().map(|row| facts(row)).collect();
+    let tells_apart = |(index, fact): &(usize, &Fact)| {
+        let is_common = common[*index]
+            .as_ref()
+            .is_some_and(|common| common.text == fact.text);
+        let is_constant = table.iter().all(|facts| facts[*index].text == fact.text);
+        !fact.is_usual && !fact.axes.contains(&axis) && is_constant && !is_common
     };
-    let here = facts(rows[0]).into_iter().enumerate().filter(tells_apart);
-    let parts: Vec<String> = here.map(|(_, fact)| fact.text).collect();
+    let here = table[0].iter().enumerate().filter(tells_apart);
+    let parts: Vec<&str> = here.map(|(_, fact)| fact.text.as_str()).collect();
     match parts.is_empty() {
         true => label,
         false => format!("{label}:  {}", parts.join(", ")),
@@ -145,12 +152,13 @@ pub(super) fn legend(rows: &[&Row], all: &[&Row], axis: Parameter) -> String {
 /// What most points share, and what the bands are, in lines of at most `width` points.
 pub(super) fn caption(
     rows: &[&Row],
+    common: Vec<Option<Fact>>,
     axis: Parameter,
     manifest: &Manifest,
     width: f64,
 ) -> Vec<String> {
     let row = rows[0];
-    let common = (0..facts(row).len()).filter_map(|index| majority(rows, index));
+    let common = common.into_iter().flatten();
     let shown = common.filter(|fact| !fact.is_usual && !fact.axes.contains(&axis));
     let mut parts: Vec<String> = shown.map(|fact| fact.text).collect();
     if rows.iter().all(|other| other.size == row.size) {
