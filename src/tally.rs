@@ -50,6 +50,16 @@ impl Tally {
     }
 }
 
+/// An interval for the difference of two probabilities, from the exact interval of either at half the
+/// error (Bonferroni). Nothing is assumed of how the two counts depend on each other, so it serves
+/// independent runs as well as the two kinds of discordant trials of one run; its coverage is at
+/// least `confidence`.
+pub fn difference_interval(first: Tally, second: Tally, confidence: f64) -> (f64, f64) {
+    let each = 1.0 - (1.0 - confidence) / 2.0;
+    let (a, b) = (first.interval(each), second.interval(each));
+    (a.0 - b.1, a.1 - b.0)
+}
+
 /// The probability that `trials` trials reject "the rate is at most `nominal`" at `level` when the
 /// true rate is `truth`.
 pub fn power_against(truth: f64, nominal: f64, level: f64, trials: u64) -> f64 {

@@ -4,10 +4,14 @@
 //! and seed give the same bytes anywhere. Files are written beside their place and renamed into it,
 //! all after the last trial: a run that fails leaves what was there before.
 
+mod comparison;
 mod directory;
 mod manifest;
+mod quantity;
 mod row;
 
+pub use comparison::{Comparison, Place};
 pub use directory::{Directory, ResultsError};
 pub use manifest::{Manifest, sha256};
+pub use quantity::Quantity;
 pub use row::{Row, csv_bytes};

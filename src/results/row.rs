@@ -130,12 +130,12 @@ impl Row {
 }
 
 /// Eight significant digits: more than any count supports, fewer than the last bits of a bisection.
-fn eight_digits(value: f64) -> f64 {
+pub(super) fn eight_digits(value: f64) -> f64 {
     format!("{value:.7e}").parse().unwrap_or(value)
 }
 
-/// The rows as the CSV has them.
-pub fn csv_bytes(rows: &[Row]) -> Vec<u8> {
+/// Rows as a CSV has them.
+pub fn csv_bytes<R: Serialize>(rows: &[R]) -> Vec<u8> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in rows {
         writer.serialize(row).expect("a row is plain data");
