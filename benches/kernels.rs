@@ -5,8 +5,10 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use liftsim::config::Config;
 use liftsim::detect::{Alternative, NullLaws, Pooled, Rule, Samples};
+use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
 use liftsim::rng::Stream;
+use liftsim::run;
 use liftsim::signal::{Law, Noise, Sensor};
 use liftsim::whiten::{Fit, Fitter, Whitening, whiten};
 use std::hint::black_box;
@@ -69,9 +71,12 @@ fn family(criterion: &mut Criterion) {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/configs/fig6.toml");
     let config = Config::load(path.as_ref()).expect("a config");
     let plan = Plan::new(&config).expect("a plan");
-    let mut counters = vec![0; plan.points.len()];
+    let decisions = Pilots::new(&plan).and_then(|pilots| pilots.decide(|_| {}));
+    let decisions = decisions.expect("exact regions");
+    let mut short = plan.clone();
+    short.ensemble.trials = 64;
     criterion.bench_function("64 trials of Fig. 6, 156 points", |b| {
-        b.iter(|| plan.families[0].run(0..64, black_box(&mut counters)));
+        b.iter(|| run::run(black_box(&short), &decisions, &[], |_| {}));
     });
 }
 

@@ -7,11 +7,11 @@
 //! the laws exactly, and measures the power.
 //!
 //! # The flow
-//! config → plan → trials (signal → whitened → samples → statistics → decision) → counts → results →
+//! config → plan → pilots → trials (signal → whitened → samples → statistics → decision) → counts → results →
 //! figures.
 //!
 //! ```
-//! use liftsim::{config::Config, plan::Plan, run};
+//! use liftsim::{config::Config, pilot::Pilots, plan::Plan, run};
 //!
 //! let config = Config::parse("example", r#"
 //!     question = "How does the power grow with Δ?"
@@ -21,9 +21,10 @@
 //!     delta = [0.0, 0.5, 1.0]
 //! "#)?;
 //! let plan = Plan::new(&config)?;
-//! let tallies = run::run(&plan, |_| {});
+//! let decisions = Pilots::new(&plan)?.decide(|_| {})?;
+//! let tallies = run::run(&plan, &decisions, &[], |_| {}).tallies;
 //! assert!(tallies[3].rate() > tallies[1].rate());
-//! # Ok::<(), liftsim::config::ConfigError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! # The house
@@ -35,9 +36,9 @@
 //! | 1 | [`tally`]: counts and what may be concluded from them |
 //! | 2 | [`signal`]: sensor, noise, impulses, motion · [`whiten`]: filters · [`detect`]: W, T, their laws, regions |
 //! | 3 | [`chain`]: one trial, every stage |
-//! | 4 | [`config`]: what the author wrote |
+//! | 4 | [`config`]: what the author wrote · [`ensemble`]: blocks of trials in parallel |
 //! | 5 | [`plan`]: what it comes to |
-//! | 6 | [`run`]: blocks of trials in parallel · [`gate`]: the false-alarm test · [`results`]: files |
+//! | 6 | [`pilot`]: decisions that no law gives · [`run`]: counts · [`gate`]: the false-alarm test · [`results`]: files |
 //! | 7 | [`figure`]: pictures |
 //!
 //! # Laws
@@ -75,8 +76,10 @@ pub mod binomial;
 pub mod chain;
 pub mod config;
 pub mod detect;
+pub mod ensemble;
 pub mod figure;
 pub mod gate;
+pub mod pilot;
 pub mod plan;
 pub mod results;
 pub mod rng;

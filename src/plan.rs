@@ -1,9 +1,10 @@
 //! What a config comes to: every point with its scenario and region, and the families that share
 //! noise. Whatever can go wrong goes wrong here, before the first trial.
 
-use crate::chain::{Detector, Family, Scenario};
+use crate::chain::{Detector, Purpose, Scenario};
 use crate::config::{AxisValue, Config, ConfigError, Problem};
-use crate::detect::{Alternative, NullLaws, Region, Samples};
+use crate::detect::{Alternative, Method, NullLaws, Region, Rule, Samples};
+use crate::ensemble::Ensemble;
 use std::sync::Arc;
 
 /// Every point of an experiment, ready to run.
@@ -11,14 +12,14 @@ use std::sync::Arc;
 pub struct Plan {
     /// In the order of the results.
     pub points: Vec<Point>,
-    /// Trials per point.
-    pub trials: u64,
     /// Where every draw starts from.
     pub seed: u64,
     /// Whether points share their noise.
     pub common_random_numbers: bool,
+    /// Trials of each pilot run.
+    pub pilot: u64,
     /// The points again, arranged by the noise they share.
-    pub families: Vec<Family>,
+    pub ensemble: Ensemble,
 }
 
 /// One point of one curve under one hypothesis.
@@ -32,8 +33,17 @@ pub struct Point {
     pub hypothesis: Hypothesis,
     /// Every parameter.
     pub scenario: Scenario,
-    /// ϑ.
-    pub region: Arc<Region>,
+    /// How it decides.
+    pub design: Design,
+}
+
+/// How a point comes by its decision.
+#[derive(Clone, Debug)]
+pub enum Design {
+    /// A region that the exact laws give.
+    Region(Arc<Region>),
+    /// What a pilot run finds.
+    Pilot,
 }
 
 /// What a point simulates.
@@ -70,8 +80,8 @@ impl Plan {
         let mut blame = Vec::new();
         for (curve, Curve { scenarios, moves }) in curves(config)?.into_iter().enumerate() {
             for (value, scenario) in config.axis.values.iter().zip(scenarios) {
-                let region = designer
-                    .region(&scenario)
+                let design = designer
+                    .design(&scenario)
                     .map_err(|problem| config.blame(curve, value, problem))?;
                 let mut add = |hypothesis, scenario| {
                     if wanted(hypothesis) {
@@ -80,7 +90,7 @@ impl Plan {
                             label: config.curves[curve].label.clone(),
                             hypothesis,
                             scenario,
-                            region: region.clone(),
+                            design: design.clone(),
                         });
                         blame.push((curve, value));
                     }
@@ -93,11 +103,11 @@ impl Plan {
                 }
             }
         }
-        let families = Family::arrange(
-            points
-                .iter()
-                .map(|point| (&point.scenario, point.region.clone())),
+        let ensemble = Ensemble::new(
+            points.iter().map(|point| &point.scenario),
+            config.trials,
             config.seed,
+            Purpose::Results,
             config.common_random_numbers,
         )
         .map_err(|(point, refusal)| {
@@ -106,10 +116,10 @@ impl Plan {
         })?;
         Ok(Self {
             points,
-            trials: config.trials,
             seed: config.seed,
             common_random_numbers: config.common_random_numbers,
-            families,
+            pilot: config.pilot,
+            ensemble,
         })
     }
 }
@@ -144,24 +154,44 @@ struct Designer {
 }
 
 impl Designer {
-    fn region(&mut self, scenario: &Scenario) -> Result<Arc<Region>, Problem> {
+    /// The exact region, or the promise of a pilot. A rule that is to be calibrated is made all the
+    /// same: what it cannot reach exactly, it cannot reach at all.
+    fn design(&mut self, scenario: &Scenario) -> Result<Design, Problem> {
+        let detector = &scenario.detector;
+        let region = match &detector.method {
+            Method::Rule(rule) => self.region(scenario, rule)?,
+            _ => {
+                self.laws(scenario)?;
+                return Ok(Design::Pilot);
+            }
+        };
+        Ok(match detector.needs_pilot() {
+            true => Design::Pilot,
+            false => Design::Region(region),
+        })
+    }
+
+    fn region(&mut self, scenario: &Scenario, rule: &Rule) -> Result<Arc<Region>, Problem> {
         let (samples, detector) = (scenario.samples, &scenario.detector);
         let mut known = self.regions.iter();
         if let Some((.., region)) = known.find(|(s, d, _)| *s == samples && d == detector) {
             return Ok(region.clone());
         }
-        let alternative = detector.alternative;
-        let laws = match self.laws.take() {
+        let region = Arc::new(self.laws(scenario)?.region(rule, detector.alpha)?);
+        self.regions
+            .push((samples, detector.clone(), region.clone()));
+        Ok(region)
+    }
+
+    fn laws(&mut self, scenario: &Scenario) -> Result<&NullLaws, Problem> {
+        let (samples, alternative) = (scenario.samples, scenario.detector.alternative);
+        let known = self.laws.take();
+        let laws = match known {
             Some((s, a, laws)) if s == samples && a == alternative => laws,
             _ => NullLaws::new(alternative, &samples)
                 .map_err(|error| Problem::Region(error.into()))?,
         };
-        let region = laws.region(&detector.rule, detector.alpha).map(Arc::new);
-        self.laws = Some((samples, alternative, laws));
-        let region = region?;
-        self.regions
-            .push((samples, detector.clone(), region.clone()));
-        Ok(region)
+        Ok(&self.laws.insert((samples, alternative, laws)).2)
     }
 
     /// Whether `scenario` at rest differs from every one asked for before.

@@ -1,49 +1,108 @@
-//! Runs a plan: blocks of trials in parallel, counts that add.
-//!
-//! A block is up to [`BLOCK`] consecutive trials of one family: the unit of scheduling, no more. A
-//! trial's draws are addressed by its own index and integers add up to the same sum in any order, so
-//! neither the blocks nor the number of threads leave a trace.
+//! Runs a plan: what every point decides, counted; and for pairs of points that share their noise, how
+//! often only the one of them decided for H₁.
 
+use crate::chain::{Decision, Observation};
+use crate::ensemble::Sink;
 use crate::plan::Plan;
 use crate::tally::Tally;
-use rayon::prelude::*;
 
-/// Trials in a block.
-pub const BLOCK: u64 = 1024;
-
-/// Runs every trial of every family on the current thread pool and returns each point's tally.
-/// `progress` hears of every finished block: how many trials of how many points it brought.
-pub fn run(plan: &Plan, progress: impl Fn(u64) + Sync) -> Vec<Tally> {
-    let blocks = plan.trials.div_ceil(BLOCK);
-    let none = || vec![0; plan.points.len()];
-    let hits = (0..plan.families.len() as u64 * blocks)
-        .into_par_iter()
-        .fold(none, |mut hits, task| {
-            let (block, family) = (task % blocks, &plan.families[(task / blocks) as usize]);
-            let first = block * BLOCK;
-            let last = plan.trials.min(first + BLOCK);
-            family.run(first..last, &mut hits);
-            progress((last - first) * family.points_per_trial() as u64);
-            hits
-        })
-        .reduce(none, |mut sum, hits| {
-            for (sum, hits) in sum.iter_mut().zip(hits) {
-                *sum += hits;
-            }
-            sum
-        });
-    let trials = plan.trials;
-    hits.into_iter()
-        .map(|hits| Tally { hits, trials })
-        .collect()
+/// What a run comes to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Outcome {
+    /// Of every point of the plan.
+    pub tallies: Vec<Tally>,
+    /// Of every pair: trials in which the first alone, the second alone decided for H₁; none where
+    /// the two do not share their noise.
+    pub discordant: Vec<Option<[u64; 2]>>,
 }
 
-/// What [`run`]'s progress adds up to.
-pub fn total_work(plan: &Plan) -> u64 {
-    let points: usize = plan
-        .families
-        .iter()
-        .map(|family| family.points_per_trial())
-        .sum();
-    plan.trials * points as u64
+/// Runs every trial of the plan on the current thread pool, each point deciding by its place in
+/// `decisions`. `progress` hears of finished work; it adds up to that of the plan's ensemble.
+pub fn run(
+    plan: &Plan,
+    decisions: &[Decision],
+    pairs: &[[usize; 2]],
+    progress: impl Fn(u64) + Sync,
+) -> Outcome {
+    let pairs_of = pairs_by_family(plan, pairs);
+    let counts = plan
+        .ensemble
+        .run(|| Counts::new(decisions, pairs, &pairs_of), progress);
+    let trials = plan.ensemble.trials;
+    let is_shared = |pair: &usize| pairs_of.iter().any(|family| family.contains(pair));
+    let tallies = counts.hits.iter();
+    Outcome {
+        tallies: tallies.map(|&hits| Tally { hits, trials }).collect(),
+        discordant: (0..pairs.len())
+            .map(|pair| is_shared(&pair).then(|| counts.discordant[pair]))
+            .collect(),
+    }
+}
+
+/// For each family the pairs that lie within it.
+fn pairs_by_family(plan: &Plan, pairs: &[[usize; 2]]) -> Vec<Vec<usize>> {
+    let mut family_of = vec![0; plan.points.len()];
+    for (index, family) in plan.ensemble.families.iter().enumerate() {
+        family.places().for_each(|place| family_of[place] = index);
+    }
+    let mut pairs_of = vec![Vec::new(); plan.ensemble.families.len()];
+    for (pair, [first, second]) in pairs.iter().enumerate() {
+        if family_of[*first] == family_of[*second] {
+            pairs_of[family_of[*first]].push(pair);
+        }
+    }
+    pairs_of
+}
+
+/// Counts that add.
+struct Counts<'a> {
+    decisions: &'a [Decision],
+    pairs: &'a [[usize; 2]],
+    pairs_of: &'a [Vec<usize>],
+    /// What each point decided in the current trial.
+    decided: Vec<bool>,
+    hits: Vec<u64>,
+    discordant: Vec<[u64; 2]>,
+}
+
+impl<'a> Counts<'a> {
+    fn new(decisions: &'a [Decision], pairs: &'a [[usize; 2]], pairs_of: &'a [Vec<usize>]) -> Self {
+        Self {
+            decisions,
+            pairs,
+            pairs_of,
+            decided: vec![false; decisions.len()],
+            hits: vec![0; decisions.len()],
+            discordant: vec![[0; 2]; pairs.len()],
+        }
+    }
+}
+
+impl Sink for Counts<'_> {
+    #[inline]
+    fn take(&mut self, place: usize, observation: &mut Observation) {
+        let is_h1 = self.decisions[place].is_h1(observation);
+        self.decided[place] = is_h1;
+        self.hits[place] += u64::from(is_h1);
+    }
+
+    fn end_trial(&mut self, family: usize) {
+        for &pair in &self.pairs_of[family] {
+            let [first, second] = self.pairs[pair].map(|place| self.decided[place]);
+            self.discordant[pair][0] += u64::from(first && !second);
+            self.discordant[pair][1] += u64::from(second && !first);
+        }
+    }
+
+    fn merge(&mut self, other: Self) {
+        let add = |sum: &mut u64, more| *sum += more;
+        self.hits
+            .iter_mut()
+            .zip(other.hits)
+            .for_each(|(sum, more)| add(sum, more));
+        let pairs = self.discordant.as_flattened_mut().iter_mut();
+        pairs
+            .zip(other.discordant.into_flattened())
+            .for_each(|(sum, more)| add(sum, more));
+    }
 }

@@ -1,6 +1,8 @@
 //! No allocation inside a trial: a block of many trials allocates as often as a block of one.
 
+use liftsim::chain::Trial;
 use liftsim::config::Config;
+use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -37,6 +39,7 @@ static ALLOCATOR: Counting = Counting;
 const EVERYTHING: &str = r#"
 question = "Does any path of a trial allocate?"
 seed = 1
+pilot = 1000
 [axis]
 delta = [0.0, 1.0]
 [[curve]]
@@ -48,6 +51,17 @@ whitening = { fit = "yule-walker", order = 4 }
 noise = { law = { student_t = 3.0 }, quantum = 1.0, range = 8.0 }
 samples = { gap = 2, decimation = 3 }
 [[curve]]
+rest = { drift = 0.01, swell = 2.0, footfalls = 0.1 }
+detector = { ties = "strict" }
+[[curve]]
+detector = { rule = "clairvoyant", calibrate = {} }
+[[curve]]
+detector = { rule = "block-means", calibrate = {} }
+[[curve]]
+detector = { rule = "student-t", calibrate = {} }
+[[curve]]
+detector = { rule = "variance-ratio", calibrate = {} }
+[[curve]]
 noise = { law = { contaminated = { share = 0.1, scale = 5.0 } } }
 motion = { profile = { trapezoid = { rise = 3.0 } } }
 "#;
@@ -57,10 +71,16 @@ fn trials_do_not_allocate() {
     let config = Config::parse("everything", EVERYTHING).unwrap();
     let plan = Plan::new(&config).unwrap();
     let mut counts = vec![0; plan.points.len()];
-    for family in &plan.families {
+    let decisions = Pilots::new(&plan).unwrap().decide(|_| {}).unwrap();
+    for family in &plan.ensemble.families {
         let mut allocations_of = |trials| {
             let before = allocations();
-            family.run(0..trials, &mut counts);
+            let mut trial = Trial::new(family);
+            for index in 0..trials {
+                trial.run(index, |place, observation| {
+                    counts[place] += u64::from(decisions[place].is_h1(observation));
+                });
+            }
             allocations() - before
         };
         assert_eq!(allocations_of(1), allocations_of(500));

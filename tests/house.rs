@@ -10,9 +10,9 @@ const FLOORS: [&[&str]; 8] = [
     &["tally"],
     &["signal", "whiten", "detect"],
     &["chain"],
-    &["config"],
+    &["config", "ensemble"],
     &["plan"],
-    &["run", "gate", "results"],
+    &["pilot", "run", "gate", "results"],
     &["figure"],
 ];
 

@@ -1,8 +1,10 @@
 //! Statistical tests of whole runs. Seeds are fixed; every test states its false-failure rate.
 
+use liftsim::chain::Decision;
 use liftsim::config::Config;
 use liftsim::detect::{NullLaw, Samples};
-use liftsim::plan::{Hypothesis, Plan};
+use liftsim::pilot::Pilots;
+use liftsim::plan::{Design, Hypothesis, Plan};
 use liftsim::run;
 use liftsim::tally::Tally;
 
@@ -15,8 +17,13 @@ fn plan(text: &str) -> Plan {
     Plan::new(&config).unwrap_or_else(|error| panic!("{error}"))
 }
 
+fn decisions(plan: &Plan) -> Vec<Decision> {
+    let decisions = Pilots::new(plan).unwrap().decide(|_| {});
+    decisions.unwrap_or_else(|error| panic!("{error}"))
+}
+
 fn tallies(plan: &Plan) -> Vec<Tally> {
-    run::run(plan, |_| {})
+    run::run(plan, &decisions(plan), &[], |_| {}).tallies
 }
 
 /// The cells (W ≥ w, T ≥ t) of the whole chain at rest with the known filter follow the exact joint
@@ -120,10 +127,13 @@ fn power_agrees_with_a_second_implementation() {
         .filter(|(point, _)| point.hypothesis == Hypothesis::H1);
     for ((point, tally), (delta, nu, theta)) in in_motion.zip(POINTS) {
         let mut random = ChaCha20Rng::seed_from_u64(99);
+        let Design::Region(region) = &point.design else {
+            unreachable!("the rule has an exact region");
+        };
         let detections = (0..naive_trials)
             .filter(|_| {
                 let (w, t) = naive_trial(&mut random, delta, nu, theta);
-                naive_decision(&point.region.critical_values(), w, t)
+                naive_decision(&region.critical_values(), w, t)
             })
             .count() as u64;
         let p = fisher(tally.hits, trials, detections, naive_trials);

@@ -1,15 +1,12 @@
 //! The points that share one noise realisation, arranged so that little is computed twice: source →
 //! branches (digitiser, filter) → courses (impulses, shape of the acceleration) → stages (Δ) →
-//! decisions (regions).
+//! places (points that decide on the same samples).
 
 use super::scenario::Scenario;
-use super::trial::Trial;
-use crate::detect::{Region, Samples};
+use crate::detect::Samples;
 use crate::rng::Stream;
-use crate::signal::{Digitiser, During, Impulses, Noise, Sensor};
+use crate::signal::{Digitiser, Disturbance, During, Impulses, Noise, Sensor};
 use crate::whiten::Whitening;
-use std::ops::Range;
-use std::sync::Arc;
 
 /// All points that share their noise.
 #[derive(Clone, Debug)]
@@ -19,6 +16,7 @@ pub struct Family {
     pub(super) noise: Stream,
     pub(super) impulses: Stream,
     pub(super) ties: Stream,
+    pub(super) footfalls: Stream,
     pub(super) branches: Vec<Branch>,
 }
 
@@ -27,6 +25,7 @@ pub struct Family {
 pub(super) struct Source {
     pub sensor: Sensor,
     pub noise: Noise,
+    pub disturbance: Disturbance,
     pub samples: Samples,
     /// Observations before X.
     pub lead: usize,
@@ -55,14 +54,19 @@ pub(super) struct Course {
 #[derive(Clone, Debug)]
 pub(super) struct Stage {
     pub delta: f64,
-    pub decisions: Vec<Decision>,
+    /// Whether a point here looks at the record itself.
+    pub needs_record: bool,
+    /// The points that look at it.
+    pub places: Vec<usize>,
 }
 
-/// One region, and the counter of its decisions.
-#[derive(Clone, Debug)]
-pub(super) struct Decision {
-    pub region: Arc<Region>,
-    pub counter: usize,
+/// What a run is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// What is reported.
+    Results,
+    /// Finding a region or a threshold, which must not be tuned on the trials that measure it.
+    Pilot,
 }
 
 /// A record that does not fit in memory.
@@ -84,57 +88,56 @@ pub struct RecordTooLong {
 const MEMORY_LIMIT: f64 = 0.5;
 
 impl Family {
-    /// Arranges `points` (scenario and region; a point's place is its counter) into families. With
+    /// Arranges `scenarios` into families; a scenario's place is its place in this list. With
     /// `common_random_numbers` points share noise wherever sensor, law, sizes and training length
-    /// agree; without, every point that simulates anything different has noise of its own.
+    /// agree; without, every point that simulates anything different has noise of its own. `purpose`
+    /// tells the draws of one run from those of another at the same seed.
     ///
     /// # Errors
-    /// Where a record would not fit in memory: the first such point, and how much it takes.
+    /// Where a record would not fit in memory: the first such scenario, and how much it takes.
     pub fn arrange<'a>(
-        points: impl IntoIterator<Item = (&'a Scenario, Arc<Region>)>,
+        scenarios: impl IntoIterator<Item = &'a Scenario>,
         seed: u64,
+        purpose: Purpose,
         common_random_numbers: bool,
     ) -> Result<Vec<Self>, (usize, RecordTooLong)> {
         let mut families: Vec<Self> = Vec::new();
-        for (counter, (scenario, region)) in points.into_iter().enumerate() {
+        for (place, scenario) in scenarios.into_iter().enumerate() {
             let source = Source::new(scenario);
             source
                 .check_memory(scenario)
-                .map_err(|refusal| (counter, refusal))?;
+                .map_err(|refusal| (place, refusal))?;
             let subject = match common_random_numbers {
                 true => source.subject(),
                 false => source.subject_of_all(scenario),
             };
+            let disturbance = source.disturbance;
             let family = find_or_push(
                 &mut families,
-                |family| family.subject == subject,
-                || Self::new(source, seed, &subject),
+                |family| family.subject == subject && family.source.disturbance == disturbance,
+                || Self::new(source, seed, purpose, &subject),
             );
-            family.insert(scenario, Decision { region, counter });
+            family.insert(scenario, place);
         }
         Ok(families)
     }
 
-    fn new(source: Source, seed: u64, subject: &str) -> Self {
+    fn new(source: Source, seed: u64, purpose: Purpose, subject: &str) -> Self {
+        let stream = |draws: &str| {
+            let purpose = match purpose {
+                Purpose::Results => draws.to_owned(),
+                Purpose::Pilot => format!("pilot {draws}"),
+            };
+            Stream::new(seed, &purpose, subject)
+        };
         Self {
             source,
             subject: subject.to_owned(),
-            noise: Stream::new(seed, "noise", subject),
-            impulses: Stream::new(seed, "impulses", subject),
-            ties: Stream::new(seed, "ties", subject),
+            noise: stream("noise"),
+            impulses: stream("impulses"),
+            ties: stream("ties"),
+            footfalls: stream("footfalls"),
             branches: Vec::new(),
-        }
-    }
-
-    /// Runs `trials` and adds each decision for H₁ to the counter of its point: the place the point
-    /// had in [`Family::arrange`].
-    ///
-    /// # Panics
-    /// Where `counters` has no place for a point.
-    pub fn run(&self, trials: Range<u64>, counters: &mut [u64]) {
-        let mut trial = Trial::new(self);
-        for index in trials {
-            trial.run(index, counters);
         }
     }
 
@@ -145,16 +148,14 @@ impl Family {
         courses.map(stages).sum()
     }
 
-    /// The counters this family adds to.
-    #[cfg(test)]
-    pub(super) fn counters(&self) -> Vec<usize> {
+    /// The places of its points.
+    pub fn places(&self) -> impl Iterator<Item = usize> {
         let courses = self.branches.iter().flat_map(|branch| &branch.courses);
         let stages = courses.flat_map(|course| &course.stages);
-        let decisions = stages.flat_map(|stage| &stage.decisions);
-        decisions.map(|decision| decision.counter).collect()
+        stages.flat_map(|stage| stage.places.iter().copied())
     }
 
-    fn insert(&mut self, scenario: &Scenario, decision: Decision) {
+    fn insert(&mut self, scenario: &Scenario, place: usize) {
         let branch = find_or_push(
             &mut self.branches,
             |b| b.digitiser == scenario.digitiser && b.whitening == scenario.whitening,
@@ -175,10 +176,12 @@ impl Family {
             |stage| stage.delta == delta,
             || Stage {
                 delta,
-                decisions: Vec::new(),
+                needs_record: false,
+                places: Vec::new(),
             },
         );
-        stage.decisions.push(decision);
+        stage.needs_record |= scenario.detector.method.needs_record();
+        stage.places.push(place);
     }
 }
 
@@ -187,19 +190,21 @@ impl Source {
         Self {
             sensor: scenario.sensor.clone(),
             noise: scenario.noise,
+            disturbance: scenario.disturbance,
             samples: scenario.samples,
             lead: scenario.whitening.lead(),
         }
     }
 
-    /// What tells one source from another, in the words of the results. Part of every draw's
-    /// coordinates: changing it changes results.
+    /// What tells the noise of one source from another's, in the words of the results: a disturbed rest
+    /// is the same rest disturbed. Part of every draw's coordinates: changing it changes results.
     fn subject(&self) -> String {
         let Self {
             sensor,
             noise,
             samples,
             lead,
+            disturbance: _,
         } = self;
         let (gap, decimation) = (samples.gap(), samples.decimation());
         format!("{sensor} {noise} lead {lead} samples {samples} gap {gap} decimation {decimation}")
@@ -239,6 +244,11 @@ impl Source {
         self.lead + self.samples.span()
     }
 
+    /// Observations up to the last of X.
+    pub fn rest(&self) -> usize {
+        self.lead + self.samples.reference()
+    }
+
     /// Raw samples of a trial without the burn-in.
     pub fn raw_length(&self) -> usize {
         self.observations() * self.samples.decimation()
@@ -274,7 +284,7 @@ impl Source {
 
 impl Course {
     fn new(scenario: &Scenario) -> Self {
-        let shape = shape(scenario);
+        let shape = scenario.shape();
         let decimation = scenario.samples.decimation();
         let mean = |block: &[f64]| block.iter().sum::<f64>() / decimation as f64;
         Self {
@@ -286,7 +296,7 @@ impl Course {
     }
 
     fn is_of(&self, scenario: &Scenario) -> bool {
-        self.impulses == scenario.impulses && self.shape == shape(scenario)
+        self.impulses == scenario.impulses && self.shape == scenario.shape()
     }
 
     /// The first raw observation after X that may carry an impulse.
@@ -298,16 +308,6 @@ impl Course {
             }
         }
     }
-}
-
-/// The acceleration in units of Δ at the middle of each raw observation after X.
-fn shape(scenario: &Scenario) -> Vec<f64> {
-    let samples = &scenario.samples;
-    let decimation = samples.decimation();
-    let raw = (samples.span() - samples.reference()) * decimation;
-    (0..raw)
-        .map(|i| scenario.motion.shape((i as f64 + 0.5) / decimation as f64))
-        .collect()
 }
 
 fn find_or_push<T>(

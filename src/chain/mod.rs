@@ -10,10 +10,13 @@
 //! is written and whitened anew for each.
 
 mod family;
+mod observation;
 mod scenario;
 #[cfg(test)]
 mod tests;
 mod trial;
 
-pub use family::{Family, RecordTooLong};
-pub use scenario::{Detector, Scenario};
+pub use family::{Family, Purpose, RecordTooLong};
+pub use observation::{Decision, Observation, Score};
+pub use scenario::{Calibration, Detector, Scenario};
+pub use trial::Trial;

@@ -1,15 +1,17 @@
 //! The chain against a second, deliberately naive one that is given the same draws: its own loops,
 //! no linearity, nothing shared between points, ranks by sorting.
 
-use super::Family;
-use super::scenario::{Detector, Scenario};
-use crate::detect::{Alternative, NullLaws, Region, Rule, Samples, Statistics};
+use super::scenario::{Calibration, Detector, Scenario};
+use super::{Decision, Family, Purpose, Trial};
+use crate::detect::{Alternative, Method, NullLaws, Region, Rule, Samples, Statistics, Ties};
 use crate::rng::Stream;
 use crate::signal::{
-    DeltaAt, Digitiser, During, ImpulseMemory, Impulses, Law, Motion, Noise, Profile, Sensor,
+    DeltaAt, Digitiser, Disturbance, During, ImpulseMemory, Impulses, Law, Motion, Noise, Profile,
+    Sensor,
 };
 use crate::whiten::{Fit, Whitening};
 use rand::Rng;
+use std::ops::Range;
 use std::sync::Arc;
 
 const TRIALS: u64 = 600;
@@ -18,6 +20,7 @@ fn scenario(samples: Samples, delta: f64, impulses: Impulses) -> Scenario {
     Scenario {
         sensor: Sensor::adxl105(),
         noise: Noise::new(Law::Normal).unwrap(),
+        disturbance: Disturbance::default(),
         digitiser: Digitiser::default(),
         motion: Motion {
             delta,
@@ -31,8 +34,12 @@ fn scenario(samples: Samples, delta: f64, impulses: Impulses) -> Scenario {
         samples,
         detector: Detector {
             alpha: 0.05,
-            rule: Rule::Product,
+            method: Method::Rule(Rule::Product),
             alternative: Alternative::Greater,
+            ties: Ties::Random,
+            calibration: Calibration::None,
+            stated: None,
+            pilot: 0,
         },
     }
 }
@@ -83,11 +90,38 @@ fn scenarios() -> Vec<Scenario> {
 fn region(scenario: &Scenario) -> Arc<Region> {
     let Detector {
         alpha,
-        rule,
+        method,
         alternative,
+        ..
     } = &scenario.detector;
+    let Method::Rule(rule) = method else {
+        unreachable!("every scenario here has a rule");
+    };
     let laws = NullLaws::new(*alternative, &scenario.samples).unwrap();
     Arc::new(laws.region(rule, *alpha).unwrap())
+}
+
+/// How often each scenario decides H₁ in `trials`, by the chain.
+fn counts(scenarios: &[Scenario], families: &[Family], trials: Range<u64>) -> Vec<u64> {
+    let decision = |scenario: &Scenario| Decision::Region {
+        region: region(scenario),
+        ties: scenario.detector.ties,
+    };
+    let decisions: Vec<Decision> = scenarios.iter().map(decision).collect();
+    let mut counts = vec![0; scenarios.len()];
+    for family in families {
+        let mut trial = Trial::new(family);
+        for index in trials.clone() {
+            trial.run(index, |place, observation| {
+                counts[place] += u64::from(decisions[place].is_h1(observation));
+            });
+        }
+    }
+    counts
+}
+
+fn arrange(scenarios: &[Scenario], seed: u64, common_random_numbers: bool) -> Vec<Family> {
+    Family::arrange(scenarios, seed, Purpose::Results, common_random_numbers).unwrap()
 }
 
 /// One trial of one scenario, step by step.
@@ -222,8 +256,7 @@ fn naive_count(scenario: &Scenario, family: &Family) -> u64 {
 fn counts_equal_those_of_the_naive_chain() {
     for common_random_numbers in [true, false] {
         let scenarios = scenarios();
-        let points = scenarios.iter().map(|s| (s, region(s)));
-        let families = Family::arrange(points, 2014, common_random_numbers).unwrap();
+        let families = arrange(&scenarios, 2014, common_random_numbers);
         assert_eq!(
             families.len(),
             if common_random_numbers {
@@ -232,13 +265,10 @@ fn counts_equal_those_of_the_naive_chain() {
                 scenarios.len() - 2
             }
         );
-        let mut counts = vec![0; scenarios.len()];
-        for family in &families {
-            family.run(0..TRIALS, &mut counts);
-        }
+        let counts = counts(&scenarios, &families, 0..TRIALS);
         for (index, scenario) in scenarios.iter().enumerate() {
-            let counts_it = |family: &&Family| family.counters().contains(&index);
-            let family = families.iter().find(counts_it).unwrap();
+            let holds_it = |family: &&Family| family.places().any(|place| place == index);
+            let family = families.iter().find(holds_it).unwrap();
             let expected = naive_count(scenario, family);
             println!("{index}: {expected} of {TRIALS}");
             assert_eq!(counts[index], expected, "point {index}: {scenario:?}");
@@ -256,14 +286,8 @@ fn direct_and_linear_paths_agree() {
             scenario.digitiser = Digitiser::new(None, Some(1e300)).unwrap();
         }
     }
-    let counts = |scenarios: &[Scenario]| {
-        let mut counts = vec![0; scenarios.len()];
-        let points = scenarios.iter().map(|s| (s, region(s)));
-        for family in Family::arrange(points, 7, true).unwrap() {
-            family.run(0..TRIALS, &mut counts);
-        }
-        counts
-    };
+    let counts =
+        |scenarios: &[Scenario]| counts(scenarios, &arrange(scenarios, 7, true), 0..TRIALS);
     assert_eq!(counts(&linear), counts(&direct));
 }
 
@@ -271,13 +295,16 @@ fn direct_and_linear_paths_agree() {
 #[test]
 fn a_trial_does_not_depend_on_others() {
     let scenarios = scenarios();
-    let families = Family::arrange(scenarios.iter().map(|s| (s, region(s))), 1, true).unwrap();
+    let families = arrange(&scenarios, 1, true);
     let counts = |parts: &[(u64, u64)]| {
-        let mut counts = vec![0; scenarios.len()];
+        let mut sum = vec![0; scenarios.len()];
         for &(first, last) in parts {
-            families[0].run(first..last, &mut counts);
+            let counts = counts(&scenarios, &families[..1], first..last);
+            sum.iter_mut()
+                .zip(counts)
+                .for_each(|(sum, more)| *sum += more);
         }
-        counts
+        sum
     };
     assert_eq!(counts(&[(0, 200)]), counts(&[(150, 200), (0, 1), (1, 150)]));
 }
@@ -290,9 +317,8 @@ fn refuses_a_record_that_does_not_fit() {
         0.0,
         Impulses::none(),
     );
-    let region = region(&huge);
     huge.samples = samples;
-    let (point, refusal) = Family::arrange([(&huge, region)], 1, true).unwrap_err();
+    let (point, refusal) = Family::arrange([&huge], 1, Purpose::Results, true).unwrap_err();
     assert_eq!(point, 0);
     assert!(refusal.to_string().contains("GB"), "{refusal}");
 }
@@ -303,12 +329,11 @@ fn counts_do_not_depend_on_the_order_of_points() {
     for common_random_numbers in [true, false] {
         let mut scenarios = scenarios();
         let counts = |scenarios: &[Scenario]| {
-            let mut counts = vec![0; scenarios.len()];
-            let points = scenarios.iter().map(|s| (s, region(s)));
-            for family in Family::arrange(points, 3, common_random_numbers).unwrap() {
-                family.run(0..100, &mut counts);
-            }
-            counts
+            counts(
+                scenarios,
+                &arrange(scenarios, 3, common_random_numbers),
+                0..100,
+            )
         };
         let forwards = counts(&scenarios);
         scenarios.reverse();
@@ -322,13 +347,12 @@ fn counts_do_not_depend_on_the_order_of_points() {
 fn streams_are_all_different() {
     for common_random_numbers in [true, false] {
         let scenarios = scenarios();
-        let points = scenarios.iter().map(|s| (s, region(s)));
-        let families = Family::arrange(points, 3, common_random_numbers).unwrap();
+        let families = arrange(&scenarios, 3, common_random_numbers);
         let streams = families
             .iter()
-            .flat_map(|f| [&f.noise, &f.impulses, &f.ties]);
+            .flat_map(|f| [&f.noise, &f.impulses, &f.ties, &f.footfalls]);
         let first: std::collections::HashSet<u64> =
             streams.map(|stream| stream.at(0).next_u64()).collect();
-        assert_eq!(first.len(), 3 * families.len());
+        assert_eq!(first.len(), 4 * families.len());
     }
 }

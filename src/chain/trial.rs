@@ -1,7 +1,8 @@
 //! One trial of a family, in buffers that are allocated once and reused for a whole block.
 
-use super::family::{Branch, Course, Family, Source, Stage};
-use crate::detect::{Pooled, Samples, Statistics};
+use super::family::{Branch, Course, Family, Source};
+use super::observation::{Observation, Scratch};
+use crate::detect::{Pooled, Samples};
 use crate::rng::{Generator, Stream};
 use crate::signal::Digitiser;
 use crate::whiten::{Fitter, whiten};
@@ -9,12 +10,13 @@ use rand::Rng;
 
 /// The buffers of a trial. Times run from the first observation of the record, or, where named
 /// `motion`, from the first after X.
-pub(super) struct Trial<'a> {
+pub struct Trial<'a> {
     family: &'a Family,
     fitters: Vec<Fitter>,
     noise: NoiseRecord,
     motion: MotionBuffers,
-    ties: Ties<'a>,
+    keys: Keys<'a>,
+    scratch: Scratch,
 }
 
 /// The sensor's noise, as drawn and as observed.
@@ -43,21 +45,26 @@ struct MotionBuffers {
     impulse: Vec<f64>,
     without_step: Vec<f64>,
     whitened: Vec<f64>,
+    /// The observed record with the motion in it.
+    record: Vec<f64>,
 }
 
-/// Random keys for a trial's ties, drawn when first asked for.
-struct Ties<'a> {
+/// Keys for a trial's ties; random ones are drawn when first asked for.
+pub(super) struct Keys<'a> {
     stream: &'a Stream,
     trial: u64,
-    keys: Vec<u64>,
+    random: Vec<u64>,
     drawn: bool,
+    positions: Vec<u64>,
 }
 
 impl<'a> Trial<'a> {
+    /// The buffers for trials of `family`.
     pub fn new(family: &'a Family) -> Self {
         let source = &family.source;
         let after = source.motion_observations();
         let raw_after = after * source.samples.decimation();
+        let span = source.samples.span();
         let fitter = |branch: &Branch| Fitter::new(branch.whitening, source.sensor.ar());
         Self {
             family,
@@ -66,7 +73,7 @@ impl<'a> Trial<'a> {
                 raw: vec![0.0; source.burn_in() + source.raw_length()],
                 burn_in: source.burn_in(),
                 observed: vec![0.0; source.observations()],
-                whitened: vec![0.0; source.samples.span()],
+                whitened: vec![0.0; span],
             },
             motion: MotionBuffers {
                 draws: vec![0; raw_after],
@@ -77,26 +84,31 @@ impl<'a> Trial<'a> {
                 impulse: vec![0.0; after],
                 without_step: vec![0.0; after],
                 whitened: vec![0.0; after],
+                record: vec![0.0; after],
             },
-            ties: Ties {
+            keys: Keys {
                 stream: &family.ties,
                 trial: 0,
-                keys: vec![0; source.samples.span()],
+                random: vec![0; span],
                 drawn: false,
+                positions: (0..span as u64).collect(),
             },
+            scratch: Scratch::default(),
         }
     }
 
-    /// Draws the noise of trial `index` and decides every point of the family on it.
-    pub fn run(&mut self, index: u64, counters: &mut [u64]) {
-        let source = &self.family.source;
-        self.ties.start(index);
-        self.noise.draw(source, &mut self.family.noise.at(index));
-        let mut impulses = self.family.impulses.at(index);
+    /// Draws the noise of trial `index` and shows every point of the family, by its place, what it
+    /// gives there.
+    pub fn run(&mut self, index: u64, mut show: impl FnMut(usize, &mut Observation)) {
+        let family = self.family;
+        let source = &family.source;
+        self.keys.start(index);
+        self.noise.draw(family, index);
+        let mut impulses = family.impulses.at(index);
         for draw in &mut self.motion.draws {
             *draw = impulses.next_u64();
         }
-        for (branch, fitter) in self.family.branches.iter().zip(&mut self.fitters) {
+        for (branch, fitter) in family.branches.iter().zip(&mut self.fitters) {
             self.noise
                 .observe(&branch.digitiser, source.samples.decimation());
             let coefficients = fitter.fit(self.noise.training(branch, source));
@@ -114,40 +126,60 @@ impl<'a> Trial<'a> {
                         .respond(course, coefficients, source, &self.noise.whitened);
                 }
                 for stage in &course.stages {
+                    let (motion, noise) = (&mut self.motion, &mut self.noise);
                     match is_linear {
-                        true => self.motion.add_step(stage.delta),
-                        false => self.motion.record_anew(
+                        true => motion.add_step(stage.delta),
+                        false => motion.record_anew(
                             branch,
                             course,
                             stage.delta,
                             coefficients,
                             source,
-                            &mut self.noise,
+                            noise,
                         ),
                     }
-                    let pooled = pool(&source.samples, &self.noise.whitened, &self.motion.whitened);
-                    stage.decide(pooled.statistics(|| self.ties.keys()), counters);
+                    if stage.needs_record {
+                        motion.keep_record(course, stage.delta, is_linear, source, noise);
+                    }
+                    let record = if stage.needs_record {
+                        &motion.record[..]
+                    } else {
+                        &[]
+                    };
+                    let mut observation = Observation {
+                        pooled: pool(&source.samples, &noise.whitened, &motion.whitened),
+                        samples: &source.samples,
+                        rest: &noise.observed[..source.rest()],
+                        motion: record,
+                        keys: &mut self.keys,
+                        statistics: None,
+                        scratch: &mut self.scratch,
+                    };
+                    for &place in &stage.places {
+                        show(place, &mut observation);
+                    }
                 }
             }
         }
     }
 }
 
-impl Stage {
-    /// Counts the regions that decide H₁.
-    #[inline]
-    fn decide(&self, statistics: Statistics, counters: &mut [u64]) {
-        for decision in &self.decisions {
-            counters[decision.counter] += u64::from(decision.region.contains(statistics));
-        }
-    }
-}
-
 impl NoiseRecord {
-    /// Stationary noise of the sensor.
-    fn draw(&mut self, source: &Source, generator: &mut Generator) {
-        source.noise.fill(generator, &mut self.raw);
+    /// Stationary noise of the sensor, and what disturbs it.
+    fn draw(&mut self, family: &Family, index: u64) {
+        let source = &family.source;
+        source
+            .noise
+            .fill(&mut family.noise.at(index), &mut self.raw);
         source.sensor.colour(&mut self.raw);
+        let mut footfalls: Option<Generator> = None;
+        let draw = || {
+            let generator = footfalls.get_or_insert_with(|| family.footfalls.at(index));
+            generator.next_u64()
+        };
+        let after_rest = source.rest() * source.samples.decimation();
+        let record = &mut self.raw[self.burn_in..];
+        source.disturbance.act(record, after_rest, draw);
     }
 
     /// The record of rest as the sensor writes it down.
@@ -163,7 +195,7 @@ impl NoiseRecord {
     /// The observations the filter is fitted to.
     fn training(&self, branch: &Branch, source: &Source) -> &[f64] {
         let end = match branch.whitening.includes_reference() {
-            true => source.lead + source.samples.reference(),
+            true => source.rest(),
             false => source.lead,
         };
         &self.observed[end - branch.whitening.training()..end]
@@ -224,7 +256,7 @@ impl MotionBuffers {
         for (i, r) in self.raw.iter_mut().enumerate() {
             *r = rest[i] + delta * course.shape[i] + theta * self.pattern[i];
         }
-        let start = source.lead + source.samples.reference();
+        let start = source.rest();
         let decimation = source.samples.decimation();
         observe(
             &self.raw,
@@ -234,23 +266,50 @@ impl MotionBuffers {
         );
         whiten(coefficients, &noise.observed, start, &mut self.whitened);
     }
+
+    /// The observed record of this stage: already written by the direct path, a sum on the linear one.
+    fn keep_record(
+        &mut self,
+        course: &Course,
+        delta: f64,
+        is_linear: bool,
+        source: &Source,
+        noise: &NoiseRecord,
+    ) {
+        let observed = &noise.observed[source.rest()..];
+        if !is_linear {
+            self.record.copy_from_slice(observed);
+            return;
+        }
+        let theta = course.impulses.theta();
+        let motion = course.observed_shape.iter().zip(&self.observed);
+        for ((r, x), (shape, impulse)) in self.record.iter_mut().zip(observed).zip(motion) {
+            *r = x + delta * shape + theta * impulse;
+        }
+    }
 }
 
-impl Ties<'_> {
+impl Keys<'_> {
     fn start(&mut self, trial: u64) {
         self.trial = trial;
         self.drawn = false;
     }
 
-    fn keys(&mut self) -> &[u64] {
+    /// A random key for each sample.
+    pub fn random(&mut self) -> &[u64] {
         if !self.drawn {
             let mut generator = self.stream.at(self.trial);
-            for key in &mut self.keys {
+            for key in &mut self.random {
                 *key = generator.next_u64();
             }
             self.drawn = true;
         }
-        &self.keys
+        &self.random
+    }
+
+    /// Keys in the order of time.
+    pub fn positions(&self) -> &[u64] {
+        &self.positions
     }
 }
 

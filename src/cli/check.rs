@@ -3,10 +3,10 @@
 use super::{Failure, Outcome, Simulation, print, progress, table};
 use anyhow::anyhow;
 use clap::Args;
+use liftsim::chain::Decision;
 use liftsim::config::{Config, Parameter};
 use liftsim::gate::{self, EXCESS, FAMILY_LEVEL, Finding, Verdict};
 use liftsim::plan::{Plan, Point};
-use liftsim::run;
 use std::process::ExitCode;
 
 /// Test that the false-alarm rate of every scenario at rest stays at or below its level.
@@ -35,12 +35,9 @@ impl Check {
             )));
         }
         let (config, plan) = self.simulation.prepare(Plan::at_rest)?;
-        let bar = progress::bar(&plan, quiet);
-        let tallies = run::run(&plan, |work| bar.inc(work));
-        bar.finish_and_clear();
-
-        let findings = gate::judge(&plan.points, &tallies, self.nominal);
-        print(&report(&config, &plan, &findings))?;
+        let (decisions, outcome) = progress::simulate(&plan, &[], quiet)?;
+        let findings = gate::judge(&plan.points, &outcome.tallies, self.nominal);
+        print(&report(&config, &plan, &decisions, &findings))?;
         Ok(ExitCode::from(match gate::overall(&findings) {
             Verdict::Pass => 0,
             Verdict::Fail => 1,
@@ -49,7 +46,7 @@ impl Check {
     }
 }
 
-fn report(config: &Config, plan: &Plan, findings: &[Finding]) -> String {
+fn report(config: &Config, plan: &Plan, decisions: &[Decision], findings: &[Finding]) -> String {
     let header = [
         "scenario",
         "rule",
@@ -62,8 +59,8 @@ fn report(config: &Config, plan: &Plan, findings: &[Finding]) -> String {
         "p",
         "verdict",
     ];
-    let rows: Vec<Vec<String>> = (plan.points.iter().zip(findings))
-        .map(|(point, finding)| row(config, point, finding))
+    let rows: Vec<Vec<String>> = (plan.points.iter().zip(decisions).zip(findings))
+        .map(|((point, decision), finding)| row(config, point, decision, finding))
         .collect();
     let count = |verdict| findings.iter().filter(|f| f.verdict == verdict).count();
     let power = findings.iter().map(|f| f.power).fold(1.0, f64::min);
@@ -85,14 +82,16 @@ fn report(config: &Config, plan: &Plan, findings: &[Finding]) -> String {
     )
 }
 
-fn row(config: &Config, point: &Point, finding: &Finding) -> Vec<String> {
+fn row(config: &Config, point: &Point, decision: &Decision, finding: &Finding) -> Vec<String> {
     let tally = finding.tally;
     let (low, high) = tally.interval(config.confidence);
     vec![
         scenario(config, point),
-        point.scenario.detector.rule.name().to_owned(),
+        point.scenario.detector.method.name().to_owned(),
         finding.nominal.to_string(),
-        format!("{:.6}", point.region.size()),
+        decision
+            .size()
+            .map_or(String::new(), |size| format!("{size:.6}")),
         tally.trials.to_string(),
         tally.hits.to_string(),
         format!("{:.6}", tally.rate()),
@@ -123,7 +122,7 @@ fn scenario(config: &Config, point: &Point) -> String {
         Parameter::Training => scenario.whitening.training(),
         Parameter::Order => scenario.whitening.order(),
         Parameter::AllSamples | Parameter::Shift => scenario.samples.shift(),
-        Parameter::Reference => scenario.samples.reference(),
+        Parameter::Reference | Parameter::ReferenceAndScale => scenario.samples.reference(),
         Parameter::Scale => scenario.samples.scale(),
         Parameter::Gap => scenario.samples.gap(),
         Parameter::Decimation => scenario.samples.decimation(),

@@ -1,7 +1,9 @@
 //! `liftsim plan CONFIG`: what a sweep would do.
 
-use super::{Outcome, Simulation, print};
+use super::{Failure, Outcome, Simulation, print};
 use clap::Args;
+use liftsim::ensemble::BLOCK;
+use liftsim::pilot::Pilots;
 use liftsim::plan::{Hypothesis, Plan};
 use liftsim::run;
 use liftsim::tally::Tally;
@@ -19,12 +21,13 @@ impl PlanCommand {
     /// Runs the command.
     pub fn run(self) -> Outcome {
         let (config, plan) = self.simulation.prepare(Plan::new)?;
-        let trials = plan.trials;
+        let trials = plan.ensemble.trials;
         let at_rest = plan
             .points
             .iter()
             .filter(|p| p.hypothesis == Hypothesis::H0)
             .count();
+        let pilots = Pilots::new(&plan).map_err(Failure::input)?;
         let tally = |hits| Tally { hits, trials };
         let half_width = |hits| {
             let (low, high) = tally(hits).interval(config.confidence);
@@ -35,17 +38,19 @@ impl PlanCommand {
              points       {} in motion, {at_rest} at rest, of {} curves\n\
              trials       {trials} per point, {} trial-points in all\n\
              noise        {} independent sets of realisations\n\
+             pilots       {} trial-points more\n\
              half-width   {:.5} at a rate of 1/2, {:.5} at 0.01, of the {} % interval\n\
              time         about {} on {} threads\n",
             config.question,
             plan.points.len() - at_rest,
             config.curves.len(),
-            run::total_work(&plan),
-            plan.families.len(),
+            plan.ensemble.work(),
+            plan.ensemble.families.len(),
+            pilots.work(),
             half_width(trials / 2),
             half_width(trials / 100),
             config.confidence * 100.0,
-            in_words(expected_time(plan)),
+            in_words(expected_time(&plan, &pilots)),
             rayon::current_num_threads(),
         ))?;
         Ok(ExitCode::SUCCESS)
@@ -53,13 +58,17 @@ impl PlanCommand {
 }
 
 /// Scales up the time of a short run of the same points; its counts are thrown away.
-fn expected_time(mut plan: Plan) -> Duration {
-    let wanted = plan.trials;
-    plan.trials = wanted.min(run::BLOCK * rayon::current_num_threads() as u64);
-    run::run(&plan, |_| {});
+fn expected_time(plan: &Plan, pilots: &Pilots) -> Duration {
+    let decisions = pilots.stand_ins();
+    let mut short = plan.clone();
+    let wanted = plan.ensemble.trials;
+    short.ensemble.trials = wanted.min(BLOCK * rayon::current_num_threads() as u64);
+    run::run(&short, &decisions, &[], |_| {});
     let start = Instant::now();
-    run::run(&plan, |_| {});
-    start.elapsed().mul_f64(wanted as f64 / plan.trials as f64)
+    run::run(&short, &decisions, &[], |_| {});
+    // A trial-point of a pilot costs about as much as one of the run.
+    let work = (plan.ensemble.work() + pilots.work()) as f64;
+    start.elapsed().mul_f64(work / short.ensemble.work() as f64)
 }
 
 fn in_words(time: Duration) -> String {

@@ -1,26 +1,48 @@
-//! A bar on standard error: done, trials per second, time left. Off a terminal it stays silent.
+//! Simulation with a bar on standard error: done, time left. Off a terminal it stays silent.
 
+use super::Failure;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use liftsim::chain::Decision;
+use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
-use liftsim::run;
+use liftsim::run::{self, Outcome};
 use std::fmt::Write;
 
-/// A bar for the work of `plan`, to be told of finished work by `inc`.
-pub fn bar(plan: &Plan, quiet: bool) -> ProgressBar {
-    let work = run::total_work(plan);
-    let points = work as f64 / plan.trials as f64;
+/// Runs the plan's pilots, then the plan itself.
+pub fn simulate(
+    plan: &Plan,
+    pairs: &[[usize; 2]],
+    quiet: bool,
+) -> Result<(Vec<Decision>, Outcome), Failure> {
+    let pilots = Pilots::new(plan).map_err(Failure::input)?;
+    let pilot_bar = bar("pilots", pilots.work(), plan.pilot, quiet);
+    let decisions = pilots.decide(|work| pilot_bar.inc(work));
+    pilot_bar.finish_and_clear();
+    let decisions = decisions.map_err(Failure::input)?;
+
+    let ensemble = &plan.ensemble;
+    let bar = bar("points", ensemble.work(), ensemble.trials, quiet);
+    let outcome = run::run(plan, &decisions, pairs, |work| bar.inc(work));
+    bar.finish_and_clear();
+    Ok((decisions, outcome))
+}
+
+/// A bar for `work` trial-points, `trials` of each, to be told of finished work by `inc`.
+fn bar(name: &'static str, work: u64, trials: u64, quiet: bool) -> ProgressBar {
+    let points = work as f64 / trials as f64;
     let speed = move |state: &ProgressState, text: &mut dyn Write| {
         // An estimate that cannot be written is not worth stopping for.
         let _ = write!(text, "{:.0}", state.per_sec() / points);
     };
     let style = ProgressStyle::with_template(
-        "{bar:32} {percent:>3} %  {speed} trials/s of every point, {eta} left",
+        "{msg} {bar:32} {percent:>3} %  {speed} trials/s of every point, {eta} left",
     )
     .expect("the template is fixed")
     .with_key("speed", speed);
-    let target = match quiet {
+    let target = match quiet || work == 0 {
         true => ProgressDrawTarget::hidden(),
         false => ProgressDrawTarget::stderr_with_hz(5),
     };
-    ProgressBar::with_draw_target(Some(work), target).with_style(style)
+    let bar = ProgressBar::with_draw_target(Some(work), target).with_style(style);
+    bar.with_message(name)
 }

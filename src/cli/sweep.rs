@@ -6,7 +6,6 @@ use liftsim::config::Config;
 use liftsim::figure;
 use liftsim::plan::Plan;
 use liftsim::results::{self, Directory, Manifest, Row};
-use liftsim::run;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -38,14 +37,14 @@ impl Sweep {
         );
         directory.admit(&plan, self.fresh).map_err(Failure::input)?;
 
-        let bar = progress::bar(&plan, quiet);
         let start = Instant::now();
-        let tallies = run::run(&plan, |work| bar.inc(work));
+        let (decisions, outcome) = progress::simulate(&plan, &[], quiet)?;
         let seconds = start.elapsed().as_secs_f64();
-        bar.finish_and_clear();
 
-        let rows: Vec<Row> = (plan.points.iter().zip(tallies))
-            .map(|(point, tally)| Row::new(point, tally, config.confidence))
+        let rows: Vec<Row> = (plan.points.iter().zip(&decisions).zip(outcome.tallies))
+            .map(|((point, decision), tally)| {
+                Row::new(point, Some(decision), tally, config.confidence)
+            })
             .collect();
         write(&directory, &config, &rows, seconds)?;
         Ok(ExitCode::SUCCESS)

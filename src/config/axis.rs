@@ -4,47 +4,82 @@ use super::error::{Problem, Refusal, nearest};
 use super::file::{AxisTable, Sections};
 use super::value::Number;
 use serde::Deserialize;
-use serde::de::DeserializeOwned;
 use std::ops::Range;
 use toml::{Spanned, Value};
 
-/// A parameter that an axis can sweep.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Parameter {
+/// The parameters, each with its name in a config and the keys it stands for.
+macro_rules! parameters {
+    ($($(#[$doc:meta])* $variant:ident: $name:literal = $($section:ident.$key:ident),+;)*) => {
+        /// A parameter that an axis can sweep.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Parameter {
+            $($(#[$doc])* $variant,)*
+        }
+
+        impl Parameter {
+            /// All of them, by the name they have in a config and, where they have a column, in results.
+            pub(super) const ALL: &[(&'static str, Self)] = &[$(($name, Self::$variant)),*];
+
+            /// Its name.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name,)*
+                }
+            }
+
+            /// The sections and keys it stands for.
+            pub(super) fn keys(self) -> &'static [(&'static str, &'static str)] {
+                match self {
+                    $(Self::$variant => &[$((stringify!($section), stringify!($key))),+],)*
+                }
+            }
+        }
+    };
+}
+
+parameters! {
     /// Δ/σ_ξ.
-    Delta,
+    Delta: "delta" = motion.delta;
     /// Length of the acceleration.
-    Duration,
+    Duration: "duration" = motion.duration;
     /// Start of the acceleration after X.
-    Offset,
+    Offset: "offset" = motion.offset;
     /// ν.
-    Nu,
+    Nu: "nu" = impulses.nu;
     /// θ/σ_ξ.
-    Theta,
+    Theta: "theta" = impulses.theta;
     /// Step of the sensor.
-    Quantum,
+    Quantum: "quantum" = noise.quantum;
     /// Limit of the sensor.
-    Range,
+    Range: "range" = noise.range;
+    /// Drift of the rest.
+    Drift: "drift" = rest.drift;
+    /// Factor of the noise after X.
+    Swell: "swell" = rest.swell;
+    /// Probability of a footfall.
+    Footfalls: "footfalls" = rest.footfalls;
     /// Training samples.
-    Training,
+    Training: "training" = whitening.training;
     /// m.
-    Order,
+    Order: "order" = whitening.order;
     /// N, M₁ and M₂ together.
-    AllSamples,
+    AllSamples: "all_samples" = samples.reference, samples.shift, samples.scale;
+    /// N and M₂ together.
+    ReferenceAndScale: "reference_and_scale" = samples.reference, samples.scale;
     /// N.
-    Reference,
+    Reference: "reference" = samples.reference;
     /// M₁.
-    Shift,
+    Shift: "shift" = samples.shift;
     /// M₂.
-    Scale,
+    Scale: "scale" = samples.scale;
     /// Samples skipped between X, Y₁ and Y₂.
-    Gap,
+    Gap: "gap" = samples.gap;
     /// Observations in a block mean.
-    Decimation,
+    Decimation: "decimation" = samples.decimation;
     /// α.
-    Alpha,
+    Alpha: "alpha" = detector.alpha;
     /// The decision rule.
-    Rule,
+    Rule: "rule" = detector.rule;
 }
 
 /// One value of an axis.
@@ -66,65 +101,16 @@ pub struct Axis {
 /// More points than this on one axis are a mistake.
 const MOST_POINTS: usize = 10_000;
 
-impl Parameter {
-    /// All of them, by the name they have in a config and, where they have a column, in results.
-    pub const ALL: [(&'static str, Self); 17] = [
-        ("delta", Self::Delta),
-        ("duration", Self::Duration),
-        ("offset", Self::Offset),
-        ("nu", Self::Nu),
-        ("theta", Self::Theta),
-        ("quantum", Self::Quantum),
-        ("range", Self::Range),
-        ("training", Self::Training),
-        ("order", Self::Order),
-        ("all_samples", Self::AllSamples),
-        ("reference", Self::Reference),
-        ("shift", Self::Shift),
-        ("scale", Self::Scale),
-        ("gap", Self::Gap),
-        ("decimation", Self::Decimation),
-        ("alpha", Self::Alpha),
-        ("rule", Self::Rule),
-    ];
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        let named = Self::ALL.iter().find(|(_, parameter)| *parameter == self);
-        named.map_or("", |(name, _)| name)
-    }
-}
-
-impl Parameter {
-    /// The sections and keys it stands for.
-    pub(super) fn keys(self) -> &'static [(&'static str, &'static str)] {
-        match self {
-            Self::Delta => &[("motion", "delta")],
-            Self::Duration => &[("motion", "duration")],
-            Self::Offset => &[("motion", "offset")],
-            Self::Nu => &[("impulses", "nu")],
-            Self::Theta => &[("impulses", "theta")],
-            Self::Quantum => &[("noise", "quantum")],
-            Self::Range => &[("noise", "range")],
-            Self::Training => &[("whitening", "training")],
-            Self::Order => &[("whitening", "order")],
-            Self::AllSamples => &[
-                ("samples", "reference"),
-                ("samples", "shift"),
-                ("samples", "scale"),
-            ],
-            Self::Reference => &[("samples", "reference")],
-            Self::Shift => &[("samples", "shift")],
-            Self::Scale => &[("samples", "scale")],
-            Self::Gap => &[("samples", "gap")],
-            Self::Decimation => &[("samples", "decimation")],
-            Self::Alpha => &[("detector", "alpha")],
-            Self::Rule => &[("detector", "rule")],
+impl AxisValue {
+    /// The value in words: a number, or the name of a rule.
+    pub fn text(&self) -> String {
+        match &self.value {
+            Value::String(text) => text.clone(),
+            Value::Table(table) => table.keys().next().cloned().unwrap_or_default(),
+            other => other.to_string(),
         }
     }
-}
 
-impl AxisValue {
     /// The number, where it is one.
     pub fn number(&self) -> Option<f64> {
         match self.value {
@@ -174,52 +160,15 @@ impl Axis {
 
     /// Puts `value` in the place of what the sections say.
     pub(super) fn set(&self, value: &AxisValue, sections: &mut Sections) -> Result<(), Problem> {
-        let name = self.parameter.name();
-        let Sections {
-            motion,
-            noise,
-            impulses,
-            whitening,
-            samples,
-            detector,
-            ..
-        } = sections;
-        match self.parameter {
-            Parameter::Delta => motion.delta = self.read(name, value)?,
-            Parameter::Duration => motion.duration = self.read(name, value)?,
-            Parameter::Offset => motion.offset = self.read(name, value)?,
-            Parameter::Nu => impulses.nu = self.read(name, value)?,
-            Parameter::Theta => impulses.theta = self.read(name, value)?,
-            Parameter::Quantum => noise.quantum = self.read(name, value)?,
-            Parameter::Range => noise.range = self.read(name, value)?,
-            Parameter::Training => whitening.training = self.read(name, value)?,
-            Parameter::Order => whitening.order = self.read(name, value)?,
-            Parameter::AllSamples => {
-                samples.reference = self.read(name, value)?;
-                samples.shift = self.read(name, value)?;
-                samples.scale = self.read(name, value)?;
-            }
-            Parameter::Reference => samples.reference = self.read(name, value)?,
-            Parameter::Shift => samples.shift = self.read(name, value)?,
-            Parameter::Scale => samples.scale = self.read(name, value)?,
-            Parameter::Gap => samples.gap = self.read(name, value)?,
-            Parameter::Decimation => samples.decimation = self.read(name, value)?,
-            Parameter::Alpha => detector.alpha = self.read(name, value)?,
-            Parameter::Rule => detector.rule = self.read(name, value)?,
+        for &place in self.parameter.keys() {
+            sections
+                .set(place, &value.value, self.span())
+                .map_err(|error| Problem::AxisValue {
+                    name: self.parameter.name(),
+                    refusal: Refusal::new("", error),
+                })?;
         }
         Ok(())
-    }
-
-    fn read<T: DeserializeOwned>(
-        &self,
-        name: &'static str,
-        value: &AxisValue,
-    ) -> Result<Option<Spanned<T>>, Problem> {
-        let value: T = value.value.clone().try_into().map_err(|error| {
-            let refusal = Refusal::new("", error);
-            Problem::AxisValue { name, refusal }
-        })?;
-        Ok(Some(Spanned::new(self.span(), value)))
     }
 }
 

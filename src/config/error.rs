@@ -2,7 +2,9 @@
 
 use crate::chain::RecordTooLong;
 use crate::detect::{RegionError, SamplesError};
-use crate::signal::{DigitiserError, ImpulsesError, LawError, MotionError, SensorError};
+use crate::signal::{
+    DigitiserError, DisturbanceError, ImpulsesError, LawError, MotionError, SensorError,
+};
 use crate::tally::MOST_TRIALS;
 use crate::whiten::WhiteningError;
 use std::fmt;
@@ -114,6 +116,46 @@ pub enum Problem {
     /// No trials.
     #[error("trials must be at least 1, got 0")]
     NoTrials,
+    /// A pilot of no trials, or of too many.
+    #[error("pilot must lie between 1 and 10000000 trials, got {0}")]
+    Pilot(u64),
+    /// A statistic whose law depends on the noise's.
+    #[error(
+        "detector.rule: {0} has no exact law (add calibrate = {{ law = \"normal\" }} to measure its \
+         threshold, or calibrate = true)"
+    )]
+    NotCalibrated(&'static str),
+    /// A table is what it is.
+    #[error(
+        "detector.calibrate: a table's entries are given (leave calibrate out, or name a rule)"
+    )]
+    TableCalibrated,
+    /// A rule made for a motion, where nothing moves.
+    #[error(
+        "detector.rule: {0} is made for one motion, and nothing moves here \
+         (give motion.delta or impulses.nu and theta)"
+    )]
+    NothingStated(&'static str),
+    /// The clairvoyant's filter is that of single samples.
+    #[error(
+        "detector.rule: clairvoyant knows the filter of single samples, not of means of {0} \
+         (set decimation to 1)"
+    )]
+    ClairvoyantDecimated(usize),
+    /// Too little rest for block means.
+    #[error(
+        "detector.rule: block-means needs {needed} samples of rest, 8 times shift, got {got} \
+         (raise training or reference)"
+    )]
+    RestTooShort {
+        /// 8 M₁.
+        needed: usize,
+        /// Training and X.
+        got: usize,
+    },
+    /// A disturbance that cannot be.
+    #[error("rest: {0}")]
+    Disturbance(#[from] DisturbanceError),
     /// Two sensors.
     #[error("sensor: model, ar and transfer exclude each other, got {0} of them (leave one)")]
     SensorTwice(usize),

@@ -4,7 +4,10 @@
 use super::error::{ConfigError, Source};
 use super::value::{Critical, Number, Whole};
 use serde::Deserialize;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Deserializer, MapAccess, Visitor};
 use std::collections::BTreeMap;
+use std::fmt;
 use std::ops::Range;
 use toml::Spanned;
 
@@ -22,6 +25,23 @@ macro_rules! section {
             /// This section where it says something, `base` where it does not.
             fn over(&self, base: &Self) -> Self {
                 Self { $($key: self.$key.clone().or_else(|| base.$key.clone())),* }
+            }
+
+            /// Puts `value`, which stands at `span`, in the place of `key`.
+            pub fn set(
+                &mut self,
+                key: &str,
+                value: &toml::Value,
+                span: Range<usize>,
+            ) -> Result<(), toml::de::Error> {
+                match key {
+                    $(stringify!($key) => {
+                        let value: $kind = value.clone().try_into()?;
+                        self.$key = Some(Spanned::new(span, value));
+                    })*
+                    _ => unreachable!("no section has {key}"),
+                }
+                Ok(())
             }
 
             /// Where the value of `key` stands.
@@ -42,6 +62,10 @@ section! {
 section! {
     /// `[noise]`
     NoiseSection { law: LawKind, quantum: Number, range: Number }
+}
+section! {
+    /// `[rest]`
+    RestSection { drift: Number, swell: Number, footfalls: Number, jolt: Number }
 }
 section! {
     /// `[motion]`
@@ -65,7 +89,13 @@ section! {
 }
 section! {
     /// `[detector]`
-    DetectorSection { alpha: Number, rule: RuleKind, alternative: AlternativeKind }
+    DetectorSection {
+        alpha: Number,
+        rule: RuleKind,
+        alternative: AlternativeKind,
+        ties: TiesKind,
+        calibrate: CalibrateKind,
+    }
 }
 
 /// The sections that a file has and a curve may change.
@@ -73,6 +103,7 @@ section! {
 pub(super) struct Sections {
     pub sensor: SensorSection,
     pub noise: NoiseSection,
+    pub rest: RestSection,
     pub motion: MotionSection,
     pub impulses: ImpulsesSection,
     pub whitening: WhiteningSection,
@@ -81,6 +112,39 @@ pub(super) struct Sections {
 }
 
 impl Sections {
+    /// Puts `value`, which stands at `span`, in the place of `key` in `section`.
+    pub fn set(
+        &mut self,
+        (section, key): (&str, &str),
+        value: &toml::Value,
+        span: Range<usize>,
+    ) -> Result<(), toml::de::Error> {
+        match section {
+            "sensor" => self.sensor.set(key, value, span),
+            "noise" => self.noise.set(key, value, span),
+            "rest" => self.rest.set(key, value, span),
+            "motion" => self.motion.set(key, value, span),
+            "impulses" => self.impulses.set(key, value, span),
+            "whitening" => self.whitening.set(key, value, span),
+            "samples" => self.samples.set(key, value, span),
+            _ => self.detector.set(key, value, span),
+        }
+    }
+
+    /// Where the first of `keys` that the author wrote stands.
+    pub fn first_span(&self, keys: &[(&str, &str)]) -> Option<Range<usize>> {
+        keys.iter().find_map(|&(section, key)| match section {
+            "sensor" => self.sensor.span(key),
+            "noise" => self.noise.span(key),
+            "rest" => self.rest.span(key),
+            "motion" => self.motion.span(key),
+            "impulses" => self.impulses.span(key),
+            "whitening" => self.whitening.span(key),
+            "samples" => self.samples.span(key),
+            _ => self.detector.span(key),
+        })
+    }
+
     /// These sections where they say something, `base` where they do not. A sensor is one choice:
     /// naming any replaces the other.
     pub fn over(&self, base: &Self) -> Self {
@@ -92,6 +156,7 @@ impl Sections {
                 false => sensor.over(&base.sensor),
             },
             noise: self.noise.over(&base.noise),
+            rest: self.rest.over(&base.rest),
             motion: self.motion.over(&base.motion),
             impulses: self.impulses.over(&base.impulses),
             whitening: self.whitening.over(&base.whitening),
@@ -114,6 +179,8 @@ macro_rules! with_sections {
             #[serde(default)]
             noise: NoiseSection,
             #[serde(default)]
+            rest: RestSection,
+            #[serde(default)]
             motion: MotionSection,
             #[serde(default)]
             impulses: ImpulsesSection,
@@ -130,6 +197,7 @@ macro_rules! with_sections {
                 Sections {
                     sensor: self.sensor.clone(),
                     noise: self.noise.clone(),
+                    rest: self.rest.clone(),
                     motion: self.motion.clone(),
                     impulses: self.impulses.clone(),
                     whitening: self.whitening.clone(),
@@ -153,6 +221,7 @@ with_sections! {
         half_width: Option<Spanned<Number>>,
         confidence: Option<Spanned<Number>>,
         common_random_numbers: Option<bool>,
+        pilot: Option<Spanned<Whole>>,
         axis: AxisTable,
         #[serde(default)]
         curve: Vec<CurveTable>,
@@ -184,6 +253,7 @@ impl File {
             label: None,
             sensor: SensorSection::default(),
             noise: NoiseSection::default(),
+            rest: RestSection::default(),
             motion: MotionSection::default(),
             impulses: ImpulsesSection::default(),
             whitening: WhiteningSection::default(),
@@ -255,6 +325,7 @@ pub(super) enum FitKind {
     YuleWalker,
     Burg,
     Known,
+    None,
 }
 
 /// `detector.rule`
@@ -266,6 +337,60 @@ pub(super) enum RuleKind {
     Disjunction,
     Conjunction,
     Table(Vec<Critical>),
+    LikelihoodRatio,
+    StudentT,
+    VarianceRatio,
+    BlockMeans,
+    Clairvoyant,
+}
+
+/// `detector.ties`
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum TiesKind {
+    Random,
+    ByPosition,
+    Strict,
+}
+
+/// `detector.calibrate`: yes, no, or the noise to calibrate on.
+#[derive(Clone, Debug)]
+pub(super) enum CalibrateKind {
+    Promise(bool),
+    Measured(MeasuredTable),
+}
+
+/// The noise to calibrate on, where it is not the point's own.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MeasuredTable {
+    pub law: Option<LawKind>,
+    pub sensor: Option<SensorSection>,
+}
+
+impl<'de> Deserialize<'de> for CalibrateKind {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(CalibrateVisitor)
+    }
+}
+
+struct CalibrateVisitor;
+
+impl<'de> Visitor<'de> for CalibrateVisitor {
+    type Value = CalibrateKind;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("true, false or a table such as { law = \"normal\" }")
+    }
+
+    fn visit_bool<E>(self, value: bool) -> Result<CalibrateKind, E> {
+        Ok(CalibrateKind::Promise(value))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<CalibrateKind, A::Error> {
+        let table = MeasuredTable::deserialize(MapAccessDeserializer::new(map))?;
+        Ok(CalibrateKind::Measured(table))
+    }
 }
 
 /// `detector.alternative`

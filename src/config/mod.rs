@@ -35,6 +35,8 @@ pub struct Config {
     pub confidence: f64,
     /// Whether one noise realisation serves every point that can share it.
     pub common_random_numbers: bool,
+    /// Trials of each pilot run.
+    pub pilot: u64,
     /// What the x axis sweeps.
     pub axis: Axis,
     /// At least one.
@@ -99,6 +101,7 @@ impl Config {
             trials,
             confidence,
             common_random_numbers: file.common_random_numbers.unwrap_or(true),
+            pilot: file.pilot(&source)?,
             axis,
             curves,
             source,
@@ -128,6 +131,16 @@ impl File {
         }
     }
 
+    fn pilot(&self, source: &Source) -> Result<u64, ConfigError> {
+        let Some(given) = &self.pilot else {
+            return Ok(DEFAULT_TRIALS);
+        };
+        match given.get_ref().0 {
+            value @ 1..=MOST_PILOT_TRIALS => Ok(value),
+            value => Err(source.at(Some(given.span()), Problem::Pilot(value))),
+        }
+    }
+
     fn trials(&self, source: &Source, confidence: f64) -> Result<u64, ConfigError> {
         let refuse = |span: Range<usize>, problem| Err(source.at(Some(span), problem));
         match (&self.trials, &self.half_width) {
@@ -153,3 +166,6 @@ impl File {
 
 /// Trials per point where the file says nothing.
 const DEFAULT_TRIALS: u64 = 200_000;
+
+/// A pilot keeps what it has seen in memory.
+const MOST_PILOT_TRIALS: u64 = 10_000_000;

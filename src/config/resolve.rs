@@ -3,18 +3,20 @@
 
 use super::error::{ConfigError, Problem};
 use super::file::{
-    AlternativeKind, DeltaAtKind, DuringKind, FitKind, LawKind, ProfileKind, RuleKind, Sections,
+    AlternativeKind, CalibrateKind, DeltaAtKind, DuringKind, FitKind, LawKind, ProfileKind,
+    RuleKind, Sections, SensorSection, TiesKind,
 };
 use super::value::{Number, Whole};
 use super::{AxisValue, Config};
-use crate::chain::{Detector, Scenario};
-use crate::detect::{Alternative, RegionError, Rule, Samples, SamplesError};
+use crate::chain::{Calibration, Detector, Scenario};
+use crate::detect::{
+    Alternative, Baseline, Method, RegionError, Rule, Samples, SamplesError, Ties,
+};
 use crate::signal::{
-    DeltaAt, Digitiser, DigitiserError, During, Impulses, ImpulsesError, Law, Motion, MotionError,
-    Noise, Profile, Sensor, SensorError, Transfer,
+    DeltaAt, Digitiser, DigitiserError, Disturbance, DisturbanceError, During, Impulses,
+    ImpulsesError, Law, Motion, MotionError, Noise, Profile, Sensor, SensorError, Transfer,
 };
 use crate::whiten::{Fit, Whitening, WhiteningError};
-use std::ops::Range;
 use toml::Spanned;
 
 /// A problem and the sections and keys that may be to blame, the likeliest first.
@@ -31,10 +33,14 @@ impl Config {
         if let Err(problem) = self.axis.set(value, &mut sections) {
             return Err(self.source.at(axis_span, problem));
         }
-        sections.resolve().map_err(|(problem, keys)| {
+        let mut scenario = sections.resolve().map_err(|(problem, keys)| {
             let span = sections.first_span(keys).or(axis_span);
             self.source.at(span, problem)
-        })
+        })?;
+        if scenario.detector.needs_pilot() {
+            scenario.detector.pilot = self.pilot;
+        }
+        Ok(scenario)
     }
 
     /// A problem of one point that only shows when its region is designed or its record laid out.
@@ -73,15 +79,42 @@ impl Sections {
         let sensor = self.sensor()?;
         let samples = self.samples()?;
         self.check_decimation(&sensor, &samples)?;
-        Ok(Scenario {
-            noise: self.noise()?,
+        let noise = self.noise()?;
+        let mut scenario = Scenario {
+            disturbance: self.disturbance()?,
             digitiser: self.digitiser()?,
             motion: self.motion(&samples)?,
             impulses: self.impulses()?,
             whitening: self.whitening(&sensor)?,
-            detector: self.detector(),
+            detector: self.detector(&sensor, noise)?,
+            noise,
             sensor,
             samples,
+        };
+        check_method(&scenario)?;
+        if scenario.detector.method.states_its_alternative() {
+            scenario.detector.stated = Some((scenario.motion, scenario.impulses));
+        }
+        Ok(scenario)
+    }
+
+    fn disturbance(&self) -> Result<Disturbance, Blamed> {
+        let section = &self.rest;
+        let number = |value, default| get(value, Number(default)).0;
+        let disturbance = Disturbance::new(
+            number(&section.drift, 0.0),
+            number(&section.swell, 1.0),
+            number(&section.footfalls, 0.0),
+            number(&section.jolt, 10.0),
+        );
+        disturbance.map_err(|error| {
+            let key: &[_] = match error {
+                DisturbanceError::Drift(_) => &[("rest", "drift")],
+                DisturbanceError::Swell(_) => &[("rest", "swell")],
+                DisturbanceError::Footfalls(_) => &[("rest", "footfalls")],
+                DisturbanceError::Jolt(_) => &[("rest", "jolt")],
+            };
+            (error.into(), key)
         })
     }
 
@@ -112,58 +145,12 @@ impl Sections {
         Ok(())
     }
 
-    /// Where the first of `keys` that the author wrote stands.
-    pub(super) fn first_span(&self, keys: &[(&str, &str)]) -> Option<Range<usize>> {
-        keys.iter().find_map(|&(section, key)| match section {
-            "sensor" => self.sensor.span(key),
-            "noise" => self.noise.span(key),
-            "motion" => self.motion.span(key),
-            "impulses" => self.impulses.span(key),
-            "whitening" => self.whitening.span(key),
-            "samples" => self.samples.span(key),
-            _ => self.detector.span(key),
-        })
-    }
-
     fn sensor(&self) -> Result<Sensor, Blamed> {
-        let section = &self.sensor;
-        let sensor = match (&section.model, &section.ar, &section.transfer) {
-            (_, None, None) => Ok(Sensor::adxl105()),
-            (None, Some(ar), None) => {
-                Sensor::from_ar(ar.get_ref().iter().map(|phi| phi.0).collect())
-            }
-            (None, None, Some(transfer)) => {
-                let table = transfer.get_ref();
-                Sensor::from_transfer(Transfer {
-                    a: table.a.0,
-                    b: table.b.0,
-                    c: table.c.0,
-                    period: table.period.0,
-                })
-            }
-            (model, ar, transfer) => {
-                let given = [model.is_some(), ar.is_some(), transfer.is_some()];
-                let count = given.into_iter().filter(|given| *given).count();
-                return Err((Problem::SensorTwice(count), SENSOR_KEYS));
-            }
-        };
-        sensor.map_err(|error: SensorError| (error.into(), SENSOR_KEYS))
+        sensor(&self.sensor)
     }
 
     fn noise(&self) -> Result<Noise, Blamed> {
-        let law = match get(&self.noise.law, LawKind::Normal) {
-            LawKind::Normal => Law::Normal,
-            LawKind::Laplace => Law::Laplace,
-            LawKind::Logistic => Law::Logistic,
-            LawKind::Uniform => Law::Uniform,
-            LawKind::Cauchy => Law::Cauchy,
-            LawKind::StudentT(freedom) => Law::StudentT(freedom.0),
-            LawKind::Contaminated { share, scale } => Law::Contaminated {
-                share: share.0,
-                scale: scale.0,
-            },
-        };
-        Noise::new(law).map_err(|error| (error.into(), &[("noise", "law")] as _))
+        noise(get(&self.noise.law, LawKind::Normal)).map_err(|problem| (problem, LAW_KEYS))
     }
 
     fn digitiser(&self) -> Result<Digitiser, Blamed> {
@@ -232,6 +219,7 @@ impl Sections {
             FitKind::YuleWalker => Fit::YuleWalker,
             FitKind::Burg => Fit::Burg,
             FitKind::Known => Fit::Known,
+            FitKind::None => Fit::None,
         };
         let order = get(&section.order, Whole(2)).size();
         let training = get(&section.training, Whole(256)).size();
@@ -276,28 +264,135 @@ impl Sections {
         })
     }
 
-    fn detector(&self) -> Detector {
+    fn detector(&self, sensor: &Sensor, noise: Noise) -> Result<Detector, Blamed> {
         let section = &self.detector;
-        Detector {
+        Ok(Detector {
             alpha: get(&section.alpha, Number(0.01)).0,
-            rule: match section.rule.as_ref().map(Spanned::get_ref) {
-                Some(RuleKind::Wilcoxon) => Rule::Wilcoxon,
-                None | Some(RuleKind::Product) => Rule::Product,
-                Some(RuleKind::Disjunction) => Rule::Disjunction,
-                Some(RuleKind::Conjunction) => Rule::Conjunction,
-                Some(RuleKind::Table(entries)) => {
-                    Rule::Table(entries.iter().map(|c| c.0).collect())
-                }
-            },
+            method: self.method(),
             alternative: match get(&section.alternative, AlternativeKind::Greater) {
                 AlternativeKind::Greater => Alternative::Greater,
                 AlternativeKind::Less => Alternative::Less,
                 AlternativeKind::TwoSided => Alternative::TwoSided,
             },
+            ties: match get(&section.ties, TiesKind::Random) {
+                TiesKind::Random => Ties::Random,
+                TiesKind::ByPosition => Ties::ByPosition,
+                TiesKind::Strict => Ties::Strict,
+            },
+            calibration: self.calibration(sensor, noise)?,
+            stated: None,
+            pilot: 0,
+        })
+    }
+
+    fn method(&self) -> Method {
+        let Some(kind) = self.detector.rule.as_ref().map(Spanned::get_ref) else {
+            return Method::Rule(Rule::Product);
+        };
+        match kind {
+            RuleKind::Wilcoxon => Method::Rule(Rule::Wilcoxon),
+            RuleKind::Product => Method::Rule(Rule::Product),
+            RuleKind::Disjunction => Method::Rule(Rule::Disjunction),
+            RuleKind::Conjunction => Method::Rule(Rule::Conjunction),
+            RuleKind::Table(entries) => {
+                Method::Rule(Rule::Table(entries.iter().map(|c| c.0).collect()))
+            }
+            RuleKind::LikelihoodRatio => Method::LikelihoodRatio,
+            RuleKind::StudentT => Method::Baseline(Baseline::StudentT),
+            RuleKind::VarianceRatio => Method::Baseline(Baseline::VarianceRatio),
+            RuleKind::BlockMeans => Method::Baseline(Baseline::BlockMeans),
+            RuleKind::Clairvoyant => Method::Baseline(Baseline::Clairvoyant),
         }
+    }
+
+    fn calibration(&self, own_sensor: &Sensor, own_noise: Noise) -> Result<Calibration, Blamed> {
+        let table = match self.detector.calibrate.as_ref().map(Spanned::get_ref) {
+            None | Some(CalibrateKind::Promise(false)) => return Ok(Calibration::None),
+            Some(CalibrateKind::Promise(true)) => return Ok(Calibration::Promise),
+            Some(CalibrateKind::Measured(table)) => table,
+        };
+        let at_calibrate = |problem| (problem, CALIBRATE_KEYS);
+        let named = table.sensor.as_ref().map(sensor).transpose();
+        let law = table.law.map(noise).transpose();
+        Ok(Calibration::Measured {
+            sensor: named
+                .map_err(|(problem, _)| at_calibrate(problem))?
+                .unwrap_or_else(|| own_sensor.clone()),
+            noise: law.map_err(at_calibrate)?.unwrap_or(own_noise),
+        })
     }
 }
 
+/// What a method asks of the rest of the scenario.
+fn check_method(scenario: &Scenario) -> Result<(), Blamed> {
+    let (detector, samples) = (&scenario.detector, &scenario.samples);
+    let is_calibrated = detector.calibration != Calibration::None;
+    let name = detector.method.name();
+    if detector.method.states_its_alternative() && !scenario.moves() {
+        return Err((Problem::NothingStated(name), RULE_KEYS));
+    }
+    match detector.method {
+        Method::Rule(Rule::Table(_)) if is_calibrated => {
+            Err((Problem::TableCalibrated, CALIBRATE_KEYS))
+        }
+        Method::Baseline(_) if !is_calibrated => Err((Problem::NotCalibrated(name), RULE_KEYS)),
+        Method::Baseline(Baseline::Clairvoyant) if samples.decimation() > 1 => Err((
+            Problem::ClairvoyantDecimated(samples.decimation()),
+            &[("samples", "decimation")],
+        )),
+        Method::Baseline(Baseline::BlockMeans) => {
+            let got = scenario.whitening.lead() + samples.reference();
+            let needed = samples.shift().saturating_mul(8);
+            match got < needed {
+                true => Err((Problem::RestTooShort { needed, got }, RULE_KEYS)),
+                false => Ok(()),
+            }
+        }
+        _ => Ok(()),
+    }
+}
+
+fn sensor(section: &SensorSection) -> Result<Sensor, Blamed> {
+    let sensor = match (&section.model, &section.ar, &section.transfer) {
+        (_, None, None) => Ok(Sensor::adxl105()),
+        (None, Some(ar), None) => Sensor::from_ar(ar.get_ref().iter().map(|phi| phi.0).collect()),
+        (None, None, Some(transfer)) => {
+            let table = transfer.get_ref();
+            Sensor::from_transfer(Transfer {
+                a: table.a.0,
+                b: table.b.0,
+                c: table.c.0,
+                period: table.period.0,
+            })
+        }
+        (model, ar, transfer) => {
+            let given = [model.is_some(), ar.is_some(), transfer.is_some()];
+            let count = given.into_iter().filter(|given| *given).count();
+            return Err((Problem::SensorTwice(count), SENSOR_KEYS));
+        }
+    };
+    sensor.map_err(|error: SensorError| (error.into(), SENSOR_KEYS))
+}
+
+fn noise(law: LawKind) -> Result<Noise, Problem> {
+    let law = match law {
+        LawKind::Normal => Law::Normal,
+        LawKind::Laplace => Law::Laplace,
+        LawKind::Logistic => Law::Logistic,
+        LawKind::Uniform => Law::Uniform,
+        LawKind::Cauchy => Law::Cauchy,
+        LawKind::StudentT(freedom) => Law::StudentT(freedom.0),
+        LawKind::Contaminated { share, scale } => Law::Contaminated {
+            share: share.0,
+            scale: scale.0,
+        },
+    };
+    Ok(Noise::new(law)?)
+}
+
+const LAW_KEYS: &[(&str, &str)] = &[("noise", "law")];
+const RULE_KEYS: &[(&str, &str)] = &[("detector", "rule")];
+const CALIBRATE_KEYS: &[(&str, &str)] = &[("detector", "calibrate")];
 const SENSOR_KEYS: &[(&str, &str)] = &[
     ("sensor", "ar"),
     ("sensor", "transfer"),

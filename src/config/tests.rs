@@ -1,9 +1,11 @@
 //! How the parts of a config are laid over each other.
 
 use super::{Config, Parameter};
-use crate::chain::{Detector, Scenario};
-use crate::detect::{Alternative, Rule, Samples};
-use crate::signal::{DeltaAt, Digitiser, During, Impulses, Law, Motion, Noise, Profile, Sensor};
+use crate::chain::{Calibration, Detector, Scenario};
+use crate::detect::{Alternative, Method, Rule, Samples, Ties};
+use crate::signal::{
+    DeltaAt, Digitiser, Disturbance, During, Impulses, Law, Motion, Noise, Profile, Sensor,
+};
 use crate::whiten::{Fit, Whitening};
 
 fn config(rest: &str) -> Config {
@@ -68,19 +70,22 @@ fn all_samples_moves_three_sizes() {
 /// Every parameter an axis can sweep does what the key of that name does in its section.
 #[test]
 fn every_parameter_does_what_its_key_does() {
-    for (name, _) in Parameter::ALL {
+    for &(name, _) in Parameter::ALL {
         let (section, value) = match name {
             "delta" | "duration" | "offset" => ("motion", "7"),
             "nu" => ("impulses", "0.25"),
             "theta" => ("impulses", "7"),
             "quantum" | "range" => ("noise", "7"),
             "training" | "order" => ("whitening", "7"),
+            "drift" | "swell" => ("rest", "7"),
+            "footfalls" => ("rest", "0.25"),
             "alpha" => ("detector", "0.25"),
             "rule" => ("detector", "\"wilcoxon\""),
             _ => ("samples", "7"),
         };
         let keys = match name {
             "all_samples" => format!("reference = {value}\nshift = {value}\nscale = {value}"),
+            "reference_and_scale" => format!("reference = {value}\nscale = {value}"),
             _ => format!("{name} = {value}"),
         };
         // An axis that changes nothing lets the section speak.
@@ -109,18 +114,20 @@ fn half_width_fixes_the_trials() {
 #[test]
 fn every_key_reaches_the_scenario() {
     let config = config(
-        "[sensor]\nar = [0.5, -0.25]\n\
+        "pilot = 5000\n[sensor]\nar = [0.5, -0.25]\n\
          [noise]\nlaw = \"logistic\"\nquantum = 0.5\nrange = 9.0\n\
+         [rest]\ndrift = 0.25\nswell = 2.0\nfootfalls = 0.125\njolt = 3.0\n\
          [motion]\ndelta = 1.5\ndelta_at = \"whitened\"\nprofile = { trapezoid = { rise = 2.0 } }\nduration = 9\noffset = 4\n\
          [impulses]\ntheta = 3.0\nduring = \"inertial\"\n\
          [whitening]\norder = 5\ntraining = 77\nfit = \"yule-walker\"\nincludes_reference = true\n\
          [samples]\nreference = 10\nshift = 11\nscale = 13\ngap = 2\n\
-         [detector]\nalpha = 0.02\nrule = \"disjunction\"\nalternative = \"two-sided\"\n\
+         [detector]\nalpha = 0.02\nrule = \"disjunction\"\nalternative = \"two-sided\"\nties = \"strict\"\ncalibrate = true\n\
          [axis]\nnu = [0.2]\n",
     );
     let expected = Scenario {
         sensor: Sensor::from_ar(vec![0.5, -0.25]).unwrap(),
         noise: Noise::new(Law::Logistic).unwrap(),
+        disturbance: Disturbance::new(0.25, 2.0, 0.125, 3.0).unwrap(),
         digitiser: Digitiser::new(Some(0.5), Some(9.0)).unwrap(),
         motion: Motion {
             delta: 1.5,
@@ -134,8 +141,12 @@ fn every_key_reaches_the_scenario() {
         samples: Samples::new(10, 11, 13, 2, 1).unwrap(),
         detector: Detector {
             alpha: 0.02,
-            rule: Rule::Disjunction,
+            method: Method::Rule(Rule::Disjunction),
             alternative: Alternative::TwoSided,
+            ties: Ties::Strict,
+            calibration: Calibration::Promise,
+            stated: None,
+            pilot: 5000,
         },
     };
     assert_eq!(
@@ -185,7 +196,7 @@ fn words_mean_themselves() {
         assert_eq!(
             scenario("detector", "rule", &format!("\"{word}\""))
                 .detector
-                .rule
+                .method
                 .to_string(),
             word
         );

@@ -1,6 +1,7 @@
 //! Filling regions: from the exact laws at one set of sizes to the critical values of each rule.
 
 use super::law::{NullLaw, NullLawError, ratio};
+use super::likelihood::LikelihoodOrder;
 use super::region::{NEVER, Region, RegionError};
 use super::rule::{Alternative, Rule};
 use super::samples::Samples;
@@ -76,10 +77,8 @@ impl NullLaws {
             }
             Rule::Table(entries) => self.table(entries, alpha)?,
         };
-        let reachable = |c| if c > self.score.last() { NEVER } else { c };
-        let critical: Vec<u64> = critical.into_iter().map(reachable).collect();
-        let size = self.size(&critical);
-        if size == 0.0 && !matches!(rule, Rule::Table(_)) {
+        let region = self.with_critical(critical);
+        if region.size == 0.0 && !matches!(rule, Rule::Table(_)) {
             return Err(RegionError::Unreachable {
                 rule: rule.clone(),
                 sizes: self.sizes(),
@@ -87,12 +86,34 @@ impl NullLaws {
                 reachable: self.reachable(rule),
             });
         }
-        Ok(Region {
+        Ok(region)
+    }
+
+    /// The most powerful region of size at most `alpha` for what the order was made for; empty where
+    /// no cell fits the level.
+    pub fn likelihood_region(&self, order: &LikelihoodOrder, alpha: f64) -> Region {
+        self.with_critical(order.critical(self, alpha))
+    }
+
+    /// A region that never decides H₁.
+    pub fn empty_region(&self) -> Region {
+        self.with_critical(vec![NEVER; self.columns()])
+    }
+
+    fn with_critical(&self, critical: Vec<u64>) -> Region {
+        let reachable = |c| if c > self.score.last() { NEVER } else { c };
+        let critical: Vec<u64> = critical.into_iter().map(reachable).collect();
+        Region {
             alternative: self.alternative,
             twice_mean: self.twice_mean(),
+            size: self.size(&critical),
             critical,
-            size,
-        })
+        }
+    }
+
+    /// What the alternative looks at in a rank sum.
+    pub(super) fn score_of(&self, rank_sum: u64) -> u64 {
+        self.alternative.score(rank_sum, self.twice_mean())
     }
 
     /// P(W decides H₁ | T) for T = 0 … M₂.
@@ -152,7 +173,7 @@ impl NullLaws {
     }
 
     /// The smallest level at which `rule` is not empty.
-    fn reachable(&self, rule: &Rule) -> f64 {
+    pub fn reachable(&self, rule: &Rule) -> f64 {
         let (w, t) = (&self.score, &self.exceedances);
         let (last_w, last_t) = (w.tail(w.last()), t.tail(t.last()));
         match rule {

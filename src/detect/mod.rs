@@ -3,17 +3,23 @@
 //!
 //! [^1]: see [`crate::signal`].
 
+mod baseline;
+mod clairvoyant;
 mod design;
 mod law;
+mod likelihood;
 mod product;
 mod region;
 mod rule;
 mod samples;
 mod statistics;
 
+pub use baseline::{block_means, student_t, variance_ratio};
+pub use clairvoyant::{Clairvoyant, Forward};
 pub use design::NullLaws;
 pub use law::{NullLaw, NullLawError};
+pub use likelihood::{Histogram, LikelihoodOrder};
 pub use region::{Region, RegionError};
-pub use rule::{Alternative, Rule};
+pub use rule::{Alternative, Baseline, Method, Rule, Ties};
 pub use samples::{Samples, SamplesError};
 pub use statistics::{Pooled, Statistics};

@@ -1,8 +1,9 @@
-//! What a region is made for: the rule that fills it and the sign of Δ it looks for.
+//! What a decision is made by: the rule that fills a region of (W, T), or another statistic to hold
+//! against it, and the sign of Δ it looks for.
 
 use std::fmt;
 
-/// How a region is filled.
+/// How a region is filled from the exact laws alone.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Rule {
     /// W alone.
@@ -15,6 +16,42 @@ pub enum Rule {
     Conjunction,
     /// C_W(0) … C_W(M₂); `None` never decides H₁.
     Table(Vec<Option<u64>>),
+}
+
+/// What else one might decide by, in place of W and T.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Baseline {
+    /// Student's t of the whitened Y₁ against X and Y₂.
+    StudentT,
+    /// The variance of the whitened Y₂ over that of X.
+    VarianceRatio,
+    /// The mean of Y₁ minus that of X on the record as it is, in deviations of such means at rest.
+    BlockMeans,
+    /// The likelihood ratio of normal noise with everything known: Δ, ν, θ and the filter.
+    Clairvoyant,
+}
+
+/// What a decision is made by.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// A region of (W, T) filled by a rule.
+    Rule(Rule),
+    /// A region of (W, T) filled in the order of the likelihood ratio against a stated alternative.
+    LikelihoodRatio,
+    /// Another statistic against a threshold.
+    Baseline(Baseline),
+}
+
+/// What becomes of equal values.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Ties {
+    /// A random key for each sample puts them in order, which keeps the laws exact.
+    #[default]
+    Random,
+    /// The later sample counts as the larger: what sorting positions does.
+    ByPosition,
+    /// Neither exceeds the other: W counts y_i > y_j alone, T what lies strictly outside.
+    Strict,
 }
 
 /// The sign of Δ that a region is made for.
@@ -38,6 +75,16 @@ impl Alternative {
             Self::TwoSided => (2 * rank_sum).abs_diff(twice_mean),
         }
     }
+
+    /// The same for a statistic that is symmetric about zero at rest.
+    #[inline]
+    pub fn directed(self, statistic: f64) -> f64 {
+        match self {
+            Self::Greater => statistic,
+            Self::Less => -statistic,
+            Self::TwoSided => statistic.abs(),
+        }
+    }
 }
 
 impl Rule {
@@ -53,6 +100,45 @@ impl Rule {
     }
 }
 
+impl Baseline {
+    /// Its name in a config.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::StudentT => "student-t",
+            Self::VarianceRatio => "variance-ratio",
+            Self::BlockMeans => "block-means",
+            Self::Clairvoyant => "clairvoyant",
+        }
+    }
+}
+
+impl Method {
+    /// Its name in a config.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Rule(rule) => rule.name(),
+            Self::LikelihoodRatio => "likelihood-ratio",
+            Self::Baseline(baseline) => baseline.name(),
+        }
+    }
+
+    /// Whether it is made for one Δ, ν and θ that must be stated.
+    pub fn states_its_alternative(&self) -> bool {
+        matches!(
+            self,
+            Self::LikelihoodRatio | Self::Baseline(Baseline::Clairvoyant)
+        )
+    }
+
+    /// Whether it looks at the record itself, not only at whitened samples.
+    pub fn needs_record(&self) -> bool {
+        matches!(
+            self,
+            Self::Baseline(Baseline::BlockMeans | Baseline::Clairvoyant)
+        )
+    }
+}
+
 impl fmt::Display for Rule {
     /// Its name, with the entries of a table: `table(291 291 never)`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -63,6 +149,25 @@ impl fmt::Display for Rule {
             write!(f, "({})", entries.join(" "))?;
         }
         Ok(())
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Rule(rule) => rule.fmt(f),
+            other => f.write_str(other.name()),
+        }
+    }
+}
+
+impl fmt::Display for Ties {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Random => "random",
+            Self::ByPosition => "by-position",
+            Self::Strict => "strict",
+        })
     }
 }
 

@@ -43,6 +43,14 @@ impl Pooled<'_> {
         }
     }
 
+    /// W and T where equal values exceed nothing: as if every tie were lost by whoever asks.
+    pub fn statistics_strictly(&self) -> Statistics {
+        Statistics {
+            rank_sum: smallest_rank_sum(self.shift.len()) + self.pairs_won().0,
+            exceedances: self.outside_reference().0,
+        }
+    }
+
     /// How many pairs (i ∈ Y₁, j ∉ Y₁) have y_i > y_j, and how many y_i ≥ y_j.
     fn pairs_won(&self) -> (u64, u64) {
         let (mut above, mut reached) = (0, 0);

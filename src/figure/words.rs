@@ -47,11 +47,14 @@ fn facts(row: &Row) -> Vec<Fact> {
             format!("alternative {}", row.alternative),
         ),
         said(
-            &[P::AllSamples, P::Reference],
+            &[P::AllSamples, P::ReferenceAndScale, P::Reference],
             format!("N = {}", row.reference),
         ),
         said(&[P::AllSamples, P::Shift], format!("M_1 = {}", row.shift)),
-        said(&[P::AllSamples, P::Scale], format!("M_2 = {}", row.scale)),
+        said(
+            &[P::AllSamples, P::ReferenceAndScale, P::Scale],
+            format!("M_2 = {}", row.scale),
+        ),
         unless(row.gap == 0, &[P::Gap], format!("gap {}", row.gap)),
         unless(
             row.decimation == 1,
@@ -97,7 +100,30 @@ fn facts(row: &Row) -> Vec<Fact> {
             &[P::Range],
             format!("range {} σ_ξ", number(row.range)),
         ),
-        said(&[], format!("{} filter", row.fit)),
+        unless(
+            row.drift == 0.0,
+            &[P::Drift],
+            format!("drift {} σ_ξ per sample", row.drift),
+        ),
+        unless(
+            row.swell == 1.0,
+            &[P::Swell],
+            format!("noise {} times as strong after X", row.swell),
+        ),
+        unless(
+            row.footfalls == 0.0,
+            &[P::Footfalls],
+            format!(
+                "footfalls {} per sample, of {} σ_ξ",
+                row.footfalls, row.jolt
+            ),
+        ),
+        unless(row.ties == "random", &[], format!("ties {}", row.ties)),
+        unless(row.calibrate == "no", &[], calibration(row)),
+        match row.fit.as_str() {
+            "none" => said(&[], "no whitening".to_owned()),
+            fit => said(&[], format!("{fit} filter")),
+        },
         said(&[P::Order], format!("order {}", row.order)),
         unless(
             row.training == 0,
@@ -161,8 +187,11 @@ pub(super) fn caption(
     let common = common.into_iter().flatten();
     let shown = common.filter(|fact| !fact.is_usual && !fact.axes.contains(&axis));
     let mut parts: Vec<String> = shown.map(|fact| fact.text).collect();
-    if rows.iter().all(|other| other.size == row.size) {
-        parts.insert(1.min(parts.len()), format!("exact size {:.6}", row.size));
+    if let Some(size) = row
+        .size
+        .filter(|_| rows.iter().all(|other| other.size == row.size))
+    {
+        parts.insert(1.min(parts.len()), format!("exact size {size:.6}"));
     }
     let band = if axis == Parameter::Rule {
         "bars"
@@ -211,9 +240,13 @@ pub(super) fn axis_label(parameter: Parameter, is_whitened: bool) -> &'static st
         Parameter::Theta => "θ/σ_ξ",
         Parameter::Quantum => "quantisation step, σ_ξ",
         Parameter::Range => "range of the sensor, σ_ξ",
+        Parameter::Drift => "drift, σ_ξ per raw sample",
+        Parameter::Swell => "deviation of the noise after X, relative to that before",
+        Parameter::Footfalls => "probability of a footfall per raw sample",
         Parameter::Training => "training length, samples",
         Parameter::Order => "order m of the whitening filter",
         Parameter::AllSamples => "N = M_1 = M_2, samples",
+        Parameter::ReferenceAndScale => "N = M_2, samples",
         Parameter::Reference => "N, samples",
         Parameter::Shift => "M_1, samples",
         Parameter::Scale => "M_2, samples",
@@ -221,6 +254,14 @@ pub(super) fn axis_label(parameter: Parameter, is_whitened: bool) -> &'static st
         Parameter::Decimation => "decimation, raw observations per sample",
         Parameter::Alpha => "α",
         Parameter::Rule => "decision rule",
+    }
+}
+
+/// How a region or threshold was found, where no exact law gave it.
+fn calibration(row: &Row) -> String {
+    match row.calibrate.as_str() {
+        "promise" => "calibrated to keep α".to_owned(),
+        _ => "threshold set by measured false alarms".to_owned(),
     }
 }
 

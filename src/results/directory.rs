@@ -114,7 +114,7 @@ impl Directory {
             let path = self.path.clone();
             return Err(ResultsError::Different { path, difference });
         }
-        let asked = plan.trials;
+        let asked = plan.ensemble.trials;
         if held.trials > asked {
             return Err(ResultsError::FewerTrials {
                 path: self.path.clone(),
@@ -246,7 +246,7 @@ fn difference(held: &Manifest, rows: &[Row], plan: &Plan) -> Option<String> {
     }
     let nothing = Tally { hits: 0, trials: 1 };
     rows.iter().zip(points).find_map(|(row, point)| {
-        let here = Row::new(point, nothing, row.confidence).parameters();
+        let here = Row::new(point, None, nothing, row.confidence).parameters();
         let mut cells = row.parameters().into_iter().zip(here);
         let ((name, there), (_, here)) = cells.find(|((_, there), (_, here))| there != here)?;
         Some(format!(

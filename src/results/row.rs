@@ -1,6 +1,8 @@
 //! `points.csv`: one row per point and hypothesis.
 
+use crate::chain::Decision;
 use crate::plan::{Hypothesis, Point};
+use crate::signal::{Impulses, Motion};
 use crate::tally::Tally;
 use serde::{Deserialize, Serialize};
 
@@ -22,7 +24,7 @@ pub struct Row {
     pub scale: usize,
     pub rule: String,
     pub alpha: f64,
-    pub size: f64,
+    pub size: Option<f64>,
     pub trials: u64,
     pub detections: u64,
     pub rate: f64,
@@ -42,12 +44,22 @@ pub struct Row {
     pub duration: usize,
     pub offset: usize,
     pub during: String,
+    pub drift: f64,
+    pub swell: f64,
+    pub footfalls: f64,
+    pub jolt: f64,
+    pub ties: String,
+    pub calibrate: String,
+    pub stated: String,
+    pub pilot: u64,
+    pub threshold: Option<f64>,
 }
 
 impl Row {
-    /// What a point came to.
-    pub fn new(point: &Point, tally: Tally, confidence: f64) -> Self {
+    /// What a point came to, and by which decision where it is known.
+    pub fn new(point: &Point, decision: Option<&Decision>, tally: Tally, confidence: f64) -> Self {
         let scenario = &point.scenario;
+        let (disturbance, detector) = (&scenario.disturbance, &scenario.detector);
         let (samples, whitening) = (&scenario.samples, &scenario.whitening);
         let (low, high) = tally.interval(confidence);
         Self {
@@ -66,16 +78,16 @@ impl Row {
             reference: samples.reference(),
             shift: samples.shift(),
             scale: samples.scale(),
-            rule: scenario.detector.rule.to_string(),
-            alpha: scenario.detector.alpha,
-            size: point.region.size(),
+            rule: detector.method.to_string(),
+            alpha: detector.alpha,
+            size: decision.and_then(Decision::size),
             trials: tally.trials,
             detections: tally.hits,
             rate: tally.rate(),
             low: eight_digits(low),
             high: eight_digits(high),
             confidence,
-            alternative: scenario.detector.alternative.to_string(),
+            alternative: detector.alternative.to_string(),
             sensor: scenario.sensor.to_string(),
             quantum: scenario.digitiser.quantum(),
             range: scenario.digitiser.range(),
@@ -88,6 +100,15 @@ impl Row {
             duration: scenario.motion.duration,
             offset: scenario.motion.offset,
             during: scenario.impulses.during().to_string(),
+            drift: disturbance.drift(),
+            swell: disturbance.swell(),
+            footfalls: disturbance.footfalls(),
+            jolt: disturbance.jolt(),
+            ties: detector.ties.to_string(),
+            calibrate: detector.calibration.to_string(),
+            stated: detector.stated.map(stated).unwrap_or_default(),
+            pilot: detector.pilot,
+            threshold: decision.and_then(Decision::threshold).map(eight_digits),
         }
     }
 
@@ -106,7 +127,7 @@ impl Row {
 
     /// The parameters alone, by column.
     pub(super) fn parameters(&self) -> Vec<(String, String)> {
-        const DERIVED: [&str; 8] = [
+        const DERIVED: [&str; 9] = [
             "label",
             "trials",
             "detections",
@@ -115,6 +136,7 @@ impl Row {
             "high",
             "confidence",
             "size",
+            "threshold",
         ];
         let columns = match serde_json::to_value(self) {
             Ok(serde_json::Value::Object(columns)) => columns,
@@ -127,6 +149,16 @@ impl Row {
             .map(|(name, value)| (name, value.to_string()))
             .collect()
     }
+}
+
+/// The motion that a method is made for.
+fn stated((motion, impulses): (Motion, Impulses)) -> String {
+    let (delta, duration, offset) = (motion.delta, motion.duration, motion.offset);
+    let (nu, theta, during) = (impulses.nu(), impulses.theta(), impulses.during());
+    format!(
+        "delta {delta} {} {} duration {duration} offset {offset} nu {nu} theta {theta} {during}",
+        motion.delta_at, motion.profile
+    )
 }
 
 /// Eight significant digits: more than any count supports, fewer than the last bits of a bisection.

@@ -6,12 +6,14 @@
 //! signals", Avtometriya (in Russian), received 25 November 2013.
 
 mod digitiser;
+mod disturbance;
 mod impulses;
 mod motion;
 mod noise;
 mod sensor;
 
 pub use digitiser::{Digitiser, DigitiserError};
+pub use disturbance::{Disturbance, DisturbanceError};
 pub use impulses::{During, ImpulseMemory, Impulses, ImpulsesError};
 pub use motion::{DeltaAt, Motion, MotionError, Profile};
 pub use noise::{Law, LawError, Noise};

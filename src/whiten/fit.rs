@@ -34,14 +34,14 @@ impl Fitter {
     /// a_1 … a_m for this training record. A record that determines fewer than m coefficients (a
     /// constant one, say) gets zeros for the rest.
     pub fn fit(&mut self, training: &[f64]) -> &[f64] {
-        if self.whitening.fit != Fit::Known {
+        if !matches!(self.whitening.fit, Fit::Known | Fit::None) {
             let mean = training.iter().sum::<f64>() / training.len() as f64;
             for (centred, x) in self.centred.iter_mut().zip(training) {
                 *centred = x - mean;
             }
         }
         match self.whitening.fit {
-            Fit::Known => {}
+            Fit::Known | Fit::None => {}
             Fit::LeastSquares => self.least_squares(),
             Fit::YuleWalker => self.yule_walker(),
             Fit::Burg => self.burg(),

@@ -30,6 +30,9 @@ pub enum Fit {
     Burg,
     /// The sensor's own coefficients, padded with zeros.
     Known,
+    /// All zero: no whitening, for comparison. The training record is kept, so that the noise can be
+    /// shared with a fitted filter.
+    None,
 }
 
 /// A whitening filter's order and where its coefficients come from.
@@ -97,7 +100,7 @@ impl Whitening {
             Fit::LeastSquares => 2 * order + 1,
             Fit::YuleWalker => order + 1,
             Fit::Burg => order + 2,
-            Fit::Known => 0,
+            Fit::Known | Fit::None => 0,
         };
         if training < needed {
             return Err(WhiteningError::TrainingTooShort {
@@ -172,6 +175,7 @@ impl fmt::Display for Fit {
             Self::YuleWalker => "yule-walker",
             Self::Burg => "burg",
             Self::Known => "known",
+            Self::None => "none",
         })
     }
 }

@@ -1,0 +1,185 @@
+//! What one trial gives at one point, and the decision on it.
+
+use super::scenario::{Detector, Scenario};
+use super::trial::Keys;
+use crate::detect::{
+    Baseline, Clairvoyant, Forward, Method, Pooled, Region, Samples, Statistics, Ties, block_means,
+    student_t, variance_ratio,
+};
+use crate::signal::During;
+use crate::whiten::{step, whiten};
+use std::sync::Arc;
+
+/// One trial of one point: whitened samples, and the record where it was asked for.
+pub struct Observation<'a, 'k> {
+    /// X, Y₁ and Y₂, whitened.
+    pub pooled: Pooled<'a>,
+    /// Where they lie.
+    pub samples: &'a Samples,
+    /// The observed record, up to the last of X.
+    pub rest: &'a [f64],
+    /// The same from there on, with the motion in it; empty unless a method at this point needs it.
+    pub motion: &'a [f64],
+    pub(super) keys: &'a mut Keys<'k>,
+    pub(super) statistics: Option<Statistics>,
+    pub(super) scratch: &'a mut Scratch,
+}
+
+/// The space that statistics of the record work in.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Scratch {
+    innovations: Vec<f64>,
+    forward: Forward,
+}
+
+impl Observation<'_, '_> {
+    /// W and T.
+    #[inline]
+    pub fn statistics(&mut self, ties: Ties) -> Statistics {
+        match ties {
+            Ties::Random => {
+                let (pooled, keys) = (&self.pooled, &mut *self.keys);
+                *self
+                    .statistics
+                    .get_or_insert_with(|| pooled.statistics(|| keys.random()))
+            }
+            Ties::ByPosition => self.pooled.statistics(|| self.keys.positions()),
+            Ties::Strict => self.pooled.statistics_strictly(),
+        }
+    }
+}
+
+/// A statistic that replaces W and T, ready for one scenario: large values speak for H₁.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Score {
+    detector: Detector,
+    baseline: Baseline,
+    ar: Vec<f64>,
+    clairvoyant: Option<Clairvoyant>,
+}
+
+impl Score {
+    /// That of the scenario's method, if it is one.
+    pub fn new(scenario: &Scenario) -> Option<Self> {
+        let Method::Baseline(baseline) = scenario.detector.method else {
+            return None;
+        };
+        Some(Self {
+            detector: scenario.detector.clone(),
+            baseline,
+            ar: scenario.sensor.ar().to_vec(),
+            clairvoyant: clairvoyant(scenario),
+        })
+    }
+
+    /// Its value.
+    pub fn of(&self, observation: &mut Observation) -> f64 {
+        let Pooled {
+            reference,
+            shift,
+            scale,
+        } = observation.pooled;
+        let directed = |statistic| self.detector.alternative.directed(statistic);
+        match (&self.clairvoyant, self.baseline) {
+            (Some(clairvoyant), _) => {
+                let Scratch {
+                    innovations,
+                    forward,
+                } = &mut *observation.scratch;
+                innovate(&self.ar, observation.rest, observation.motion, innovations);
+                clairvoyant.log_likelihood_ratio(innovations, forward)
+            }
+            (None, Baseline::VarianceRatio) => variance_ratio(reference, scale),
+            (None, Baseline::BlockMeans) => {
+                let (samples, rest) = (observation.samples, observation.rest);
+                let shifted = samples.shift_range();
+                let from = samples.reference();
+                let shifted = &observation.motion[shifted.start - from..shifted.end - from];
+                directed(block_means(rest, &rest[rest.len() - from..], shifted))
+            }
+            (None, _) => directed(student_t(shift, [reference, scale])),
+        }
+    }
+}
+
+/// The clairvoyant of the scenario's stated motion, where that is its method.
+fn clairvoyant(scenario: &Scenario) -> Option<Clairvoyant> {
+    let is_clairvoyant = scenario.detector.method == Method::Baseline(Baseline::Clairvoyant);
+    let (motion, impulses) = scenario.detector.stated.filter(|_| is_clairvoyant)?;
+    let stated = Scenario {
+        motion,
+        impulses,
+        ..scenario.clone()
+    };
+    let ar = scenario.sensor.ar();
+    let shape = stated.shape();
+    let mut shift = vec![0.0; shape.len()];
+    whiten(ar, &shape, 0, &mut shift);
+    let delta = stated.record_delta();
+    shift.iter_mut().for_each(|d| *d *= delta);
+    let samples = &scenario.samples;
+    let first_impulse = match impulses.during() {
+        During::Motion => 0,
+        During::Inertial => samples.scale_range().start - samples.reference(),
+    };
+    let (nu, theta) = (impulses.nu(), impulses.theta());
+    Some(Clairvoyant::new(shift, first_impulse, nu, theta, ar))
+}
+
+/// Whitens `motion`, which follows `rest`, with the filter `ar`.
+fn innovate(ar: &[f64], rest: &[f64], motion: &[f64], innovations: &mut Vec<f64>) {
+    let past = &rest[rest.len() - ar.len()..];
+    innovations.clear();
+    for i in 0..motion.len() {
+        // The first few look back into the rest.
+        let (near, far) = ar.split_at(i.min(ar.len()));
+        let near = step(near, &motion[..i], motion[i]);
+        innovations.push(step(far, past, near));
+    }
+}
+
+/// What decides between H₀ and H₁ at a point.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Decision {
+    /// Whether (W, T) lies in ϑ.
+    Region {
+        /// ϑ.
+        region: Arc<Region>,
+        /// What becomes of equal values.
+        ties: Ties,
+    },
+    /// Whether a score lies above a threshold.
+    Threshold {
+        /// The score.
+        score: Arc<Score>,
+        /// What it must exceed.
+        threshold: f64,
+    },
+}
+
+impl Decision {
+    /// Whether it decides H₁.
+    #[inline]
+    pub fn is_h1(&self, observation: &mut Observation) -> bool {
+        match self {
+            Self::Region { region, ties } => region.contains(observation.statistics(*ties)),
+            Self::Threshold { score, threshold } => score.of(observation) > *threshold,
+        }
+    }
+
+    /// P(H₁* | H₀) by the exact laws, where they say.
+    pub fn size(&self) -> Option<f64> {
+        match self {
+            Self::Region { region, .. } => Some(region.size()),
+            Self::Threshold { .. } => None,
+        }
+    }
+
+    /// What a score must exceed.
+    pub fn threshold(&self) -> Option<f64> {
+        match self {
+            Self::Region { .. } => None,
+            Self::Threshold { threshold, .. } => Some(*threshold),
+        }
+    }
+}

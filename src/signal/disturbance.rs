@@ -1,0 +1,183 @@
+//! What disturbs a rest: nothing of this is in [^1], all of it is in real cages.
+//!
+//! Rest is modelled as stationary noise. Real rest is not: the sensor drifts, machines start and stop,
+//! people walk. Each of these acts whether the cage moves or not, and makes X, Y₁ and Y₂ differ:
+//!
+//! - drift: the record rises by a constant amount with every raw sample, training included;
+//! - swell: after X the noise is so many times as strong;
+//! - footfalls: after X, with a given probability a sample, somebody's step jolts the cage by ± its
+//!   strength, and the jolt dies away by a constant factor a sample.
+//!
+//! [^1]: see [`crate::signal`].
+
+use std::fmt;
+
+/// What is added to the noise of a rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disturbance {
+    drift: f64,
+    swell: f64,
+    footfalls: f64,
+    jolt: f64,
+}
+
+/// What is left of a jolt one sample later.
+const DECAY: f64 = 0.8;
+
+/// Why a disturbance was refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum DisturbanceError {
+    /// A drift that is no number of σ_ξ.
+    #[error("drift must lie in [-1e6, 1e6], got {0}")]
+    Drift(f64),
+    /// A factor that is none.
+    #[error("swell must lie in (0, 1e6], got {0} (1 leaves the noise as it is)")]
+    Swell(f64),
+    /// A probability that is none.
+    #[error("footfalls must lie in [0, 1], got {0}")]
+    Footfalls(f64),
+    /// A strength that is none.
+    #[error("jolt must lie in [0, 1e6], got {0}")]
+    Jolt(f64),
+}
+
+impl Default for Disturbance {
+    /// None at all.
+    fn default() -> Self {
+        Self {
+            drift: 0.0,
+            swell: 1.0,
+            footfalls: 0.0,
+            jolt: 0.0,
+        }
+    }
+}
+
+impl Disturbance {
+    /// A `drift` of so many σ_ξ a raw sample, noise `swell` times as strong after X, and `footfalls`
+    /// with this probability a raw sample after X, of ± `jolt` σ_ξ.
+    ///
+    /// # Errors
+    /// Where one is out of its range.
+    pub fn new(
+        drift: f64,
+        swell: f64,
+        footfalls: f64,
+        jolt: f64,
+    ) -> Result<Self, DisturbanceError> {
+        if !(-1e6..=1e6).contains(&drift) {
+            return Err(DisturbanceError::Drift(drift));
+        }
+        if !(swell > 0.0 && swell <= 1e6) {
+            return Err(DisturbanceError::Swell(swell));
+        }
+        if !(0.0..=1.0).contains(&footfalls) {
+            return Err(DisturbanceError::Footfalls(footfalls));
+        }
+        if !(0.0..=1e6).contains(&jolt) {
+            return Err(DisturbanceError::Jolt(jolt));
+        }
+        Ok(Self {
+            drift,
+            swell,
+            footfalls,
+            jolt,
+        })
+    }
+
+    /// σ_ξ a raw sample.
+    pub fn drift(&self) -> f64 {
+        self.drift
+    }
+
+    /// The factor of the noise after X.
+    pub fn swell(&self) -> f64 {
+        self.swell
+    }
+
+    /// Probability of a step, per raw sample.
+    pub fn footfalls(&self) -> f64 {
+        self.footfalls
+    }
+
+    /// Its strength, σ_ξ.
+    pub fn jolt(&self) -> f64 {
+        self.jolt
+    }
+
+    /// Whether anybody walks: whether draws are needed.
+    pub fn has_footfalls(&self) -> bool {
+        self.footfalls > 0.0 && self.jolt > 0.0
+    }
+
+    /// Disturbs `record`, whose sample `after` is the first after X. `draws` gives 64 random bits for
+    /// each sample from there on, and is not asked where nobody walks.
+    pub fn act(&self, record: &mut [f64], after: usize, mut draws: impl FnMut() -> u64) {
+        if *self == Self::default() {
+            return;
+        }
+        let mut jolt = 0.0;
+        for (i, x) in record.iter_mut().enumerate() {
+            if i >= after {
+                *x *= self.swell;
+                if self.has_footfalls() {
+                    jolt = DECAY * jolt + self.footfall(draws());
+                    *x += jolt;
+                }
+            }
+            *x += self.drift * (i as f64 - after as f64);
+        }
+    }
+
+    /// 53 bits of `draw` decide whether there is a step, its lowest bit the sign.
+    fn footfall(&self, draw: u64) -> f64 {
+        let uniform = (draw >> 11) as f64 * (1.0 / (1u64 << 53) as f64);
+        match (uniform < self.footfalls, draw & 1) {
+            (false, _) => 0.0,
+            (true, 1) => self.jolt,
+            (true, _) => -self.jolt,
+        }
+    }
+}
+
+impl fmt::Display for Disturbance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            drift,
+            swell,
+            footfalls,
+            jolt,
+        } = self;
+        write!(
+            f,
+            "drift {drift} swell {swell} footfalls {footfalls} {jolt}"
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn acts_as_it_says() {
+        let mut record = [1.0; 4];
+        let disturbance = Disturbance::new(0.5, 3.0, 0.0, 1.0).unwrap();
+        disturbance.act(&mut record, 2, || unreachable!("nobody walks"));
+        assert_eq!(record, [0.0, 0.5, 3.0, 3.5]);
+        let mut record = [0.0; 4];
+        // The first draw is a step upwards, the others are none.
+        let mut draws = [1, u64::MAX, u64::MAX].into_iter();
+        let walking = Disturbance::new(0.0, 1.0, 0.5, 2.0).unwrap();
+        walking.act(&mut record, 1, || draws.next().unwrap());
+        assert_eq!(record, [0.0, 2.0, 1.6, 1.6 * 0.8]);
+    }
+
+    #[test]
+    fn refusals() {
+        assert!(Disturbance::new(f64::NAN, 1.0, 0.0, 0.0).is_err());
+        assert!(Disturbance::new(0.0, 0.0, 0.0, 0.0).is_err());
+        assert!(Disturbance::new(0.0, 1.0, 1.1, 0.0).is_err());
+        assert!(Disturbance::new(0.0, 1.0, 0.1, -1.0).is_err());
+    }
+}
