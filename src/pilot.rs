@@ -10,7 +10,7 @@
 //! # A promise
 //! `calibrate = true` promises a false-alarm rate of at most α under each of [`PROMISED_LAWS`], with
 //! 99.9 % confidence. A rule's regions of growing nominal level contain each other, so their true
-//! false-alarm rates grow along the ladder α·0.97^j, j = … 1, 0. They are tested from the smallest up: each
+//! false-alarm rates grow along the ladder α·0.95^j, j = … 1, 0. They are tested from the smallest up: each
 //! must be shown, under every law, to lie at or below α by an exact one-sided test at 0.001, and
 //! the first that is not ends the ladder. To end with a region above α, the first region above α
 //! must have passed, under the law that puts it there: probability at most 0.001. So neither the number of
@@ -38,9 +38,9 @@ pub const PROMISED_LAWS: [Law; 4] = [Law::Normal, Law::Laplace, Law::Uniform, La
 /// The probability that a promise is not kept, at most.
 pub const PROMISE_LEVEL: f64 = 1e-3;
 
-/// The rungs of the ladder: nominal levels down to a thirtieth of α.
-const RUNGS: i32 = 112;
-const RUNG: f64 = 0.97;
+/// The rungs of the ladder: nominal levels down to a millionth of α.
+const RUNGS: i32 = 270;
+const RUNG: f64 = 0.95;
 
 /// Why no decision could be found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

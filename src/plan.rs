@@ -58,12 +58,15 @@ pub enum Hypothesis {
 impl Plan {
     /// Every point of every curve, and for each distinct (sensor, noise, whitening, samples,
     /// detector) the same at rest. A curve in which nothing ever moves is a false-alarm curve: it
-    /// has points at rest alone.
+    /// has points at rest alone, and so has a config that asks for nothing else.
     ///
     /// # Errors
     /// Where a parameter of a point is out of range, or no region or record can be made for it.
     pub fn new(config: &Config) -> Result<Self, ConfigError> {
-        Self::of(config, |_| true)
+        match config.at_rest {
+            true => Self::at_rest(config),
+            false => Self::of(config, |_| true),
+        }
     }
 
     /// The points at rest alone: what the false-alarm gate runs.

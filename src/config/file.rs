@@ -222,6 +222,7 @@ with_sections! {
         confidence: Option<Spanned<Number>>,
         common_random_numbers: Option<bool>,
         pilot: Option<Spanned<Whole>>,
+        at_rest: Option<bool>,
         axis: AxisTable,
         #[serde(default)]
         curve: Vec<CurveTable>,
@@ -230,7 +231,11 @@ with_sections! {
 
 with_sections! {
     /// `[[curve]]`
-    CurveTable { label: Option<Spanned<String>> }
+    CurveTable {
+        label: Option<Spanned<String>>,
+        panel: Option<String>,
+        series: Option<String>,
+    }
 }
 
 impl File {
@@ -251,6 +256,8 @@ impl File {
         }
         vec![CurveTable {
             label: None,
+            panel: None,
+            series: None,
             sensor: SensorSection::default(),
             noise: NoiseSection::default(),
             rest: RestSection::default(),

@@ -37,6 +37,8 @@ pub struct Config {
     pub common_random_numbers: bool,
     /// Trials of each pilot run.
     pub pilot: u64,
+    /// Whether only the points at rest are run.
+    pub at_rest: bool,
     /// What the x axis sweeps.
     pub axis: Axis,
     /// At least one.
@@ -47,8 +49,12 @@ pub struct Config {
 /// One curve: a label and what it changes.
 #[derive(Clone, Debug)]
 pub struct Curve {
-    /// As in the legend.
+    /// What tells it from the others.
     pub label: String,
+    /// The panel it is drawn in.
+    pub panel: Option<String>,
+    /// Its name in the legend, where curves of several panels share it.
+    pub series: Option<String>,
     sections: Sections,
 }
 
@@ -92,6 +98,8 @@ impl Config {
             }
             curves.push(Curve {
                 label,
+                panel: curve.panel.clone(),
+                series: curve.series.clone(),
                 sections: curve.sections().over(&base),
             });
         }
@@ -101,6 +109,7 @@ impl Config {
             trials,
             confidence,
             common_random_numbers: file.common_random_numbers.unwrap_or(true),
+            at_rest: file.at_rest.unwrap_or(false),
             pilot: file.pilot(&source)?,
             axis,
             curves,

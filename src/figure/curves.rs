@@ -1,53 +1,42 @@
 //! Rates against the axis of a sweep: the power of each curve, or, where nothing moves, its
-//! false-alarm rate.
+//! false-alarm rate; in one panel, or in as many as the curves name.
 
 use super::FigureError;
-use super::frame::{CAPTION, Frame, Scale};
+use super::frame::{CAPTION, Frame, NORMAL, Scale};
 use super::legend::Legend;
-use super::ruler::Ruler;
-use super::sheet::{Align, Look, Picture, Sheet, Style};
+use super::panel::{Curve, Manner, Panel, Point, rate_scale};
+use super::ruler::{LONG_RANGE, Ruler};
+use super::sheet::{Align, Look, Picture, Sheet, Style, literal};
 use super::words::{axis_label, caption, common_facts, is_held_against_alpha, legend};
 use crate::config::{Config, Parameter};
 use crate::results::{Manifest, Row};
-use plotters::prelude::{BLACK, Color, DrawingBackend, WHITE};
+use plotters::prelude::{DrawingBackend, WHITE};
 
 const WIDTH: f64 = 396.0;
-/// Without legend above and caption below.
+/// One panel without legend above and caption below.
 const HEIGHT: f64 = 262.0;
-const LINE: f64 = 1.1;
-const MARKER: f64 = 2.3;
+/// One of several, with its title.
+const SMALL_HEIGHT: f64 = 150.0;
 const CAPTION_STEP: f64 = 10.5;
 const CAPTION_LEFT: f64 = 10.0;
+const LEFT: f64 = 54.0;
+const RIGHT: f64 = WIDTH - 16.0;
+/// For tick labels and the axis label under the lowest panel.
+const BELOW: f64 = 40.0;
 
 /// The picture of a sweep.
 pub(super) struct Curves {
-    curves: Vec<Curve>,
+    panels: Vec<Panel>,
+    legend: Legend,
+    manner: Manner,
     axis: Parameter,
-    scale: Scale,
-    /// Whether the axis holds names, with curves side by side at each.
-    is_named: bool,
+    x: Scale,
+    y: Scale,
     is_whitened: bool,
     /// What a unit of Δ in the record becomes after whitening, where every curve agrees.
     whitened_unit: Option<f64>,
-    /// The level that false-alarm rates are held against.
-    nominal: Option<f64>,
     is_false_alarm: bool,
     caption: Vec<String>,
-}
-
-struct Curve {
-    legend: String,
-    look: Look,
-    points: Vec<Point>,
-}
-
-/// A rate and its interval, at a place on the axis.
-#[derive(Clone, Copy)]
-struct Point {
-    x: f64,
-    rate: f64,
-    low: f64,
-    high: f64,
 }
 
 impl Curves {
@@ -62,237 +51,199 @@ impl Curves {
         }
         let common = common_facts(&all);
         let ruler = Ruler::new(config, &all);
-        let mut curves: Vec<Curve> = Vec::new();
-        for (index, rows) in drawn
-            .iter()
-            .enumerate()
-            .filter(|(_, rows)| !rows.is_empty())
-        {
+        let mut entries: Vec<(String, Look)> = Vec::new();
+        let mut panels: Vec<Panel> = Vec::new();
+        for (curve, rows) in config.curves.iter().zip(&drawn) {
+            if rows.is_empty() {
+                continue;
+            }
+            let words = match &curve.series {
+                Some(series) => literal(series),
+                None => legend(rows, &common, axis),
+            };
+            let known = entries.iter().find(|(known, _)| *known == words);
+            let look = known.map_or(Look::of(entries.len()), |(_, look)| *look);
+            if known.is_none() {
+                entries.push((words, look));
+            }
             let mut points: Vec<Point> = (0..rows.len())
                 .map(|i| point(ruler.place(rows, i), rows[i]))
                 .collect();
             points.sort_by(|a, b| a.x.total_cmp(&b.x));
-            curves.push(Curve {
-                legend: legend(rows, &common, axis),
-                look: Look::of(index),
-                points,
+            let title = curve.panel.as_deref().map_or(String::new(), literal);
+            let known = panels.iter().position(|panel| panel.title == title);
+            let panel = known.unwrap_or_else(|| {
+                panels.push(Panel {
+                    title,
+                    curves: Vec::new(),
+                });
+                panels.len() - 1
             });
+            panels[panel].curves.push(Curve { look, points });
         }
-        let places: Vec<f64> = curves
-            .iter()
-            .flat_map(|curve| &curve.points)
-            .map(|p| p.x)
-            .collect();
-        Ok(Self {
-            scale: ruler.scale(&places),
+        let is_false_alarm = all.iter().all(|row| row.is_at_rest());
+        let is_logarithmic = is_false_alarm && spans_far(&panels);
+        if is_logarithmic {
+            points_of(&mut panels).for_each(Point::take_logarithms);
+        }
+        let nominal = is_held_against_alpha(&all).then_some(all[0].alpha);
+        let manner = Manner {
             is_named: ruler.is_named(),
+            is_logarithmic,
+            nominal: nominal.map(|alpha| match is_logarithmic {
+                true => libm::log10(alpha),
+                false => alpha,
+            }),
+        };
+        let mut caption = caption(&all, common, axis, manifest, WIDTH - 2.0 * CAPTION_LEFT);
+        if is_logarithmic && points_of(&mut panels).any(|point| point.is_bound) {
+            caption.push("arrows: upper limits where no trial gave a false alarm".to_owned());
+        }
+        let places: Vec<f64> = points_of(&mut panels).map(|point| point.x).collect();
+        Ok(Self {
+            x: ruler.scale(&places),
+            y: rate_scale(&panels, is_false_alarm, manner),
             is_whitened: all.iter().all(|row| row.delta_at == "whitened"),
-            whitened_unit: whitened_unit(config, &all),
-            nominal: is_held_against_alpha(&all).then_some(all[0].alpha),
-            is_false_alarm: all.iter().all(|row| row.is_at_rest()),
-            caption: caption(&all, common, axis, manifest, WIDTH - 2.0 * CAPTION_LEFT),
-            curves,
+            whitened_unit: whitened_unit(config, &all).filter(|_| panels.len() == 1),
+            legend: Legend {
+                entries,
+                with_lines: !manner.is_named,
+            },
+            is_false_alarm,
+            manner,
+            caption,
+            panels,
             axis,
         })
     }
 
-    fn points(&self) -> impl Iterator<Item = &Point> {
-        self.curves.iter().flat_map(|curve| &curve.points)
+    /// Several panels stand two in a row.
+    fn grid_rows(&self) -> usize {
+        self.panels.len().div_ceil(2)
     }
 
-    /// The frame with `above` points left free over it.
-    fn frame(&self, above: f64) -> Frame {
-        let y = match self.is_false_alarm {
-            false => Scale {
-                to: 1.03,
-                ..Scale::linear(0.0, 1.0, 5)
-            },
-            true => {
-                let bottom = self
-                    .points()
-                    .map(|p| p.low)
-                    .chain(self.nominal)
-                    .fold(f64::INFINITY, f64::min);
-                let top = self
-                    .points()
-                    .map(|p| p.high)
-                    .chain(self.nominal)
-                    .fold(0.0, f64::max);
-                let room = (top - bottom).max(1e-9);
-                // Room above for the legend.
-                Scale::linear((bottom - 0.1 * room).max(0.0), top + 0.8 * room, 6)
-            }
-        };
-        let top = above
-            + if self.whitened_unit.is_some() {
+    /// The frame of a panel, with `above` points left free over all of them.
+    fn frame(&self, index: usize, above: f64) -> Frame {
+        let (x, y) = (self.x.clone(), self.y.clone());
+        if self.panels.len() == 1 {
+            let over = if self.whitened_unit.is_some() {
                 32.0
             } else {
                 10.0
             };
+            return Frame {
+                left: LEFT,
+                right: RIGHT,
+                top: above + over,
+                bottom: above + HEIGHT - BELOW,
+                x,
+                y,
+            };
+        }
+        let width = (RIGHT - LEFT - 14.0) / 2.0;
+        let left = LEFT + (index % 2) as f64 * (width + 14.0);
+        let top = above + 22.0 + (index / 2) as f64 * SMALL_HEIGHT;
         Frame {
-            left: 54.0,
-            right: WIDTH - 16.0,
+            left,
+            right: left + width,
             top,
-            bottom: above + HEIGHT - 40.0,
-            x: self.scale.clone(),
+            bottom: top + SMALL_HEIGHT - 36.0,
+            x: Scale {
+                ticks: self.x.sparse_ticks(width),
+                ..x
+            },
             y,
         }
     }
 
-    /// Where each curve stands beside the others at a name.
-    fn aside(&self, index: usize) -> f64 {
-        let step = 0.11f64.min(0.8 / self.curves.len() as f64);
-        match self.is_named {
-            true => step * (index as f64 - (self.curves.len() - 1) as f64 / 2.0),
+    /// Where the legend goes: a corner of the one panel, the free place of the grid, or above.
+    fn place(&self) -> Option<(f64, f64)> {
+        if self.panels.len() == 1 {
+            let frame = self.frame(0, 0.0);
+            let covered = self.panels[0].covered(&frame, self.manner);
+            return self.legend.free_corner(&frame, &covered);
+        }
+        let free = self.frame(self.panels.len(), 0.0);
+        let is_free = self.panels.len() % 2 == 1 && self.legend.width() < free.right - free.left;
+        is_free.then_some((free.left, free.top))
+    }
+
+    /// One curve without a name of its own needs no legend.
+    fn has_legend(&self) -> bool {
+        !(self.legend.entries.len() == 1 && self.legend.entries[0].0 == "1")
+    }
+
+    /// What the legend takes above the panels, where there is no better place.
+    fn above(&self) -> f64 {
+        match self.has_legend() && self.place().is_none() {
+            true => self.legend.height() + 8.0,
             false => 0.0,
         }
     }
 
-    /// The legend and its place; none for one curve without a name of its own.
-    fn legend(&self) -> Option<(Legend, Option<(f64, f64)>)> {
-        let entries: Vec<_> = self
-            .curves
-            .iter()
-            .map(|curve| (curve.legend.clone(), curve.look))
-            .collect();
-        if entries.len() == 1 && entries[0].0 == "1" {
-            return None;
+    /// The lower end of the panels and what stands under them.
+    fn bottom(&self) -> f64 {
+        match self.panels.len() {
+            1 => self.above() + HEIGHT,
+            _ => self.above() + 26.0 + self.grid_rows() as f64 * SMALL_HEIGHT,
         }
-        let legend = Legend {
-            entries,
-            with_lines: !self.is_named,
+    }
+
+    fn draw_panel<B: DrawingBackend>(
+        &self,
+        sheet: &Sheet<B>,
+        index: usize,
+    ) -> Result<(), FigureError> {
+        let mut frame = self.frame(index, self.above());
+        let panel = &self.panels[index];
+        panel.draw(sheet, &frame, self.manner)?;
+        let is_left = self.panels.len() == 1 || index % 2 == 0;
+        let is_lowest = index + 2 >= self.panels.len();
+        let y_label = match (is_left, self.is_false_alarm) {
+            (false, _) => "",
+            (true, true) => "false-alarm rate",
+            (true, false) => "D, probability of detection",
         };
-        let corner = legend.free_corner(&self.frame(0.0), &self.covered());
-        Some((legend, corner))
-    }
-
-    /// Points on the sheet that a legend must not hide: bands and lines, finely.
-    fn covered(&self) -> Vec<(f64, f64)> {
-        let frame = self.frame(0.0);
-        let mut covered = Vec::new();
-        for (index, curve) in self.curves.iter().enumerate() {
-            let ends =
-                |p: &Point| [p.low, p.rate, p.high].map(|y| frame.at(p.x + self.aside(index), y));
-            covered.extend(curve.points.iter().flat_map(ends));
-            for pair in curve.points.windows(2).filter(|_| !self.is_named) {
-                for (a, b) in ends(&pair[0]).into_iter().zip(ends(&pair[1])) {
-                    let between = |i: i32| f64::from(i) / 16.0;
-                    covered.extend((1..16).map(|i| {
-                        (
-                            a.0 + between(i) * (b.0 - a.0),
-                            a.1 + between(i) * (b.1 - a.1),
-                        )
-                    }));
-                }
-            }
+        if !is_left {
+            let unlabelled = frame.y.ticks.iter().map(|(y, _)| (*y, String::new()));
+            frame.y.ticks = unlabelled.collect();
         }
-        covered
-    }
-
-    fn draw_lines<B: DrawingBackend>(
-        &self,
-        sheet: &Sheet<B>,
-        frame: &Frame,
-    ) -> Result<(), FigureError> {
-        for Curve { points, look, .. } in &self.curves {
-            let upper = points.iter().map(|p| frame.at(p.x, p.high));
-            let lower = points.iter().rev().map(|p| frame.at(p.x, p.low));
-            let band: Vec<_> = upper.chain(lower).collect();
-            sheet.area(&band, look.colour.mix(0.18))?;
-            let line: Vec<_> = points.iter().map(|p| frame.at(p.x, p.rate)).collect();
-            sheet.line(&line, LINE, look.colour.to_rgba())?;
-        }
-        Ok(())
-    }
-
-    /// Each interval as an upright bar.
-    fn draw_bars<B: DrawingBackend>(
-        &self,
-        sheet: &Sheet<B>,
-        frame: &Frame,
-    ) -> Result<(), FigureError> {
-        for (index, Curve { points, look, .. }) in self.curves.iter().enumerate() {
-            for p in points {
-                let x = p.x + self.aside(index);
-                sheet.line(
-                    &[frame.at(x, p.low), frame.at(x, p.high)],
-                    LINE,
-                    look.colour.to_rgba(),
-                )?;
-            }
-        }
-        Ok(())
-    }
-
-    fn draw_markers<B: DrawingBackend>(
-        &self,
-        sheet: &Sheet<B>,
-        frame: &Frame,
-    ) -> Result<(), FigureError> {
-        for (index, Curve { points, look, .. }) in self.curves.iter().enumerate() {
-            for p in points {
-                let centre = frame.at(p.x + self.aside(index), p.rate);
-                sheet.marker(look.marker, centre, MARKER, look.colour)?;
-            }
-        }
-        Ok(())
-    }
-
-    fn draw_nominal<B: DrawingBackend>(
-        &self,
-        sheet: &Sheet<B>,
-        frame: &Frame,
-    ) -> Result<(), FigureError> {
-        let Some(nominal) = self.nominal else {
-            return Ok(());
+        let x_label = match is_lowest {
+            true => axis_label(self.axis, self.is_whitened),
+            false => "",
         };
-        let (left, y) = frame.at(frame.x.from, nominal);
-        sheet.line(&[(left, y), (frame.right, y)], 0.8, BLACK.mix(0.6))
-    }
-
-    /// What the legend takes above the plot, where no corner is free.
-    fn above(&self) -> f64 {
-        match self.legend() {
-            Some((legend, None)) => legend.height() + 8.0,
-            _ => 0.0,
-        }
+        frame.draw_axes(sheet, x_label, y_label)?;
+        let title = (f64::midpoint(frame.left, frame.right), frame.top - 5.0);
+        sheet.text(&panel.title, title, Style::plain(NORMAL, Align::Centre))
     }
 }
 
 impl Picture for Curves {
     fn size(&self) -> (f64, f64) {
         let caption = CAPTION_STEP * self.caption.len() as f64;
-        (WIDTH, self.above() + HEIGHT + caption)
+        (WIDTH, self.bottom() + caption)
     }
 
     fn draw<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
         let (width, height) = self.size();
-        let frame = self.frame(self.above());
         sheet.area(
             &[(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)],
-            WHITE.to_rgba(),
+            plotters::style::Color::to_rgba(&WHITE),
         )?;
-        frame.draw_grid(sheet)?;
-        self.draw_nominal(sheet, &frame)?;
-        match self.is_named {
-            false => self.draw_lines(sheet, &frame)?,
-            true => self.draw_bars(sheet, &frame)?,
+        for index in 0..self.panels.len() {
+            self.draw_panel(sheet, index)?;
         }
-        let y_label = match self.is_false_alarm {
-            true => "false-alarm rate",
-            false => "D, probability of detection",
-        };
-        frame.draw_axes(sheet, axis_label(self.axis, self.is_whitened), y_label)?;
         if let Some(unit) = self.whitened_unit {
+            let frame = self.frame(0, self.above());
             let scale = Scale::linear(frame.x.from * unit, frame.x.to * unit, 8);
             frame.draw_top(sheet, &scale, axis_label(Parameter::Delta, true))?;
         }
-        self.draw_markers(sheet, &frame)?;
-        if let Some((legend, corner)) = self.legend() {
-            legend.draw(sheet, corner.unwrap_or((frame.left, 4.0)))?;
+        if self.has_legend() {
+            self.legend
+                .draw(sheet, self.place().unwrap_or((LEFT, 4.0)))?;
         }
         for (line, text) in (0..).zip(&self.caption) {
-            let baseline = frame.bottom + 41.0 + CAPTION_STEP * f64::from(line);
+            let baseline = self.bottom() + 1.0 + CAPTION_STEP * f64::from(line);
             sheet.text(
                 text,
                 (CAPTION_LEFT, baseline),
@@ -303,11 +254,30 @@ impl Picture for Curves {
     }
 }
 
+fn points_of(panels: &mut [Panel]) -> impl Iterator<Item = &mut Point> {
+    let curves = panels.iter_mut().flat_map(|panel| &mut panel.curves);
+    curves.flat_map(|curve| &mut curve.points)
+}
+
+/// Whether the largest rate is so many times the smallest that a linear scale would hide it.
+fn spans_far(panels: &[Panel]) -> bool {
+    let curves = || panels.iter().flat_map(|panel| &panel.curves);
+    let shown = |p: &Point| if p.is_bound { p.high } else { p.rate };
+    let rates = || curves().flat_map(|curve| &curve.points).map(shown);
+    let smallest = rates().fold(f64::INFINITY, f64::min);
+    rates().fold(0.0, f64::max) >= LONG_RANGE * smallest
+}
+
 /// A row's rate and interval, from its counts.
 fn point(x: f64, row: &Row) -> Point {
     let (low, high) = row.tally().interval(row.confidence);
-    let rate = row.tally().rate();
-    Point { x, rate, low, high }
+    Point {
+        x,
+        rate: row.tally().rate(),
+        low,
+        high,
+        is_bound: row.detections == 0,
+    }
 }
 
 /// The rows a curve is drawn from: those in motion, or at rest where nothing ever moves.

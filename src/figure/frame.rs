@@ -1,7 +1,7 @@
 //! Axes: a plot rectangle on a sheet, its scales, ticks and labels.
 
 use super::FigureError;
-use super::sheet::{Align, Sheet, Style};
+use super::sheet::{Align, Sheet, Style, text_width};
 use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor};
 
 /// Em size of tick labels, in points.
@@ -81,6 +81,23 @@ impl Scale {
         }
     }
 
+    /// Decimal logarithms, `from` to `to`, with ticks at the powers of ten, written as such.
+    pub fn powers(from: f64, to: f64) -> Self {
+        let powers = (from.ceil() as i32)..=(to.floor() as i32);
+        if powers.clone().count() < 2 {
+            return Self::logarithms(from, to);
+        }
+        let label = |power: i32| match power {
+            -3..=0 => format!("{}", libm::pow(10.0, power.into())),
+            _ => minus_sign(format!("1e{power}")),
+        };
+        Self {
+            from,
+            to,
+            ticks: powers.map(|power| (power.into(), label(power))).collect(),
+        }
+    }
+
     /// Names at 0, 1, 2, …
     pub fn names(names: &[String]) -> Self {
         Self {
@@ -92,6 +109,14 @@ impl Scale {
                 .map(|(i, name)| (i as f64, name.clone()))
                 .collect(),
         }
+    }
+
+    /// The ticks that find room on `width` points, the first and every so many after it.
+    pub fn sparse_ticks(&self, width: f64) -> Vec<(f64, String)> {
+        let widest = self.ticks.iter().map(|(_, label)| text_width(label, SMALL));
+        let needed = widest.fold(0.0, f64::max) + 6.0;
+        let every = (needed * self.ticks.len() as f64 / width).ceil().max(1.0);
+        self.ticks.iter().step_by(every as usize).cloned().collect()
     }
 
     fn share(&self, value: f64) -> f64 {

@@ -18,7 +18,8 @@ pub(super) struct Legend {
 }
 
 impl Legend {
-    fn width(&self) -> f64 {
+    /// What it takes from left to right.
+    pub fn width(&self) -> f64 {
         let widths = self.entries.iter().map(|(text, _)| text_width(text, SMALL));
         widths.fold(0.0, f64::max) + 32.0
     }

@@ -6,6 +6,7 @@
 mod curves;
 mod frame;
 mod legend;
+mod panel;
 mod region;
 mod ruler;
 mod sheet;

@@ -5,7 +5,7 @@ use crate::config::{Config, Parameter};
 use crate::results::Row;
 
 /// Values that span more than this are drawn on a logarithmic axis.
-const LONG_RANGE: f64 = 30.0;
+pub(super) const LONG_RANGE: f64 = 30.0;
 
 /// Where the rows of a sweep stand on its axis.
 pub(super) struct Ruler<'a> {

@@ -326,6 +326,23 @@ impl<B: DrawingBackend> Sheet<B> {
         }
     }
 
+    /// An arrow that starts at `from` and points down.
+    pub fn arrow_down(
+        &self,
+        (x, y): (f64, f64),
+        length: f64,
+        colour: RGBColor,
+    ) -> Result<(), FigureError> {
+        let (tip, half) = (y + length, 0.3 * length);
+        let colour = colour.to_rgba();
+        self.line(&[(x - half, y), (x + half, y)], 0.8, colour)?;
+        self.line(&[(x, y), (x, tip - half)], 0.8, colour)?;
+        self.area(
+            &[(x, tip), (x - half, tip - half), (x + half, tip - half)],
+            colour,
+        )
+    }
+
     /// Text whose baseline passes through `point`.
     pub fn text(&self, text: &str, point: (f64, f64), style: Style) -> Result<(), FigureError> {
         let width = text_width(text, style.size);
