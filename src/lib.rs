@@ -38,7 +38,8 @@
 //! | 4 | [`config`]: what the author wrote |
 //! | 5 | [`plan`]: what it comes to |
 //! | 6 | [`run`]: blocks of trials in parallel · [`gate`]: the false-alarm test · [`results`]: files |
-//! | 7 | [`figure`]: pictures |
+//! | 7 | [`figure`]: pictures · [`claim`]: verdicts |
+//! | 8 | [`report`]: the report |
 //!
 //! # Laws
 //! - A trial cannot fail: what can go wrong goes wrong when the plan is made.
@@ -73,11 +74,13 @@
 
 pub mod binomial;
 pub mod chain;
+pub mod claim;
 pub mod config;
 pub mod detect;
 pub mod figure;
 pub mod gate;
 pub mod plan;
+pub mod report;
 pub mod results;
 pub mod rng;
 pub mod run;

@@ -5,6 +5,7 @@ use super::file::{AxisTable, Sections};
 use super::value::Number;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use std::fmt;
 use std::ops::Range;
 use toml::{Spanned, Value};
 
@@ -131,6 +132,18 @@ impl AxisValue {
             Value::Float(number) => Some(number),
             Value::Integer(number) => Some(number as f64),
             _ => None,
+        }
+    }
+}
+
+/// A number in the fewest digits, a name as it is, a table by its name.
+impl fmt::Display for AxisValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (&self.value, self.number()) {
+            (_, Some(number)) => write!(f, "{number}"),
+            (Value::String(name), _) => f.write_str(name),
+            (Value::Table(table), _) => f.write_str(table.keys().next().map_or("", |key| key)),
+            (other, _) => write!(f, "{other}"),
         }
     }
 }
