@@ -126,18 +126,16 @@ fn places(climbs: &[Climb], axis: Option<&Axis>) -> Vec<String> {
 }
 
 fn evidence(climbs: &[Climb], axis: Option<&Axis>) -> String {
-    let smallest = |comparisons: &mut dyn Iterator<Item = &Comparison>| {
-        let least = comparisons.min_by(|a, b| a.difference.total_cmp(&b.difference));
-        least.expect("a climb has a step").clone()
-    };
-    let step = smallest(&mut climbs.iter().flat_map(|c| c.steps.iter().copied()));
-    let overall = smallest(&mut climbs.iter().map(|c| c.overall));
-    let kind = match step.difference < 0.0 {
-        true => "largest fall",
-        false => "smallest step",
+    let steps = climbs.iter().flat_map(|climb| climb.steps.iter().copied());
+    let overall = climbs.iter().map(|climb| climb.overall);
+    let (step, overall) = (lowest(steps), lowest(overall));
+    let margin = climbs[0].margin;
+    let kind = match step.high < -margin {
+        true => "deepest fall",
+        false => "lowest step",
     };
     format!(
-        "{kind} {} from {} to {} on {}; smallest growth from first to last {} on {}",
+        "{kind} {} from {} to {} on {}; lowest growth from first to last {} on {}",
         interval(step.difference, step.low, step.high),
         at(axis, &step.second_value),
         step.first_value,
@@ -145,6 +143,16 @@ fn evidence(climbs: &[Climb], axis: Option<&Axis>) -> String {
         interval(overall.difference, overall.low, overall.high),
         named(&overall.first_curve),
     )
+}
+
+/// The one that decides: with the lowest limit, but of a sure fall before one that is only wide.
+fn lowest<'a>(comparisons: impl Iterator<Item = &'a Comparison>) -> &'a Comparison {
+    let depth = |c: &Comparison| (c.high.min(0.0), c.low);
+    let order = |a: &&Comparison, b: &&Comparison| {
+        let (a, b) = (depth(a), depth(b));
+        a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+    };
+    comparisons.min_by(order).expect("a climb has a step")
 }
 
 fn how(claim: &Claim, comparisons: usize, axis: Option<&Axis>) -> String {

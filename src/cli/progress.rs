@@ -14,7 +14,7 @@ pub fn bar(plan: &Plan, quiet: bool) -> ProgressBar {
         let _ = write!(text, "{:.0}", state.per_sec() / points);
     };
     let style = ProgressStyle::with_template(
-        "{bar:32} {percent:>3} %  {speed} trials/s of every point, {eta} left",
+        "{prefix}{bar:32} {percent:>3} %  {speed} trials/s of every point, {eta} left",
     )
     .expect("the template is fixed")
     .with_key("speed", speed);
