@@ -87,7 +87,10 @@ pub fn comparisons(
         let Pair { claim, places, .. } = pair;
         let compared = [tallies[pair.first], tallies[pair.second]];
         let confidence = confidence(&claims[*claim], numbers[*claim]);
-        Comparison::new(claim + 1, places.clone(), compared, *discordant, confidence)
+        // Two curves may share a point, which never differs from itself.
+        let itself = (pair.first == pair.second).then_some([0, 0]);
+        let discordant = itself.or(*discordant);
+        Comparison::new(claim + 1, places.clone(), compared, discordant, confidence)
     };
     pairs.iter().zip(discordant).map(compare).collect()
 }

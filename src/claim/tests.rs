@@ -107,12 +107,20 @@ fn pairs_at_rest() {
     let found: Vec<_> = (pairs(&config, &points).iter())
         .map(|pair| (pair.claim, pair.first, pair.second))
         .collect();
+    assert_eq!(points.len(), 2, "θ is no difference at rest");
+    assert_eq!(found, [(0, 0, 0), (0, 1, 1), (1, 1, 0), (1, 1, 0)]);
+    // A point is as often right as itself: its difference from itself is nought in every trial.
+    let tally = Tally {
+        hits: 5_000,
+        trials: 10_000,
+    };
+    let claims = &config.narrative.claims;
+    let rows = comparisons(claims, &pairs(&config, &points), &[tally; 2], &[None; 4]);
     assert_eq!(
-        points.len(),
-        4,
-        "θ is no difference at rest, but is reported"
+        (rows[0].first_only, rows[0].second_only),
+        (Some(0), Some(0))
     );
-    assert_eq!(found, [(0, 0, 2), (0, 1, 3), (1, 1, 0), (1, 3, 2)]);
+    assert!(rows[0].high < 0.002 && rows[2].high > 0.02, "{rows:?}");
 }
 
 /// The level is shared by the comparisons of one claim, not by those of all.
@@ -366,8 +374,8 @@ fn gain_beyond_the_axis() {
 #[test]
 fn brackets_are_widest() {
     let line = [(0.0, 0.1), (1.0, 0.6), (2.0, 0.4), (3.0, 0.9)];
-    assert_eq!(first_reach(&line, 0.35), 0.5);
-    assert_eq!(first_reach(&line, 0.6), 1.0);
+    assert!((first_reach(&line, 0.35) - 0.5).abs() < 1e-12);
+    assert!((first_reach(&line, 0.6) - 1.0).abs() < 1e-12);
     assert!((last_reach(&line, 0.5) - 2.2).abs() < 1e-12);
     assert_eq!(last_reach(&line, 0.4), 2.0);
     assert_eq!(
@@ -434,7 +442,7 @@ fn numbers_in_words() {
         "0.8235 [0.8213, 0.8247]"
     );
     assert_eq!(interval(-0.5, -0.9, -0.1), "−0.50 [−0.90, −0.10]");
-    assert_eq!(interval(-0.0001, -0.1, 0.1), "0.000 [−0.100, 0.100]");
+    assert_eq!(interval(-0.0001, -0.1, 0.1), "0.00 [−0.10, 0.10]");
     assert_eq!(interval(2.0, 2.0, 2.0), "2");
     assert_eq!(exact(0.009_972_063_095), "0.00997206");
     assert_eq!(thousands(1_234_567), "1\u{2009}234\u{2009}567");

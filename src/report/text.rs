@@ -67,26 +67,41 @@ pub fn fill(text: &str, evidence: &Evidence) -> Result<String, PlaceholderError>
 fn value(placeholder: &str, evidence: &Evidence) -> Result<String, PlaceholderError> {
     let unknown = || PlaceholderError::Unknown(placeholder.to_owned());
     let (kind, name) = placeholder.split_once(':').ok_or_else(unknown)?;
-    let rate = |row: &Row| interval(row.rate, row.low, row.high);
-    match kind {
-        "rate" => {
-            let is_at_rest = !is_there(evidence, name, false);
-            find(placeholder, name, evidence, is_at_rest, rate)
-        }
-        "false_alarm" => find(placeholder, name, evidence, true, rate),
-        "size" => {
-            let is_at_rest = !is_there(evidence, name, false);
-            find(placeholder, name, evidence, is_at_rest, |row| {
-                exact(row.size)
-            })
-        }
-        "quantity" => named_quantity(name, evidence.quantities)
-            .map(|quantity| interval(quantity.value, quantity.low, quantity.high))
-            .map_err(|error| PlaceholderError::Quantity {
-                placeholder: placeholder.to_owned(),
-                error,
-            }),
-        _ => Err(unknown()),
+    if kind == "quantity" {
+        return quantity(placeholder, name, evidence);
+    }
+    if !["rate", "false_alarm", "size"].contains(&kind) {
+        return Err(unknown());
+    }
+    let is_at_rest = kind == "false_alarm" || !moves(evidence, name);
+    let rows = find(placeholder, name, evidence, is_at_rest)?;
+    let show = |row: &Row| match kind {
+        "size" => exact(row.size),
+        _ => interval(row.rate, row.low, row.high),
+    };
+    // Many points may share one size; a rate is one point's.
+    let is_one =
+        rows.len() == 1 || kind == "size" && rows.iter().all(|(_, r)| r.size == rows[0].1.size);
+    match is_one {
+        true => Ok(show(rows[0].1)),
+        false => Err(PlaceholderError::Value {
+            placeholder: placeholder.to_owned(),
+            known: values(&rows),
+        }),
+    }
+}
+
+fn quantity(
+    placeholder: &str,
+    name: &str,
+    evidence: &Evidence,
+) -> Result<String, PlaceholderError> {
+    match named_quantity(name, evidence.quantities) {
+        Ok(quantity) => Ok(interval(quantity.value, quantity.low, quantity.high)),
+        Err(error) => Err(PlaceholderError::Quantity {
+            placeholder: placeholder.to_owned(),
+            error,
+        }),
     }
 }
 
@@ -99,22 +114,20 @@ fn parts<'a>(evidence: &Evidence, name: &'a str) -> (&'a str, Option<&'a str>) {
     }
 }
 
-/// Whether the curve has rows of this kind.
-fn is_there(evidence: &Evidence, name: &str, is_at_rest: bool) -> bool {
+/// Whether the curve has rows in motion.
+fn moves(evidence: &Evidence, name: &str) -> bool {
     let (label, _) = parts(evidence, name);
     let mut rows = evidence.rows.iter();
-    rows.any(|row| row.label == label && row.is_at_rest() == is_at_rest)
+    rows.any(|row| row.label == label && !row.is_at_rest())
 }
 
-/// What `show` makes of the row that a placeholder names. Without a value, all rows of the curve must
-/// show the same.
-fn find(
+/// The rows that a placeholder names, at least one.
+fn find<'a>(
     placeholder: &str,
     name: &str,
-    evidence: &Evidence,
+    evidence: &Evidence<'a>,
     is_at_rest: bool,
-    show: impl Fn(&Row) -> String,
-) -> Result<String, PlaceholderError> {
+) -> Result<Vec<(String, &'a Row)>, PlaceholderError> {
     let (label, value) = parts(evidence, name);
     let rows = placed(evidence.axis, evidence.rows, label, is_at_rest);
     let placeholder = placeholder.to_owned();
@@ -123,19 +136,22 @@ fn find(
         return Err(PlaceholderError::Curve { placeholder, known });
     }
     let is_meant = |there: &str| value.is_none_or(|value| is_same(value, there));
-    let mut shown: Vec<String> = (rows.iter())
+    let meant: Vec<_> = (rows.iter())
         .filter(|(there, _)| is_meant(there))
-        .map(|(_, row)| show(row))
+        .cloned()
         .collect();
-    shown.dedup();
-    match shown.len() {
-        1 => Ok(shown.remove(0)),
-        _ => {
-            let values: Vec<&str> = rows.iter().map(|(value, _)| value.as_str()).collect();
-            let known = values.join(", ");
-            Err(PlaceholderError::Value { placeholder, known })
-        }
+    match meant.is_empty() {
+        true => Err(PlaceholderError::Value {
+            placeholder,
+            known: values(&rows),
+        }),
+        false => Ok(meant),
     }
+}
+
+fn values(rows: &[(String, &Row)]) -> String {
+    let values: Vec<&str> = rows.iter().map(|(value, _)| value.as_str()).collect();
+    values.join(", ")
 }
 
 /// 1 and 1.0 are the same value.
