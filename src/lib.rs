@@ -39,7 +39,8 @@
 //! | 4 | [`config`]: what the author wrote · [`ensemble`]: blocks of trials in parallel |
 //! | 5 | [`plan`]: what it comes to |
 //! | 6 | [`pilot`]: decisions that no law gives · [`run`]: counts · [`gate`]: the false-alarm test · [`results`]: files |
-//! | 7 | [`figure`]: pictures |
+//! | 7 | [`figure`]: pictures · [`claim`]: verdicts |
+//! | 8 | [`report`]: the report |
 //!
 //! # Laws
 //! - A trial cannot fail: what can go wrong goes wrong when the plan is made.
@@ -74,6 +75,7 @@
 
 pub mod binomial;
 pub mod chain;
+pub mod claim;
 pub mod config;
 pub mod detect;
 pub mod ensemble;
@@ -81,6 +83,7 @@ pub mod figure;
 pub mod gate;
 pub mod pilot;
 pub mod plan;
+pub mod report;
 pub mod results;
 pub mod rng;
 pub mod run;

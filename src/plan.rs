@@ -46,6 +46,16 @@ pub enum Design {
     Pilot,
 }
 
+impl Design {
+    /// The exact size, where it is known before any pilot.
+    pub fn size(&self) -> Option<f64> {
+        match self {
+            Self::Region(region) => Some(region.size()),
+            Self::Pilot => None,
+        }
+    }
+}
+
 /// What a point simulates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hypothesis {

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each module of the library and its floor.
-const FLOORS: [&[&str]; 8] = [
+const FLOORS: [&[&str]; 9] = [
     &["rng", "binomial"],
     &["tally"],
     &["signal", "whiten", "detect"],
@@ -13,7 +13,8 @@ const FLOORS: [&[&str]; 8] = [
     &["config", "ensemble"],
     &["plan"],
     &["pilot", "run", "gate", "results"],
-    &["figure"],
+    &["figure", "claim"],
+    &["report"],
 ];
 
 fn source() -> PathBuf {

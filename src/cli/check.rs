@@ -7,6 +7,7 @@ use liftsim::chain::Decision;
 use liftsim::config::{Config, Parameter};
 use liftsim::gate::{self, EXCESS, FAMILY_LEVEL, Finding, Verdict};
 use liftsim::plan::{Plan, Point};
+use liftsim::results::Row;
 use std::process::ExitCode;
 
 /// Test that the false-alarm rate of every scenario at rest stays at or below its level.
@@ -35,7 +36,7 @@ impl Check {
             )));
         }
         let (config, plan) = self.simulation.prepare(Plan::at_rest)?;
-        let (decisions, outcome) = progress::simulate(&plan, &[], quiet)?;
+        let (decisions, outcome) = progress::simulate(&plan, &[], "", quiet)?;
         let findings = gate::judge(&plan.points, &outcome.tallies, self.nominal);
         print(&report(&config, &plan, &decisions, &findings))?;
         Ok(ExitCode::from(match gate::overall(&findings) {
@@ -83,19 +84,16 @@ fn report(config: &Config, plan: &Plan, decisions: &[Decision], findings: &[Find
 }
 
 fn row(config: &Config, point: &Point, decision: &Decision, finding: &Finding) -> Vec<String> {
-    let tally = finding.tally;
-    let (low, high) = tally.interval(config.confidence);
+    let row = Row::new(point, Some(decision), finding.tally, config.confidence);
     vec![
-        scenario(config, point),
-        point.scenario.detector.method.name().to_owned(),
+        scenario(config, &row),
+        row.rule_name().to_owned(),
         finding.nominal.to_string(),
-        decision
-            .size()
-            .map_or(String::new(), |size| format!("{size:.6}")),
-        tally.trials.to_string(),
-        tally.hits.to_string(),
-        format!("{:.6}", tally.rate()),
-        format!("[{low:.6}, {high:.6}]"),
+        row.size.map_or(String::new(), |size| format!("{size:.6}")),
+        row.trials.to_string(),
+        row.detections.to_string(),
+        format!("{:.6}", row.rate),
+        format!("[{:.6}, {:.6}]", row.low, row.high),
         p_value(finding.p_value),
         match finding.verdict {
             Verdict::Pass => "pass",
@@ -115,18 +113,14 @@ fn p_value(p: f64) -> String {
     }
 }
 
-/// The curve's label, and what the axis changes unless another column says it.
-fn scenario(config: &Config, point: &Point) -> String {
-    let (label, scenario) = (&point.label, &point.scenario);
-    let value = match config.axis.parameter {
-        Parameter::Training => scenario.whitening.training(),
-        Parameter::Order => scenario.whitening.order(),
-        Parameter::AllSamples | Parameter::Shift => scenario.samples.shift(),
-        Parameter::Reference | Parameter::ReferenceAndScale => scenario.samples.reference(),
-        Parameter::Scale => scenario.samples.scale(),
-        Parameter::Gap => scenario.samples.gap(),
-        Parameter::Decimation => scenario.samples.decimation(),
-        _ => return label.clone(),
-    };
-    format!("{label}, {} = {value}", config.axis.parameter.name())
+/// The curve's label, and what the axis changes unless another column says it, or it is a motion.
+fn scenario(config: &Config, row: &Row) -> String {
+    use Parameter as P;
+    let parameter = config.axis.parameter;
+    match (parameter, row.on_axis(parameter)) {
+        (P::Alpha | P::Delta | P::Duration | P::Offset | P::Nu | P::Theta, _) | (_, None) => {
+            row.label.clone()
+        }
+        (_, Some(value)) => format!("{}, {} = {value}", row.label, parameter.name()),
+    }
 }

@@ -3,6 +3,7 @@
 
 mod check;
 mod completions;
+mod figures;
 mod man;
 mod plan;
 mod plot;
@@ -41,6 +42,7 @@ enum Command {
     Sweep(sweep::Sweep),
     Plot(plot::Plot),
     Check(check::Check),
+    Figures(figures::Figures),
     Threshold(threshold::Threshold),
     Plan(plan::PlanCommand),
     Completions(completions::Completions),
@@ -75,6 +77,7 @@ impl Arguments {
             Command::Sweep(verb) => verb.run(self.quiet),
             Command::Plot(verb) => verb.run(),
             Command::Check(verb) => verb.run(self.quiet),
+            Command::Figures(verb) => verb.run(self.quiet),
             Command::Threshold(verb) => verb.run(),
             Command::Plan(verb) => verb.run(),
             Command::Completions(verb) => verb.run(),

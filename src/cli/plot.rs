@@ -1,6 +1,6 @@
 //! `liftsim plot DIR`: draws the figure again from the stored counts.
 
-use super::sweep::store;
+use super::sweep::{line, store};
 use super::{Failure, Outcome, print};
 use clap::Args;
 use liftsim::config::Config;
@@ -26,7 +26,8 @@ impl Plot {
             Config::parse(&manifest.config_name, &manifest.config).map_err(Failure::input)?;
         let drawing = figure::sweep(&config, &rows, &manifest).map_err(Failure::run)?;
         for (name, bytes) in drawing.files() {
-            print(&store(&directory, &mut manifest, name, bytes)?)?;
+            let is_new = store(&directory, &mut manifest, name, bytes)?;
+            print(&line(&directory, name, is_new))?;
         }
         directory
             .write("run.json", &manifest.to_json())

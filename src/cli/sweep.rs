@@ -2,10 +2,13 @@
 
 use super::{Failure, Outcome, Simulation, print, progress};
 use clap::Args;
+use liftsim::claim::{self, Pair};
 use liftsim::config::Config;
 use liftsim::figure;
 use liftsim::plan::Plan;
-use liftsim::results::{self, Directory, Manifest, Row};
+use liftsim::report::Section;
+use liftsim::results::{self, Comparison, Directory, Manifest, Row};
+use liftsim::tally::Tally;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -37,18 +40,97 @@ impl Sweep {
         );
         directory.admit(&plan, self.fresh).map_err(Failure::input)?;
 
-        let start = Instant::now();
-        let (decisions, outcome) = progress::simulate(&plan, &[], quiet)?;
-        let seconds = start.elapsed().as_secs_f64();
+        rehearse(&config, &plan)?;
 
-        let rows: Vec<Row> = (plan.points.iter().zip(&decisions).zip(outcome.tallies))
-            .map(|((point, decision), tally)| {
-                Row::new(point, Some(decision), tally, config.confidence)
-            })
-            .collect();
-        write(&directory, &config, &rows, seconds)?;
+        let counts = Counts::simulate(&config, &plan, "", quiet)?;
+        let written = write(&directory, &config, &counts, manifest(&config, &counts))?;
+        let Config { trials, .. } = config;
+        let (points, seconds) = (plan.points.len(), counts.seconds);
+        print(&format!(
+            "{points} points of {trials} trials in {seconds:.1} s\n{}",
+            written.files
+        ))?;
         Ok(ExitCode::SUCCESS)
     }
+}
+
+/// What a plan came to.
+pub(super) struct Counts {
+    /// One per point.
+    pub rows: Vec<Row>,
+    /// Pairs of points that claims compare.
+    pub pairs: Vec<Pair>,
+    /// One per pair: trials in which the first alone and the second alone decided for H1, where the
+    /// two share their noise.
+    pub discordant: Vec<Option<[u64; 2]>>,
+    /// Wall clock of the simulation.
+    pub seconds: f64,
+}
+
+impl Counts {
+    /// Runs every trial, with `prefix` before the bar.
+    pub fn simulate(
+        config: &Config,
+        plan: &Plan,
+        prefix: &str,
+        quiet: bool,
+    ) -> Result<Self, Failure> {
+        let pairs = claim::pairs(config, &plan.points);
+        let places: Vec<[usize; 2]> =
+            (pairs.iter().map(|pair| [pair.first, pair.second])).collect();
+        let start = Instant::now();
+        let (decisions, outcome) = progress::simulate(plan, &places, prefix, quiet)?;
+        let points = plan.points.iter().zip(&decisions).zip(outcome.tallies);
+        Ok(Self {
+            rows: points
+                .map(|((point, decision), tally)| {
+                    Row::new(point, Some(decision), tally, config.confidence)
+                })
+                .collect(),
+            pairs,
+            discordant: outcome.discordant,
+            seconds: start.elapsed().as_secs_f64(),
+        })
+    }
+
+    /// What would be counted in one trial in which nothing happens.
+    fn empty(config: &Config, plan: &Plan) -> Self {
+        let pairs = claim::pairs(config, &plan.points);
+        let nothing = Tally { hits: 0, trials: 1 };
+        let points = plan.points.iter();
+        Self {
+            rows: points
+                .map(|point| Row::new(point, None, nothing, config.confidence))
+                .collect(),
+            discordant: vec![None; pairs.len()],
+            pairs,
+            seconds: 0.0,
+        }
+    }
+
+    fn comparisons(&self, config: &Config) -> Vec<Comparison> {
+        let claims = &config.narrative.claims;
+        let tallies: Vec<Tally> = self.rows.iter().map(Row::tally).collect();
+        claim::comparisons(claims, &self.pairs, &tallies, &self.discordant)
+    }
+}
+
+/// Judges the claims and fills the text once on empty counts, so that what they name is known to be
+/// there before anything is simulated.
+pub(super) fn rehearse(config: &Config, plan: &Plan) -> Result<(), Failure> {
+    let empty = Counts::empty(config, plan);
+    let section = Section {
+        name: String::new(),
+        config: file_name(config.name()),
+        question: config.question.clone(),
+        narrative: config.narrative.clone(),
+        axis: Some(config.axis.clone()),
+        trials: 1,
+        comparisons: empty.comparisons(config),
+        rows: empty.rows,
+        quantities: Vec::new(),
+    };
+    section.judge().map(drop).map_err(Failure::input)
 }
 
 /// results/<file stem>.
@@ -56,29 +138,43 @@ fn default_directory(config: &Path) -> PathBuf {
     Path::new("results").join(config.file_stem().unwrap_or(config.as_os_str()))
 }
 
-/// Writes counts, then pictures, then the manifest that vouches for both, and says what is new.
-fn write(
+/// What has been written.
+pub(super) struct Written {
+    /// A line per file.
+    pub files: String,
+    /// Whether a file other than the manifest has new bytes.
+    pub is_new: bool,
+}
+
+/// Writes counts, then pictures, then the manifest that vouches for both.
+pub(super) fn write(
     directory: &Directory,
     config: &Config,
-    rows: &[Row],
-    seconds: f64,
-) -> Result<(), Failure> {
-    let mut manifest = manifest(config, seconds);
-    let drawing = figure::sweep(config, rows, &manifest).map_err(Failure::run)?;
-    let counts = results::csv_bytes(rows);
-    let mut report = store(directory, &mut manifest, "points.csv", &counts)?;
-    for (name, bytes) in drawing.files() {
-        report += &store(directory, &mut manifest, name, bytes)?;
+    counts: &Counts,
+    mut manifest: Manifest,
+) -> Result<Written, Failure> {
+    let drawing = figure::sweep(config, &counts.rows, &manifest).map_err(Failure::run)?;
+    let mut files = vec![("points.csv", results::csv_bytes(&counts.rows))];
+    if !counts.pairs.is_empty() {
+        let comparisons = results::csv_bytes(&counts.comparisons(config));
+        files.push(("comparisons.csv", comparisons));
+    }
+    files.extend(drawing.files().map(|(name, bytes)| (name, bytes.to_vec())));
+    let mut written = Written {
+        files: String::new(),
+        is_new: false,
+    };
+    for (name, bytes) in files {
+        let is_new = store(directory, &mut manifest, name, &bytes)?;
+        written.files += &line(directory, name, is_new);
+        written.is_new |= is_new;
     }
     directory
         .write("run.json", &manifest.to_json())
         .map_err(Failure::run)?;
-    report += &format!("{}  written\n", directory.path().join("run.json").display());
-    let trials = config.trials;
-    print(&format!(
-        "{} points of {trials} trials in {seconds:.1} s\n{report}",
-        rows.len()
-    ))
+    directory.remove_stale(&manifest).map_err(Failure::run)?;
+    written.files += &line(directory, "run.json", true);
+    Ok(written)
 }
 
 /// Writes a file, lets the manifest vouch for it, and says whether it is new.
@@ -87,19 +183,22 @@ pub(super) fn store(
     manifest: &mut Manifest,
     name: &str,
     bytes: &[u8],
-) -> Result<String, Failure> {
+) -> Result<bool, Failure> {
     let is_new = directory.write(name, bytes).map_err(Failure::run)?;
     manifest
         .files
         .insert(name.to_owned(), results::sha256(bytes));
-    let note = if is_new { "written" } else { "unchanged" };
-    Ok(format!(
-        "{}  {note}\n",
-        directory.path().join(name).display()
-    ))
+    Ok(is_new)
 }
 
-fn manifest(config: &Config, seconds: f64) -> Manifest {
+/// A file and whether it is new.
+pub(super) fn line(directory: &Directory, name: &str, is_new: bool) -> String {
+    let note = if is_new { "written" } else { "unchanged" };
+    format!("{}  {note}\n", directory.path().join(name).display())
+}
+
+/// How these counts of a config came about.
+pub(super) fn manifest(config: &Config, counts: &Counts) -> Manifest {
     Manifest {
         config_name: file_name(config.name()),
         config: config.text().to_owned(),
@@ -110,7 +209,7 @@ fn manifest(config: &Config, seconds: f64) -> Manifest {
         seed: config.seed,
         trials: config.trials,
         common_random_numbers: config.common_random_numbers,
-        seconds,
+        seconds: counts.seconds,
         threads: rayon::current_num_threads(),
         architecture: architecture(),
         files: BTreeMap::new(),
@@ -126,7 +225,8 @@ fn command_line(config: &Config) -> String {
     )
 }
 
-fn file_name(path: &str) -> String {
+/// Without the way to it.
+pub(super) fn file_name(path: &str) -> String {
     let name = Path::new(path).file_name();
     name.map_or(path.to_owned(), |name| name.to_string_lossy().into_owned())
 }

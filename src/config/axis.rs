@@ -4,6 +4,7 @@ use super::error::{Problem, Refusal, nearest};
 use super::file::{AxisTable, Sections};
 use super::value::Number;
 use serde::Deserialize;
+use std::fmt;
 use std::ops::Range;
 use toml::{Spanned, Value};
 
@@ -102,21 +103,24 @@ pub struct Axis {
 const MOST_POINTS: usize = 10_000;
 
 impl AxisValue {
-    /// The value in words: a number, or the name of a rule.
-    pub fn text(&self) -> String {
-        match &self.value {
-            Value::String(text) => text.clone(),
-            Value::Table(table) => table.keys().next().cloned().unwrap_or_default(),
-            other => other.to_string(),
-        }
-    }
-
     /// The number, where it is one.
     pub fn number(&self) -> Option<f64> {
         match self.value {
             Value::Float(number) => Some(number),
             Value::Integer(number) => Some(number as f64),
             _ => None,
+        }
+    }
+}
+
+/// A number in the fewest digits, a name as it is, a table by its name.
+impl fmt::Display for AxisValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (&self.value, self.number()) {
+            (_, Some(number)) => write!(f, "{number}"),
+            (Value::String(name), _) => f.write_str(name),
+            (Value::Table(table), _) => f.write_str(table.keys().next().map_or("", |key| key)),
+            (other, _) => write!(f, "{other}"),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Errors that point: file, line and column, what is wrong, what was got, what to do.
 
+use super::claim::ClaimProblem;
 use crate::chain::RecordTooLong;
 use crate::detect::{RegionError, SamplesError};
 use crate::signal::{
@@ -198,6 +199,9 @@ pub enum Problem {
     /// A record that does not fit in memory.
     #[error("samples: {0}")]
     Record(#[from] RecordTooLong),
+    /// A claim that cannot be tested.
+    #[error("claim: {0}")]
+    Claim(#[from] ClaimProblem),
 }
 
 /// What the TOML reader refused, in its words, with a hint where a name was nearly right.
@@ -288,7 +292,8 @@ pub(super) fn nearest<'a>(got: &str, known: impl Iterator<Item = &'a str>) -> Op
         .map(|(_, name)| name.to_owned())
 }
 
-fn did_you_mean(hint: &Option<String>) -> String {
+/// A hint in words.
+pub(super) fn did_you_mean(hint: &Option<String>) -> String {
     hint.as_ref()
         .map_or(String::new(), |name| format!(", did you mean `{name}`?"))
 }

@@ -1,6 +1,7 @@
 //! The file as it stands, every value with its place. Nothing here has a default: what the author
 //! did not write is `None`, so that a curve can be laid over the file and the axis over a curve.
 
+use super::claim::{ClaimTable, Story};
 use super::error::{ConfigError, Source};
 use super::value::{Critical, Number, Whole};
 use serde::Deserialize;
@@ -226,6 +227,11 @@ with_sections! {
         axis: AxisTable,
         #[serde(default)]
         curve: Vec<CurveTable>,
+        title: Option<Spanned<String>>,
+        text: Option<Spanned<String>>,
+        order: Option<Whole>,
+        #[serde(default)]
+        claim: Vec<ClaimTable>,
     }
 }
 
@@ -247,6 +253,16 @@ impl File {
             let path = error.path().to_string();
             source.toml(&path, error.into_inner())
         })
+    }
+
+    /// What the report is told.
+    pub fn story(&self) -> Story {
+        Story {
+            title: self.title.clone(),
+            text: self.text.clone(),
+            order: self.order,
+            claims: self.claim.clone(),
+        }
     }
 
     /// The curves, or the one that a file without any stands for.

@@ -6,6 +6,7 @@
 //! [`ConfigError`] that points at the value to change.
 
 mod axis;
+mod claim;
 mod error;
 mod file;
 mod resolve;
@@ -14,6 +15,7 @@ mod tests;
 mod value;
 
 pub use axis::{Axis, AxisValue, Parameter};
+pub use claim::{Claim, ClaimProblem, Narrative, Test};
 pub use error::{ConfigError, Problem};
 
 use crate::tally;
@@ -43,6 +45,8 @@ pub struct Config {
     pub axis: Axis,
     /// At least one.
     pub curves: Vec<Curve>,
+    /// What the report says of it, and the claims it tests.
+    pub narrative: Narrative,
     source: Source,
 }
 
@@ -103,6 +107,8 @@ impl Config {
                 sections: curve.sections().over(&base),
             });
         }
+        let narrative = (file.story().check(&curves, Some(&axis)))
+            .map_err(|(span, problem)| source.at(Some(span), problem.into()))?;
         Ok(Self {
             question: file.question.clone(),
             seed: file.seed.0,
@@ -113,6 +119,7 @@ impl Config {
             pilot: file.pilot(&source)?,
             axis,
             curves,
+            narrative,
             source,
         })
     }

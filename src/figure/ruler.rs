@@ -55,7 +55,7 @@ impl<'a> Ruler<'a> {
         }
         let value = match rows.len() == values.len() {
             true => values[index].number().unwrap_or(0.0),
-            false => column(row, self.config.axis.parameter),
+            false => row.on_axis(self.config.axis.parameter).unwrap_or(0.0),
         };
         if self.is_logarithmic {
             libm::log10(value)
@@ -95,30 +95,5 @@ impl<'a> Ruler<'a> {
             (false, name) => name.unwrap_or_default().to_owned(),
         };
         self.rules.iter().map(name).collect()
-    }
-}
-
-/// The value of the axis at a row.
-fn column(row: &Row, parameter: Parameter) -> f64 {
-    match parameter {
-        Parameter::Delta => row.delta,
-        Parameter::Duration => row.duration as f64,
-        Parameter::Offset => row.offset as f64,
-        Parameter::Nu => row.nu,
-        Parameter::Theta => row.theta,
-        Parameter::Quantum => row.quantum.unwrap_or(0.0),
-        Parameter::Range => row.range.unwrap_or(0.0),
-        Parameter::Drift => row.drift,
-        Parameter::Swell => row.swell,
-        Parameter::Footfalls => row.footfalls,
-        Parameter::Training => row.training as f64,
-        Parameter::Order => row.order as f64,
-        Parameter::AllSamples | Parameter::Shift => row.shift as f64,
-        Parameter::Reference | Parameter::ReferenceAndScale => row.reference as f64,
-        Parameter::Scale => row.scale as f64,
-        Parameter::Gap => row.gap as f64,
-        Parameter::Decimation => row.decimation as f64,
-        Parameter::Alpha => row.alpha,
-        Parameter::Rule => 0.0,
     }
 }

@@ -40,7 +40,7 @@ fn facts(row: &Row) -> Vec<Fact> {
     let number = |value: Option<f64>| value.map_or("none".to_owned(), |v| v.to_string());
     vec![
         said(&[P::Alpha], format!("α = {}", row.alpha)),
-        said(&[P::Rule], format!("rule {}", rule_name(row))),
+        said(&[P::Rule], format!("rule {}", row.rule_name())),
         unless(
             row.alternative == "greater",
             &[],
@@ -263,11 +263,6 @@ fn calibration(row: &Row) -> String {
         "promise" => "calibrated to keep α".to_owned(),
         _ => "threshold set by measured false alarms".to_owned(),
     }
-}
-
-/// The rule without its table.
-fn rule_name(row: &Row) -> &str {
-    row.rule.split('(').next().unwrap_or_default()
 }
 
 /// 200000 as 200 000, with thin spaces.

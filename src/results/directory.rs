@@ -1,8 +1,9 @@
 //! The directory of one experiment: what it holds, what may replace it, how files get there.
 
-use super::{Manifest, Row, sha256};
+use super::{Comparison, Manifest, Quantity, Row, sha256};
 use crate::plan::Plan;
 use crate::tally::Tally;
+use serde::de::DeserializeOwned;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -26,7 +27,7 @@ pub enum ResultsError {
     /// Files that no `sweep` has put there.
     #[error(
         "{}: holds {name}, but no run.json that tells where it comes from \
-         (give another --out, or --fresh to replace it)",
+         (choose another directory, or --fresh to replace it)",
         path.display()
     )]
     Foreign {
@@ -46,7 +47,7 @@ pub enum ResultsError {
     /// Something else lives there.
     #[error(
         "{}: holds the result of a different experiment: {difference} \
-         (give another --out, or --fresh to replace it)",
+         (choose another directory, or --fresh to replace it)",
         path.display()
     )]
     Different {
@@ -58,7 +59,7 @@ pub enum ResultsError {
     /// More has been done than is asked for.
     #[error(
         "{}: holds {held} trials per point, more than the {asked} asked for \
-         (give another --out, or --fresh to replace them)",
+         (choose another directory, or --fresh to replace them)",
         path.display()
     )]
     FewerTrials {
@@ -70,7 +71,7 @@ pub enum ResultsError {
         asked: u64,
     },
     /// Nothing can be written there.
-    #[error("{}: cannot be written: {error} (give another --out)", path.display())]
+    #[error("{}: cannot be written: {error} (choose another place)", path.display())]
     Unwritable {
         /// Which.
         path: PathBuf,
@@ -81,6 +82,10 @@ pub enum ResultsError {
 
 const MANIFEST: &str = "run.json";
 const POINTS: &str = "points.csv";
+const COMPARISONS: &str = "comparisons.csv";
+const QUANTITIES: &str = "quantities.csv";
+/// What a run may leave beside its manifest.
+const FILES: [&str; 5] = [POINTS, COMPARISONS, QUANTITIES, "figure.png", "figure.svg"];
 
 impl Directory {
     /// The directory at `path`, whether it exists or not.
@@ -104,10 +109,7 @@ impl Directory {
         let Some(name) = self.held().filter(|_| !fresh) else {
             return Ok(());
         };
-        if !self.path.join(MANIFEST).exists() {
-            let path = self.path.clone();
-            return Err(ResultsError::Foreign { path, name });
-        }
+        self.check_origin(name)?;
         let held = self.manifest()?;
         let rows = self.rows(&held)?;
         if let Some(difference) = difference(&held, &rows, plan) {
@@ -125,9 +127,29 @@ impl Directory {
         Ok(())
     }
 
+    /// As [`Directory::admit`], but for a place that belongs to the experiment by its name: results of
+    /// another version of it may be replaced, files of unknown origin may not.
+    ///
+    /// # Errors
+    /// Where not.
+    pub fn admit_any(&self) -> Result<(), ResultsError> {
+        self.check_writable()?;
+        self.held().map_or(Ok(()), |name| self.check_origin(name))
+    }
+
+    fn check_origin(&self, name: &'static str) -> Result<(), ResultsError> {
+        match self.path.join(MANIFEST).exists() {
+            true => Ok(()),
+            false => {
+                let path = self.path.clone();
+                Err(ResultsError::Foreign { path, name })
+            }
+        }
+    }
+
     /// A file that a run would replace.
     fn held(&self) -> Option<&'static str> {
-        let mut names = [MANIFEST, POINTS, "figure.png", "figure.svg"].into_iter();
+        let mut names = [MANIFEST].into_iter().chain(FILES);
         names.find(|name| self.path.join(name).exists())
     }
 
@@ -154,13 +176,64 @@ impl Directory {
         })
     }
 
+    /// Whether every file that `manifest` vouches for is here with the bytes it vouches for.
+    pub fn is_intact(&self, manifest: &Manifest) -> bool {
+        let is_whole = |(name, hash): (&String, &String)| {
+            std::fs::read(self.path.join(name)).is_ok_and(|bytes| *hash == sha256(&bytes))
+        };
+        !manifest.files.is_empty() && manifest.files.iter().all(is_whole)
+    }
+
+    /// The rows here, where they are whole and those of `plan` with as many trials.
+    pub fn rows_of(&self, plan: &Plan, manifest: &Manifest) -> Option<Vec<Row>> {
+        let rows = self.rows(manifest).ok()?;
+        let is_same =
+            manifest.trials == plan.ensemble.trials && difference(manifest, &rows, plan).is_none();
+        is_same.then_some(rows)
+    }
+
     /// The rows of `points.csv`, which must be the file that `manifest` vouches for.
     ///
     /// # Errors
     /// Where it is missing, damaged or changed.
     pub fn rows(&self, manifest: &Manifest) -> Result<Vec<Row>, ResultsError> {
-        let (path, bytes) = self.read(POINTS)?;
-        if manifest.files.get(POINTS) != Some(&sha256(&bytes)) {
+        self.table(POINTS, manifest)
+    }
+
+    /// The rows of `comparisons.csv`, none where `manifest` knows of no such file.
+    ///
+    /// # Errors
+    /// As [`Directory::rows`].
+    pub fn comparisons(&self, manifest: &Manifest) -> Result<Vec<Comparison>, ResultsError> {
+        self.table_if_any(COMPARISONS, manifest)
+    }
+
+    /// The rows of `quantities.csv`, none where `manifest` knows of no such file.
+    ///
+    /// # Errors
+    /// As [`Directory::rows`].
+    pub fn quantities(&self, manifest: &Manifest) -> Result<Vec<Quantity>, ResultsError> {
+        self.table_if_any(QUANTITIES, manifest)
+    }
+
+    fn table_if_any<R: DeserializeOwned>(
+        &self,
+        name: &str,
+        manifest: &Manifest,
+    ) -> Result<Vec<R>, ResultsError> {
+        match manifest.files.contains_key(name) {
+            true => self.table(name, manifest),
+            false => Ok(Vec::new()),
+        }
+    }
+
+    fn table<R: DeserializeOwned>(
+        &self,
+        name: &str,
+        manifest: &Manifest,
+    ) -> Result<Vec<R>, ResultsError> {
+        let (path, bytes) = self.read(name)?;
+        if manifest.files.get(name) != Some(&sha256(&bytes)) {
             let error = "its bytes are not those that run.json vouches for".to_owned();
             return Err(ResultsError::Damaged { path, error });
         }
@@ -204,6 +277,23 @@ impl Directory {
         replace()
             .map(|()| true)
             .map_err(|error| self.unwritable(error))
+    }
+
+    /// Takes away what an earlier run left and `manifest` does not vouch for.
+    ///
+    /// # Errors
+    /// Where a file is there and cannot be taken away.
+    pub fn remove_stale(&self, manifest: &Manifest) -> Result<(), ResultsError> {
+        let is_stale = |name: &&str| !manifest.files.contains_key(*name);
+        for name in FILES.into_iter().filter(is_stale) {
+            match std::fs::remove_file(self.path.join(name)) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                    return Err(self.unwritable(error));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
     }
 
     fn unwritable(&self, error: io::Error) -> ResultsError {

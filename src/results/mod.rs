@@ -1,4 +1,5 @@
-//! What a run leaves behind: `points.csv`, `figure.png`, `figure.svg`, `run.json` in one directory.
+//! What a run leaves behind: `points.csv`, `figure.png`, `figure.svg`, `run.json` in one directory, and
+//! `comparisons.csv` or `quantities.csv` where claims or an experiment have any.
 //!
 //! The CSV holds counts and every resolved parameter, and no clock or host, so that the same config
 //! and seed give the same bytes anywhere. Files are written beside their place and renamed into it,

@@ -1,6 +1,7 @@
 //! `points.csv`: one row per point and hypothesis.
 
 use crate::chain::Decision;
+use crate::config::Parameter;
 use crate::plan::{Hypothesis, Point};
 use crate::signal::{Impulses, Motion};
 use crate::tally::Tally;
@@ -80,7 +81,7 @@ impl Row {
             scale: samples.scale(),
             rule: detector.method.to_string(),
             alpha: detector.alpha,
-            size: decision.and_then(Decision::size),
+            size: decision.and_then(Decision::size).or(point.design.size()),
             trials: tally.trials,
             detections: tally.hits,
             rate: tally.rate(),
@@ -110,6 +111,45 @@ impl Row {
             pilot: detector.pilot,
             threshold: decision.and_then(Decision::threshold).map(eight_digits),
         }
+    }
+
+    /// The same counts of the same point in the words of a new config.
+    pub fn told_again(&self, point: &Point, confidence: f64) -> Self {
+        Self {
+            size: self.size,
+            threshold: self.threshold,
+            ..Self::new(point, None, self.tally(), confidence)
+        }
+    }
+
+    /// The number that an axis of this parameter would have here; none where there is none.
+    pub fn on_axis(&self, parameter: Parameter) -> Option<f64> {
+        Some(match parameter {
+            Parameter::Delta => self.delta,
+            Parameter::Duration => self.duration as f64,
+            Parameter::Offset => self.offset as f64,
+            Parameter::Nu => self.nu,
+            Parameter::Theta => self.theta,
+            Parameter::Quantum => self.quantum?,
+            Parameter::Range => self.range?,
+            Parameter::Drift => self.drift,
+            Parameter::Swell => self.swell,
+            Parameter::Footfalls => self.footfalls,
+            Parameter::Training => self.training as f64,
+            Parameter::Order => self.order as f64,
+            Parameter::AllSamples | Parameter::Shift => self.shift as f64,
+            Parameter::ReferenceAndScale | Parameter::Reference => self.reference as f64,
+            Parameter::Scale => self.scale as f64,
+            Parameter::Gap => self.gap as f64,
+            Parameter::Decimation => self.decimation as f64,
+            Parameter::Alpha => self.alpha,
+            Parameter::Rule => return None,
+        })
+    }
+
+    /// The rule without its table.
+    pub fn rule_name(&self) -> &str {
+        self.rule.split('(').next().unwrap_or_default()
     }
 
     /// Whether this is the point at rest.

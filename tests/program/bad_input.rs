@@ -200,6 +200,123 @@ const CONFIGS: &[(&str, &str)] = &[
         "confidence of 1",
         "confidence = 1.0\n[axis]\ndelta = [1.0]\n",
     ),
+    (
+        "a claim without a source",
+        "[axis]\ndelta = [0.0, 1.0]\n[[claim]]\nclaim = \"?\"\ntest = \"grows\"\n",
+    ),
+    (
+        "a blank claim",
+        "[axis]\ndelta = [0.0, 1.0]\n[[claim]]\nclaim = \" \"\nsource = \"?\"\ntest = \"grows\"\n",
+    ),
+    (
+        "an unknown test",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"upper\"\n[[curve]]\nlabel = \"lower\"\nimpulses = { nu = 0.2 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = \"grow\"\n",
+    ),
+    (
+        "an unknown key of a test",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"upper\"\n[[curve]]\nlabel = \"lower\"\nimpulses = { nu = 0.2 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = { exeeds = { first = \"upper\", second = \"lower\" } }\n",
+    ),
+    (
+        "a test without its parameters",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"upper\"\n[[curve]]\nlabel = \"lower\"\nimpulses = { nu = 0.2 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = \"exceeds\"\n",
+    ),
+    (
+        "two tests",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"upper\"\n[[curve]]\nlabel = \"lower\"\nimpulses = { nu = 0.2 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = { grows = {}, alpha_held = {} }\n",
+    ),
+    (
+        "no test",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"upper\"\n[[curve]]\nlabel = \"lower\"\nimpulses = { nu = 0.2 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = {}\n",
+    ),
+    (
+        "an unknown curve in a claim",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"upper\"\n[[curve]]\nlabel = \"lower\"\nimpulses = { nu = 0.2 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = { exceeds = { first = \"uper\", second = \"lower\" } }\n",
+    ),
+    (
+        "an unknown curve in a list",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"upper\"\n[[curve]]\nlabel = \"lower\"\nimpulses = { nu = 0.2 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = { grows = { curves = [\"upper\", \"middle\"] } }\n",
+    ),
+    (
+        "no curves in a claim",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"upper\"\n[[curve]]\nlabel = \"lower\"\nimpulses = { nu = 0.2 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = { grows = { curves = [] } }\n",
+    ),
+    (
+        "a curve twice in a claim",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"upper\"\n[[curve]]\nlabel = \"lower\"\nimpulses = { nu = 0.2 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = { grows = { curves = [\"upper\", \"upper\"] } }\n",
+    ),
+    (
+        "a curve against itself",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"upper\"\n[[curve]]\nlabel = \"lower\"\nimpulses = { nu = 0.2 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = { equals = { first = \"upper\", second = \"upper\" } }\n",
+    ),
+    (
+        "a level of 0",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"upper\"\n[[curve]]\nlabel = \"lower\"\nimpulses = { nu = 0.2 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\nlevel = 0.0\ntest = \"grows\"\n",
+    ),
+    (
+        "a margin of 1",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"upper\"\n[[curve]]\nlabel = \"lower\"\nimpulses = { nu = 0.2 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\nmargin = 1.0\ntest = \"grows\"\n",
+    ),
+    (
+        "an excess below 1",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"upper\"\n[[curve]]\nlabel = \"lower\"\nimpulses = { nu = 0.2 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = { alpha_held = { excess = 0.9 } }\n",
+    ),
+    (
+        "a power of 1",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"upper\"\n[[curve]]\nlabel = \"lower\"\nimpulses = { nu = 0.2 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = { gain = { first = \"upper\", second = \"lower\", power = 1.0 } }\n",
+    ),
+    (
+        "a quantity without ends",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"upper\"\n[[curve]]\nlabel = \"lower\"\nimpulses = { nu = 0.2 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = { quantity = { name = \"largest\" } }\n",
+    ),
+    (
+        "a quantity reversed",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"upper\"\n[[curve]]\nlabel = \"lower\"\nimpulses = { nu = 0.2 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = { quantity = { name = \"largest\", from = 1.0, to = 0.0 } }\n",
+    ),
+    (
+        "a quantity that a sweep lacks",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"upper\"\n[[curve]]\nlabel = \"lower\"\nimpulses = { nu = 0.2 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = { quantity = { name = \"largest\", from = 1.0 } }\n",
+    ),
+    (
+        "growth along names",
+        "[axis]\nrule = [\"wilcoxon\", \"product\"]\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = \"grows\"\n",
+    ),
+    (
+        "growth down an axis",
+        "[axis]\ndelta = [1.0, 0.0]\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = \"grows\"\n",
+    ),
+    (
+        "a gain along nu",
+        "[axis]\nnu = [0.1, 0.2]\n[[curve]]\n[[curve]]\nimpulses = { theta = 3.0 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = { gain = { first = \"1\", second = \"2\" } }\n",
+    ),
+    (
+        "rest under another curve",
+        "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\n[[curve]]\nimpulses = { theta = 3.0 }\n[[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = { alpha_held = { curves = [\"2\"] } }\n",
+    ),
+    ("a blank title", "title = \"\"\n[axis]\ndelta = [1.0]\n"),
+    (
+        "an unknown placeholder",
+        "text = \"{rat:1@1.0}\"\n[axis]\ndelta = [1.0]\n",
+    ),
+    (
+        "a placeholder for no curve",
+        "text = \"{rate:2@1.0}\"\n[axis]\ndelta = [1.0]\n",
+    ),
+    (
+        "a placeholder for no value",
+        "text = \"{rate:1@0.5}\"\n[axis]\ndelta = [0.0, 1.0]\n",
+    ),
+    (
+        "a placeholder for several values",
+        "text = \"{rate:1}\"\n[axis]\ndelta = [0.0, 1.0]\n",
+    ),
+    (
+        "a placeholder for no quantity",
+        "text = \"{quantity:largest}\"\n[axis]\ndelta = [1.0]\n",
+    ),
+    (
+        "an open placeholder",
+        "text = \"{rate:1@1.0\"\n[axis]\ndelta = [1.0]\n",
+    ),
 ];
 
 #[test]

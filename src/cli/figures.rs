@@ -1,0 +1,328 @@
+//! `liftsim figures`: every config's results, and the report on all of them.
+
+use super::sweep::{self, Counts, file_name};
+use super::{Failure, Outcome, print, table};
+use anyhow::anyhow;
+use clap::Args;
+use liftsim::claim;
+use liftsim::config::Config;
+use liftsim::plan::Plan;
+use liftsim::report::{self, Section};
+use liftsim::results::{Comparison, Directory, Manifest};
+use liftsim::tally::MOST_TRIALS;
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// Run every config and write the reproduction report.
+///
+/// Each config in configs/ gets its directory in results/. What is complete there for the same config,
+/// seed, trials and version is skipped; what differs from it in words alone is drawn again from the
+/// stored counts. Then results/README.md says what became of each claim.
+#[derive(Debug, Args)]
+pub struct Figures {
+    /// Only this config, by the name of its file; may be given again.
+    #[arg(long, value_name = "NAME")]
+    only: Vec<String>,
+    /// Where the configs are.
+    #[arg(long, value_name = "DIR", default_value = "configs")]
+    configs: PathBuf,
+    /// Where the results and the report go.
+    #[arg(long, value_name = "DIR", default_value = "results")]
+    results: PathBuf,
+    /// Trials per point, instead of each config's.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_TRIALS))]
+    trials: Option<u64>,
+    /// Simulate again what is complete, too, and replace whatever stands in its place.
+    #[arg(long)]
+    fresh: bool,
+}
+
+/// A config and where its results go.
+struct Experiment {
+    name: String,
+    config: Config,
+    directory: Directory,
+}
+
+/// An experiment that must be written, ready to run.
+struct Task<'a> {
+    experiment: &'a Experiment,
+    plan: Plan,
+    /// Counts of the same plan, and how they came about.
+    held: Option<(Counts, Manifest)>,
+}
+
+impl Figures {
+    /// Runs the command.
+    pub fn run(self, quiet: bool) -> Outcome {
+        let paths = self.paths()?;
+        let (chosen, others): (Vec<_>, Vec<_>) =
+            (paths.iter()).partition(|(name, _)| self.only.is_empty() || self.only.contains(name));
+        let chosen = (chosen.into_iter())
+            .map(|(name, path)| self.experiment(name, path))
+            .collect::<Result<Vec<_>, _>>()?;
+        // Everything that can be refused is refused before the first trial.
+        let tasks = chosen.iter().map(|experiment| self.task(experiment));
+        let tasks = tasks.collect::<Result<Vec<_>, _>>()?;
+        let work = tasks.iter().flatten().count();
+        let (mut lines, mut done) = (Vec::new(), 0);
+        for (experiment, task) in chosen.iter().zip(tasks) {
+            let Some(task) = task else {
+                lines.push(vec![
+                    experiment.name.clone(),
+                    "skipped".into(),
+                    "0.0".into(),
+                ]);
+                continue;
+            };
+            done += 1;
+            let start = Instant::now();
+            let note = task.run(&format!("{} ({done} of {work})  ", experiment.name), quiet)?;
+            let seconds = format!("{:.1}", start.elapsed().as_secs_f64());
+            lines.push(vec![experiment.name.clone(), note.into(), seconds]);
+        }
+        print(&table(&["experiment", "results", "seconds"], &lines))?;
+        self.report(chosen, &others)?;
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// The name and the file of every config, by name.
+    fn paths(&self) -> Result<Vec<(String, PathBuf)>, Failure> {
+        let place = self.configs.display();
+        let entries = fs::read_dir(&self.configs).map_err(|error| {
+            Failure::Input(anyhow!(
+                "{place}: cannot be read: {error} (give another --configs)"
+            ))
+        })?;
+        let files = entries.filter_map(|entry| Some(entry.ok()?.path()));
+        let is_config = |path: &PathBuf| path.extension() == Some(OsStr::new("toml"));
+        let named = |path: PathBuf| Some((path.file_stem()?.to_str()?.to_owned(), path));
+        let mut paths: Vec<_> = files.filter(is_config).filter_map(named).collect();
+        paths.sort();
+        if paths.is_empty() {
+            return Err(Failure::Input(anyhow!(
+                "{place}: holds no config (give another --configs)"
+            )));
+        }
+        let is_known = |name: &&String| paths.iter().any(|(known, _)| known == *name);
+        if let Some(name) = self.only.iter().find(|name| !is_known(name)) {
+            let known: Vec<&str> = paths.iter().map(|(name, _)| name.as_str()).collect();
+            let known = known.join(", ");
+            return Err(Failure::Input(anyhow!(
+                "--only: no config {name} in {place} (one of {known})"
+            )));
+        }
+        Ok(paths)
+    }
+
+    fn experiment(&self, name: &str, path: &Path) -> Result<Experiment, Failure> {
+        let mut config = Config::load(path).map_err(Failure::input)?;
+        config.trials = self.trials.unwrap_or(config.trials);
+        Ok(Experiment {
+            name: name.to_owned(),
+            config,
+            directory: Directory::new(self.results.join(name)),
+        })
+    }
+
+    /// What there is to do; nothing where the results are complete.
+    fn task<'a>(&self, experiment: &'a Experiment) -> Result<Option<Task<'a>>, Failure> {
+        if !self.fresh && experiment.complete().is_some() {
+            return Ok(None);
+        }
+        let Experiment {
+            config, directory, ..
+        } = experiment;
+        let plan = Plan::new(config).map_err(Failure::input)?;
+        if self.fresh {
+            directory.admit(&plan, true).map_err(Failure::input)?;
+        } else {
+            directory.admit_any().map_err(Failure::input)?;
+            self.check_trials(experiment)?;
+        }
+        sweep::rehearse(config, &plan)?;
+        let held = experiment.held(&plan).filter(|_| !self.fresh);
+        Ok(Some(Task {
+            experiment,
+            plan,
+            held,
+        }))
+    }
+
+    /// A quick look must not cost a long run.
+    fn check_trials(&self, experiment: &Experiment) -> Result<(), Failure> {
+        let held = experiment.directory.manifest();
+        match (self.trials, held) {
+            (Some(asked), Ok(held)) if held.trials > asked => Err(Failure::Input(anyhow!(
+                "{}: holds {} trials per point, more than the {asked} asked for \
+                 (give another --results, or --fresh to replace them)",
+                experiment.directory.path().display(),
+                held.trials,
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    /// Writes the report where every config has its results.
+    fn report(
+        &self,
+        chosen: Vec<Experiment>,
+        others: &[&(String, PathBuf)],
+    ) -> Result<(), Failure> {
+        let mut experiments = chosen;
+        let mut missing: Vec<&str> = Vec::new();
+        for (name, path) in others {
+            match self.experiment(name, path) {
+                Ok(experiment) if experiment.complete().is_some() => experiments.push(experiment),
+                _ => missing.push(name),
+            }
+        }
+        let directory = Directory::new(&self.results);
+        let path = directory.path().join("README.md");
+        if !missing.is_empty() {
+            eprintln!(
+                "{}: not written: no complete results of {} (run liftsim figures without --only)",
+                path.display(),
+                missing.join(", ")
+            );
+            return Ok(());
+        }
+        let sections = experiments.iter().map(Experiment::section);
+        let sections = sections.collect::<Result<_, _>>()?;
+        let configs = self.way_to_configs().map_err(Failure::run)?;
+        let text = report::markdown(sections, &configs).map_err(Failure::input)?;
+        let is_new = directory.write("README.md", &text).map_err(Failure::run)?;
+        print(&sweep::line(&directory, "README.md", is_new))
+    }
+
+    /// From the results to the configs, as a link has it.
+    fn way_to_configs(&self) -> std::io::Result<String> {
+        let (from, to) = (
+            fs::canonicalize(&self.results)?,
+            fs::canonicalize(&self.configs)?,
+        );
+        let shared = (from.components().zip(to.components()))
+            .take_while(|(a, b)| a == b)
+            .count();
+        let up = from.components().skip(shared).map(|_| "..".to_owned());
+        let down = to.components().skip(shared);
+        let down = down.map(|part| part.as_os_str().to_string_lossy().into_owned());
+        let way: Vec<String> = up.chain(down).collect();
+        Ok(match way.is_empty() {
+            true => ".".to_owned(),
+            false => way.join("/"),
+        })
+    }
+}
+
+impl Experiment {
+    /// What made the results here, if they are those of this config, whole.
+    fn complete(&self) -> Option<Manifest> {
+        let Self {
+            config, directory, ..
+        } = self;
+        let manifest = directory.manifest().ok()?;
+        let is_same = manifest.config == config.text()
+            && manifest.config_name == file_name(config.name())
+            && manifest.seed == config.seed
+            && manifest.trials == config.trials
+            && manifest.version == env!("CARGO_PKG_VERSION");
+        (is_same && directory.is_intact(&manifest)).then_some(manifest)
+    }
+
+    /// Counts of the same plan, if the directory has them with every comparison that is wanted.
+    fn held(&self, plan: &Plan) -> Option<(Counts, Manifest)> {
+        let manifest = self.directory.manifest().ok()?;
+        if manifest.version != env!("CARGO_PKG_VERSION") {
+            return None;
+        }
+        let rows = self.directory.rows_of(plan, &manifest)?;
+        let before = Config::parse(&manifest.config_name, &manifest.config).ok()?;
+        let compared = claim::pairs(&before, &plan.points);
+        let comparisons = self.directory.comparisons(&manifest).ok()?;
+        if compared.len() != comparisons.len() {
+            return None;
+        }
+        let discordant = |comparison: &Comparison| {
+            let Comparison {
+                first_only,
+                second_only,
+                ..
+            } = comparison;
+            first_only.zip(*second_only).map(|(a, b)| [a, b])
+        };
+        let pairs = claim::pairs(&self.config, &plan.points);
+        let find = |pair: &claim::Pair| {
+            let is_same =
+                |other: &claim::Pair| (other.first, other.second) == (pair.first, pair.second);
+            let index = compared.iter().position(is_same)?;
+            Some(discordant(&comparisons[index]))
+        };
+        let counts = Counts {
+            rows: (rows.iter().zip(&plan.points))
+                .map(|(row, point)| row.told_again(point, self.config.confidence))
+                .collect(),
+            discordant: pairs.iter().map(find).collect::<Option<_>>()?,
+            pairs,
+            seconds: manifest.seconds,
+        };
+        Some((counts, manifest))
+    }
+
+    /// For the report, from the files.
+    fn section(&self) -> Result<Section, Failure> {
+        let Self {
+            name,
+            config,
+            directory,
+        } = self;
+        let manifest = directory.manifest().map_err(Failure::run)?;
+        Ok(Section {
+            name: name.clone(),
+            config: manifest.config_name.clone(),
+            question: config.question.clone(),
+            narrative: config.narrative.clone(),
+            axis: Some(config.axis.clone()),
+            trials: manifest.trials,
+            rows: directory.rows(&manifest).map_err(Failure::run)?,
+            comparisons: directory.comparisons(&manifest).map_err(Failure::run)?,
+            quantities: directory.quantities(&manifest).map_err(Failure::run)?,
+        })
+    }
+}
+
+impl Task<'_> {
+    /// Simulates and writes, or only writes where the counts are there.
+    fn run(self, prefix: &str, quiet: bool) -> Result<&'static str, Failure> {
+        let Self {
+            experiment,
+            plan,
+            held,
+        } = self;
+        let Experiment {
+            config, directory, ..
+        } = experiment;
+        let Some((counts, held)) = held else {
+            let counts = Counts::simulate(config, &plan, prefix, quiet)?;
+            let manifest = sweep::manifest(config, &counts);
+            let written = sweep::write(directory, config, &counts, manifest)?;
+            return Ok(if written.is_new {
+                "written"
+            } else {
+                "unchanged"
+            });
+        };
+        // The counts are as old as they were.
+        let manifest = Manifest {
+            revision: held.revision,
+            threads: held.threads,
+            architecture: held.architecture,
+            ..sweep::manifest(config, &counts)
+        };
+        sweep::write(directory, config, &counts, manifest)?;
+        Ok("redrawn")
+    }
+}

@@ -1,0 +1,486 @@
+//! What an experiment says in the report, and the claims it tests: `title`, `text`, `order` and any
+//! number of `[[claim]]`.
+//!
+//! The rule behind a verdict (what is tested, the margin, the family-wise level) stands in the config,
+//! so it is fixed before the run and its hash is part of the result.
+
+use super::Curve;
+use super::axis::Axis;
+use super::error::{did_you_mean, nearest};
+use super::value::{Number, Whole};
+use serde::Deserialize;
+use serde::de::{Deserializer, Error, MapAccess, Visitor, value::MapAccessDeserializer};
+use std::fmt;
+use std::ops::Range;
+use toml::Spanned;
+
+/// What the report says of an experiment beside its picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Narrative {
+    /// A short heading; the name of the file where there is none.
+    pub title: Option<String>,
+    /// One paragraph, with placeholders where numbers are to stand.
+    pub text: Option<String>,
+    /// Where the experiment stands among the others: smaller comes first.
+    pub order: u64,
+    /// What it tests.
+    pub claims: Vec<Claim>,
+}
+
+/// A statement of the paper and how it is put to the test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Claim {
+    /// In words.
+    pub claim: String,
+    /// Where the paper makes it.
+    pub source: String,
+    /// The probability of a wrong verdict, over all comparisons of this claim.
+    pub level: f64,
+    /// Differences up to this size do not count.
+    pub margin: f64,
+    /// What is tested.
+    pub test: Test,
+}
+
+/// What a claim says of the results. Curves go by their labels.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Test {
+    /// Each of these curves grows along the axis.
+    Grows {
+        /// At least one.
+        curves: Vec<String>,
+    },
+    /// One curve lies above another.
+    Exceeds {
+        /// The upper.
+        first: String,
+        /// The lower.
+        second: String,
+    },
+    /// Two curves are equivalent within ± the margin.
+    Equals {
+        /// The one.
+        first: String,
+        /// The other.
+        second: String,
+    },
+    /// The false-alarm rates of these curves stay at or below α.
+    AlphaHeld {
+        /// At least one.
+        curves: Vec<String>,
+        /// A rate is held where it is surely at most this multiple of α.
+        excess: f64,
+    },
+    /// A number lies in [from, to].
+    Quantity {
+        /// As in `quantities.csv`.
+        name: String,
+        /// The lower end, if there is one.
+        from: Option<f64>,
+        /// The upper end, if there is one.
+        to: Option<f64>,
+    },
+    /// One curve needs a smaller Δ than another for the same power.
+    Gain {
+        /// The curve that needs less.
+        first: String,
+        /// The curve it is held against.
+        second: String,
+        /// The power at which they are compared.
+        power: f64,
+        /// The gain, in decibels, that is to be surpassed.
+        from: f64,
+    },
+}
+
+/// What is wrong with a claim.
+#[derive(Debug, thiserror::Error)]
+pub enum ClaimProblem {
+    /// Nothing is said.
+    #[error("must not be blank (say it in words)")]
+    Blank,
+    /// A level that is none.
+    #[error("level must lie strictly between 0 and 1, got {0}")]
+    Level(f64),
+    /// A margin that is none.
+    #[error("margin must lie in [0, 1), got {0}")]
+    Margin(f64),
+    /// No test, or more than one.
+    #[error("test must have exactly one key, got {0} (one of {names})", names = NAMES.join(", "))]
+    Tests(usize),
+    /// A curve that the config does not have.
+    #[error("unknown curve `{got}`{} (one of {known})", did_you_mean(.hint))]
+    UnknownCurve {
+        /// As written.
+        got: String,
+        /// The nearest label.
+        hint: Option<String>,
+        /// All labels.
+        known: String,
+    },
+    /// An empty list of curves.
+    #[error("curves must name at least one (leave it out for all)")]
+    NoCurves,
+    /// A curve listed again.
+    #[error("curves names {0} twice (leave one out)")]
+    Repeated(String),
+    /// A curve against itself.
+    #[error("first and second must be different curves, got {0} for both")]
+    Same(String),
+    /// Growth along an axis that does not grow.
+    #[error("grows needs an axis of at least two numbers in ascending order (sort them)")]
+    Axis,
+    /// A gain in another unit than Δ.
+    #[error("gain needs the axis delta with values from 0 up, in ascending order")]
+    GainAxis,
+    /// An excess below α itself.
+    #[error("excess must be at least 1, got {0}")]
+    Excess(f64),
+    /// A power that is none.
+    #[error("power must lie strictly between 0 and 1, got {0}")]
+    Power(f64),
+    /// A range without ends.
+    #[error("quantity needs from, to or both")]
+    NoEnds,
+    /// A range that ends before it starts.
+    #[error("from = {from} lies above to = {to} (exchange them)")]
+    Reversed {
+        /// Its start.
+        from: f64,
+        /// Its end.
+        to: f64,
+    },
+    /// Curves where there are none.
+    #[error(
+        "there are no curves here to test (write {{ quantity = {{ name = \"...\", from = 0.0 }} }})"
+    )]
+    NoSweep,
+}
+
+/// The keys of a test.
+const NAMES: [&str; 6] = [
+    "grows",
+    "exceeds",
+    "equals",
+    "alpha_held",
+    "quantity",
+    "gain",
+];
+
+/// Where the file says nothing.
+const LEVEL: f64 = 0.001;
+const MARGIN: f64 = 0.005;
+const ORDER: u64 = 1000;
+const EXCESS: f64 = 1.2;
+const POWER: f64 = 0.9;
+
+/// The keys that any experiment may have beside its own.
+pub(super) struct Story {
+    pub title: Option<Spanned<String>>,
+    pub text: Option<Spanned<String>>,
+    pub order: Option<Whole>,
+    pub claims: Vec<ClaimTable>,
+}
+
+/// `[[claim]]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ClaimTable {
+    claim: Spanned<String>,
+    source: Spanned<String>,
+    level: Option<Spanned<Number>>,
+    margin: Option<Spanned<Number>>,
+    test: Spanned<TestKind>,
+}
+
+/// `claim.test`: a name, or a table with one key.
+#[derive(Clone, Debug)]
+struct TestKind(TestTable);
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TestTable {
+    grows: Option<GrowsTable>,
+    exceeds: Option<PairTable>,
+    equals: Option<PairTable>,
+    alpha_held: Option<AlphaHeldTable>,
+    quantity: Option<QuantityTable>,
+    gain: Option<GainTable>,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct GrowsTable {
+    curves: Option<Labels>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PairTable {
+    first: Spanned<String>,
+    second: Spanned<String>,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct AlphaHeldTable {
+    curves: Option<Labels>,
+    excess: Option<Spanned<Number>>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct QuantityTable {
+    name: Spanned<String>,
+    from: Option<Spanned<Number>>,
+    to: Option<Spanned<Number>>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct GainTable {
+    first: Spanned<String>,
+    second: Spanned<String>,
+    power: Option<Spanned<Number>>,
+    from: Option<Number>,
+}
+
+type Labels = Spanned<Vec<Spanned<String>>>;
+
+/// A problem and where it stands.
+type Placed = (Range<usize>, ClaimProblem);
+
+struct TestVisitor;
+
+impl<'de> Visitor<'de> for TestVisitor {
+    type Value = TestKind;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("the name of a test or a table with one")
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<TestKind, E> {
+        let mut table = TestTable::default();
+        match name {
+            "grows" => table.grows = Some(GrowsTable::default()),
+            "alpha_held" => table.alpha_held = Some(AlphaHeldTable::default()),
+            _ if NAMES.contains(&name) => {
+                return Err(E::custom(format_args!(
+                    "needs its parameters (write {{ {name} = {{ ... }} }})"
+                )));
+            }
+            _ => return Err(E::unknown_variant(name, &NAMES)),
+        }
+        Ok(TestKind(table))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TestKind, A::Error> {
+        TestTable::deserialize(MapAccessDeserializer::new(map)).map(TestKind)
+    }
+}
+
+impl<'de> Deserialize<'de> for TestKind {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(TestVisitor)
+    }
+}
+
+/// What a test may refer to.
+struct Scope<'a> {
+    labels: Vec<&'a str>,
+    axis: Option<&'a Axis>,
+}
+
+impl Story {
+    /// Checks the claims against the curves and the axis, if there are any.
+    pub fn check(self, curves: &[Curve], axis: Option<&Axis>) -> Result<Narrative, Placed> {
+        let labels = curves.iter().map(|curve| curve.label.as_str()).collect();
+        let scope = Scope { labels, axis };
+        let claims = self.claims.iter().map(|table| table.check(&scope));
+        Ok(Narrative {
+            claims: claims.collect::<Result<_, _>>()?,
+            title: self.title.as_ref().map(said).transpose()?,
+            text: self.text.as_ref().map(said).transpose()?,
+            order: self.order.map_or(ORDER, |order| order.0),
+        })
+    }
+}
+
+/// One line of text, whatever lines it was written in.
+fn said(text: &Spanned<String>) -> Result<String, Placed> {
+    let words: Vec<&str> = text.get_ref().split_whitespace().collect();
+    match words.is_empty() {
+        true => Err((text.span(), ClaimProblem::Blank)),
+        false => Ok(words.join(" ")),
+    }
+}
+
+/// The number given, if it will do, or `default`.
+fn number(
+    given: &Option<Spanned<Number>>,
+    default: f64,
+    will_do: impl Fn(f64) -> bool,
+    problem: impl Fn(f64) -> ClaimProblem,
+) -> Result<f64, Placed> {
+    let Some(given) = given else {
+        return Ok(default);
+    };
+    let value = given.get_ref().0;
+    match will_do(value) {
+        true => Ok(value),
+        false => Err((given.span(), problem(value))),
+    }
+}
+
+fn is_probability(value: f64) -> bool {
+    value > 0.0 && value < 1.0
+}
+
+impl ClaimTable {
+    fn check(&self, scope: &Scope) -> Result<Claim, Placed> {
+        let is_margin = |margin| (0.0..1.0).contains(&margin);
+        Ok(Claim {
+            claim: said(&self.claim)?,
+            source: said(&self.source)?,
+            level: number(&self.level, LEVEL, is_probability, ClaimProblem::Level)?,
+            margin: number(&self.margin, MARGIN, is_margin, ClaimProblem::Margin)?,
+            test: self.test.get_ref().0.check(self.test.span(), scope)?,
+        })
+    }
+}
+
+impl TestTable {
+    fn check(&self, span: Range<usize>, scope: &Scope) -> Result<Test, Placed> {
+        let given = [
+            self.grows.as_ref().map(|table| scope.grows(&span, table)),
+            self.exceeds.as_ref().map(|table| {
+                let (first, second) = scope.pair(&span, &table.first, &table.second)?;
+                Ok(Test::Exceeds { first, second })
+            }),
+            self.equals.as_ref().map(|table| {
+                let (first, second) = scope.pair(&span, &table.first, &table.second)?;
+                Ok(Test::Equals { first, second })
+            }),
+            self.alpha_held
+                .as_ref()
+                .map(|table| scope.alpha_held(&span, table)),
+            self.quantity.as_ref().map(|table| quantity(&span, table)),
+            self.gain.as_ref().map(|table| scope.gain(&span, table)),
+        ];
+        let mut given: Vec<_> = given.into_iter().flatten().collect();
+        match given.len() {
+            1 => given.remove(0),
+            keys => Err((span, ClaimProblem::Tests(keys))),
+        }
+    }
+}
+
+impl Scope<'_> {
+    fn grows(&self, span: &Range<usize>, table: &GrowsTable) -> Result<Test, Placed> {
+        let curves = self.curves(span, &table.curves)?;
+        match self.ascending().is_some_and(|values| values.len() > 1) {
+            true => Ok(Test::Grows { curves }),
+            false => Err((span.clone(), ClaimProblem::Axis)),
+        }
+    }
+
+    fn alpha_held(&self, span: &Range<usize>, table: &AlphaHeldTable) -> Result<Test, Placed> {
+        let is_excess = |excess| excess >= 1.0;
+        Ok(Test::AlphaHeld {
+            curves: self.curves(span, &table.curves)?,
+            excess: number(&table.excess, EXCESS, is_excess, ClaimProblem::Excess)?,
+        })
+    }
+
+    fn gain(&self, span: &Range<usize>, table: &GainTable) -> Result<Test, Placed> {
+        let (first, second) = self.pair(span, &table.first, &table.second)?;
+        let is_delta = self
+            .axis
+            .is_some_and(|axis| axis.parameter == super::Parameter::Delta);
+        let values = self.ascending().filter(|values| values[0] >= 0.0);
+        if !is_delta || values.is_none() {
+            return Err((span.clone(), ClaimProblem::GainAxis));
+        }
+        Ok(Test::Gain {
+            first,
+            second,
+            power: number(&table.power, POWER, is_probability, ClaimProblem::Power)?,
+            from: table.from.map_or(0.0, |from| from.0),
+        })
+    }
+
+    /// The values of the axis, where each is a number above the one before.
+    fn ascending(&self) -> Option<Vec<f64>> {
+        let values = self.axis?.values.iter().map(|value| value.number());
+        let values: Vec<f64> = values.collect::<Option<_>>()?;
+        values
+            .windows(2)
+            .all(|pair| pair[0] < pair[1])
+            .then_some(values)
+    }
+
+    fn curves(&self, span: &Range<usize>, given: &Option<Labels>) -> Result<Vec<String>, Placed> {
+        if self.labels.is_empty() {
+            return Err((span.clone(), ClaimProblem::NoSweep));
+        }
+        let Some(given) = given else {
+            return Ok(self.labels.iter().map(|&label| label.to_owned()).collect());
+        };
+        let mut curves: Vec<String> = Vec::new();
+        for label in given.get_ref() {
+            let curve = self.curve(label)?;
+            if curves.contains(&curve) {
+                return Err((label.span(), ClaimProblem::Repeated(curve)));
+            }
+            curves.push(curve);
+        }
+        match curves.is_empty() {
+            true => Err((given.span(), ClaimProblem::NoCurves)),
+            false => Ok(curves),
+        }
+    }
+
+    fn pair(
+        &self,
+        span: &Range<usize>,
+        first: &Spanned<String>,
+        second: &Spanned<String>,
+    ) -> Result<(String, String), Placed> {
+        if self.labels.is_empty() {
+            return Err((span.clone(), ClaimProblem::NoSweep));
+        }
+        let labels = (self.curve(first)?, self.curve(second)?);
+        match labels.0 == labels.1 {
+            true => Err((second.span(), ClaimProblem::Same(labels.0))),
+            false => Ok(labels),
+        }
+    }
+
+    fn curve(&self, given: &Spanned<String>) -> Result<String, Placed> {
+        let got = given.get_ref();
+        if self.labels.contains(&got.as_str()) {
+            return Ok(got.clone());
+        }
+        let problem = ClaimProblem::UnknownCurve {
+            got: got.clone(),
+            hint: nearest(got, self.labels.iter().copied()),
+            known: self.labels.join(", "),
+        };
+        Err((given.span(), problem))
+    }
+}
+
+fn quantity(span: &Range<usize>, table: &QuantityTable) -> Result<Test, Placed> {
+    let end = |end: &Option<Spanned<Number>>| end.as_ref().map(|end| end.get_ref().0);
+    let (from, to) = (end(&table.from), end(&table.to));
+    match (from, to) {
+        (None, None) => Err((span.clone(), ClaimProblem::NoEnds)),
+        (Some(from), Some(to)) if from > to => {
+            Err((span.clone(), ClaimProblem::Reversed { from, to }))
+        }
+        _ => {
+            let name = said(&table.name)?;
+            Ok(Test::Quantity { name, from, to })
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! The reproduction report: pictures, a paragraph each, and the table of claims, as Markdown.
+//!
+//! Its numbers come from the result files and its words from the configs. It holds no clock, host or
+//! revision, so the same results give the same bytes.
+
+mod text;
+
+pub use text::{PlaceholderError, fill};
+
+use crate::claim::{self, ClaimError, Evidence, Judgement, Verdict, words};
+use crate::config::{Axis, Claim, Narrative};
+use crate::results::{Comparison, Quantity, Row};
+use std::fmt::Write;
+
+/// One experiment and what it came to.
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// Of its directory, beside the report.
+    pub name: String,
+    /// File name of its config.
+    pub config: String,
+    /// What it asks.
+    pub question: String,
+    /// What its config says, and claims.
+    pub narrative: Narrative,
+    /// Of the sweep, if it is one.
+    pub axis: Option<Axis>,
+    /// Trials per point.
+    pub trials: u64,
+    /// `points.csv`
+    pub rows: Vec<Row>,
+    /// `comparisons.csv`
+    pub comparisons: Vec<Comparison>,
+    /// `quantities.csv`
+    pub quantities: Vec<Quantity>,
+}
+
+/// Why an experiment cannot be reported.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// The text asks for a number that is not there.
+    #[error("{config}: text: {error}")]
+    Placeholder {
+        /// The config's file name.
+        config: String,
+        /// What is wrong.
+        error: PlaceholderError,
+    },
+    /// A claim is about something that is not there.
+    #[error("{config}: claim {number}, \"{claim}\": {error}")]
+    Claim {
+        /// The config's file name.
+        config: String,
+        /// From 1.
+        number: usize,
+        /// In words.
+        claim: String,
+        /// What is wrong.
+        error: ClaimError,
+    },
+}
+
+impl Section {
+    /// The verdict on each claim, and the paragraph with its numbers.
+    ///
+    /// # Errors
+    /// Where a claim or the text is about something that is not among the results.
+    pub fn judge(&self) -> Result<(Vec<Judgement>, String), ReportError> {
+        let evidence = self.evidence();
+        let judge = |(index, claim): (usize, &Claim)| {
+            let number = index + 1;
+            claim::judge(claim, number, &evidence).map_err(|error| ReportError::Claim {
+                config: self.config.clone(),
+                number,
+                claim: claim.claim.clone(),
+                error,
+            })
+        };
+        let claims = self.narrative.claims.iter().enumerate();
+        let judgements = claims.map(judge).collect::<Result<_, _>>()?;
+        let text = self.narrative.text.as_deref().unwrap_or_default();
+        match fill(text, &evidence) {
+            Ok(text) => Ok((judgements, text)),
+            Err(error) => Err(ReportError::Placeholder {
+                config: self.config.clone(),
+                error,
+            }),
+        }
+    }
+
+    fn evidence(&self) -> Evidence<'_> {
+        Evidence {
+            axis: self.axis.as_ref(),
+            rows: &self.rows,
+            comparisons: &self.comparisons,
+            quantities: &self.quantities,
+        }
+    }
+
+    fn title(&self) -> &str {
+        self.narrative.title.as_deref().unwrap_or(&self.name)
+    }
+}
+
+/// The report of all experiments; `configs` is the way from the report to their configs.
+///
+/// # Errors
+/// Where a claim or a text is about something that is not among the results.
+pub fn markdown(mut sections: Vec<Section>, configs: &str) -> Result<Vec<u8>, ReportError> {
+    sections.sort_by(|a, b| {
+        let key = |section: &Section| (section.narrative.order, section.name.clone());
+        key(a).cmp(&key(b))
+    });
+    let judged = sections.iter().map(Section::judge);
+    let judged: Vec<(Vec<Judgement>, String)> = judged.collect::<Result<_, _>>()?;
+    let mut text = format!(
+        "# Reproduction report\n\n\
+         Every picture, number and verdict here comes from the result files beside it. This makes them \
+         again from the [configs]({configs}):\n\n    liftsim figures\n\n{}",
+        contents(&sections),
+    );
+    text += &claims_table(&sections, &judged, configs);
+    for (section, (_, paragraph)) in sections.iter().zip(&judged) {
+        text += &chapter(section, paragraph, configs);
+    }
+    Ok(text.into_bytes())
+}
+
+/// A line per experiment, so that a reader can jump.
+fn contents(sections: &[Section]) -> String {
+    let mut text = String::new();
+    for section in sections {
+        let Section { name, .. } = section;
+        writeln!(text, "- [{}](#{name})", section.title()).expect("a string takes every line");
+    }
+    text + "\n"
+}
+
+fn claims_table(
+    sections: &[Section],
+    judged: &[(Vec<Judgement>, String)],
+    configs: &str,
+) -> String {
+    let mut rows = String::new();
+    for (section, (judgements, _)) in sections.iter().zip(judged) {
+        for (claim, judgement) in section.narrative.claims.iter().zip(judgements) {
+            rows += &claim_row(section, claim, judgement, configs);
+        }
+    }
+    if rows.is_empty() {
+        return String::new();
+    }
+    format!(
+        "## Claims\n\n\
+         The rule behind a verdict stood in the config before the run. *Holds* takes a test of \
+         superiority, non-inferiority or equivalence at the family-wise level; *undecided* means that \
+         the trials were too few to tell.\n\n\
+         | claim | where the paper makes it | how it was tested | numbers | verdict |\n\
+         |---|---|---|---|---|\n{rows}\n"
+    )
+}
+
+fn claim_row(section: &Section, claim: &Claim, judgement: &Judgement, configs: &str) -> String {
+    let Section {
+        name,
+        config,
+        trials,
+        rows,
+        ..
+    } = section;
+    let trials = match rows.is_empty() {
+        true => String::new(),
+        false => format!("; {} trials per point", words::thousands(*trials)),
+    };
+    let how = format!(
+        "{}{trials} ([{config}]({configs}/{config}))",
+        cell(&judgement.how)
+    );
+    format!(
+        "| [{}](#{name}) | {} | {how} | {} | {} |\n",
+        cell(&claim.claim),
+        cell(&claim.source),
+        cell(&judgement.evidence),
+        cell(&verdict(&judgement.verdict)),
+    )
+}
+
+fn verdict(verdict: &Verdict) -> String {
+    match verdict {
+        Verdict::Holds => "**holds**".to_owned(),
+        Verdict::HoldsWhere(places) => format!("**holds where** {places}"),
+        Verdict::DoesNotHold => "**does not hold**".to_owned(),
+        Verdict::Undecided => "**undecided**".to_owned(),
+    }
+}
+
+/// Text that does not end a cell of a table.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|")
+}
+
+fn chapter(section: &Section, paragraph: &str, configs: &str) -> String {
+    let Section {
+        name,
+        config,
+        question,
+        quantities,
+        comparisons,
+        rows,
+        ..
+    } = section;
+    let mut files = Vec::new();
+    for (file, is_there) in [
+        ("points.csv", !rows.is_empty()),
+        ("comparisons.csv", !comparisons.is_empty()),
+        ("quantities.csv", !quantities.is_empty()),
+    ] {
+        files.extend(is_there.then(|| format!("[{file}]({name}/{file})")));
+    }
+    files.push(format!("[{config}]({configs}/{config})"));
+    let question = question.split_whitespace().collect::<Vec<_>>().join(" ");
+    let paragraph = match paragraph.is_empty() {
+        true => String::new(),
+        false => format!("{paragraph}\n\n"),
+    };
+    format!(
+        "<a id=\"{name}\"></a>\n\n## {}\n\n![{}]({name}/figure.png)\n\n*{question}*\n\n{paragraph}{}\n\n",
+        section.title(),
+        question.replace(['[', ']'], ""),
+        files.join(" · "),
+    )
+}
