@@ -97,19 +97,19 @@ pub enum Test {
 #[derive(Debug, thiserror::Error)]
 pub enum ClaimProblem {
     /// Nothing is said.
-    #[error("must not be blank (say it in words)")]
-    Blank,
+    #[error("{0} must not be blank (say it in words)")]
+    Blank(&'static str),
     /// A level that is none.
-    #[error("level must lie strictly between 0 and 1, got {0}")]
+    #[error("claim: level must lie strictly between 0 and 1, got {0}")]
     Level(f64),
     /// A margin that is none.
-    #[error("margin must lie in [0, 1), got {0}")]
+    #[error("claim: margin must lie in [0, 1), got {0}")]
     Margin(f64),
     /// No test, or more than one.
-    #[error("test must have exactly one key, got {0} (one of {names})", names = NAMES.join(", "))]
+    #[error("claim: test must have exactly one key, got {0} (one of {names})", names = NAMES.join(", "))]
     Tests(usize),
     /// A curve that the config does not have.
-    #[error("unknown curve `{got}`{} (one of {known})", did_you_mean(.hint))]
+    #[error("claim: unknown curve `{got}`{} (one of {known})", did_you_mean(.hint))]
     UnknownCurve {
         /// As written.
         got: String,
@@ -119,31 +119,31 @@ pub enum ClaimProblem {
         known: String,
     },
     /// An empty list of curves.
-    #[error("curves must name at least one (leave it out for all)")]
+    #[error("claim: curves must name at least one (leave it out for all)")]
     NoCurves,
     /// A curve listed again.
-    #[error("curves names {0} twice (leave one out)")]
+    #[error("claim: curves names {0} twice (leave one out)")]
     Repeated(String),
     /// A curve against itself.
-    #[error("first and second must be different curves, got {0} for both")]
+    #[error("claim: first and second must be different curves, got {0} for both")]
     Same(String),
     /// Growth along an axis that does not grow.
-    #[error("grows needs an axis of at least two numbers in ascending order (sort them)")]
+    #[error("claim: grows needs an axis of at least two numbers in ascending order (sort them)")]
     Axis,
     /// A gain in another unit than Δ.
-    #[error("gain needs the axis delta with values from 0 up, in ascending order")]
+    #[error("claim: gain needs the axis delta with values from 0 up, in ascending order")]
     GainAxis,
     /// An excess below α itself.
-    #[error("excess must be at least 1, got {0}")]
+    #[error("claim: excess must be at least 1, got {0}")]
     Excess(f64),
     /// A power that is none.
-    #[error("power must lie strictly between 0 and 1, got {0}")]
+    #[error("claim: power must lie strictly between 0 and 1, got {0}")]
     Power(f64),
     /// A range without ends.
-    #[error("quantity needs from, to or both")]
+    #[error("claim: quantity needs from, to or both")]
     NoEnds,
     /// A range that ends before it starts.
-    #[error("from = {from} lies above to = {to} (exchange them)")]
+    #[error("claim: from = {from} lies above to = {to} (exchange them)")]
     Reversed {
         /// Its start.
         from: f64,
@@ -152,7 +152,7 @@ pub enum ClaimProblem {
     },
     /// Curves where there are none.
     #[error(
-        "there are no curves here to test (write {{ quantity = {{ name = \"...\", from = 0.0 }} }})"
+        "claim: there are no curves here to test (write {{ quantity = {{ name = \"...\", from = 0.0 }} }})"
     )]
     NoSweep,
 }
@@ -299,18 +299,26 @@ impl Story {
         let claims = self.claims.iter().map(|table| table.check(&scope));
         Ok(Narrative {
             claims: claims.collect::<Result<_, _>>()?,
-            title: self.title.as_ref().map(said).transpose()?,
-            text: self.text.as_ref().map(said).transpose()?,
+            title: self
+                .title
+                .as_ref()
+                .map(|title| said("title", title))
+                .transpose()?,
+            text: self
+                .text
+                .as_ref()
+                .map(|text| said("text", text))
+                .transpose()?,
             order: self.order.map_or(ORDER, |order| order.0),
         })
     }
 }
 
 /// One line of text, whatever lines it was written in.
-fn said(text: &Spanned<String>) -> Result<String, Placed> {
+fn said(key: &'static str, text: &Spanned<String>) -> Result<String, Placed> {
     let words: Vec<&str> = text.get_ref().split_whitespace().collect();
     match words.is_empty() {
-        true => Err((text.span(), ClaimProblem::Blank)),
+        true => Err((text.span(), ClaimProblem::Blank(key))),
         false => Ok(words.join(" ")),
     }
 }
@@ -340,8 +348,8 @@ impl ClaimTable {
     fn check(&self, scope: &Scope) -> Result<Claim, Placed> {
         let is_margin = |margin| (0.0..1.0).contains(&margin);
         Ok(Claim {
-            claim: said(&self.claim)?,
-            source: said(&self.source)?,
+            claim: said("claim", &self.claim)?,
+            source: said("source", &self.source)?,
             level: number(&self.level, LEVEL, is_probability, ClaimProblem::Level)?,
             margin: number(&self.margin, MARGIN, is_margin, ClaimProblem::Margin)?,
             test: self.test.get_ref().0.check(self.test.span(), scope)?,
@@ -479,7 +487,7 @@ fn quantity(span: &Range<usize>, table: &QuantityTable) -> Result<Test, Placed> 
             Err((span.clone(), ClaimProblem::Reversed { from, to }))
         }
         _ => {
-            let name = said(&table.name)?;
+            let name = said("name", &table.name)?;
             Ok(Test::Quantity { name, from, to })
         }
     }

@@ -200,7 +200,7 @@ pub enum Problem {
     #[error("samples: {0}")]
     Record(#[from] RecordTooLong),
     /// A claim that cannot be tested.
-    #[error("claim: {0}")]
+    #[error("{0}")]
     Claim(#[from] ClaimProblem),
 }
 

@@ -1,6 +1,6 @@
 //! How the parts of a config are laid over each other.
 
-use super::{Config, Parameter};
+use super::{Claim, Config, Narrative, Parameter, Test};
 use crate::chain::{Calibration, Detector, Scenario};
 use crate::detect::{Alternative, Method, Rule, Samples, Ties};
 use crate::signal::{
@@ -221,4 +221,64 @@ fn duration_follows_the_offset() {
     }
     let error = scenario(3).unwrap_err().to_string();
     assert!(error.contains("lower offset"), "{error}");
+}
+
+/// What a claim leaves out, and what it says in full; a text in several lines is one paragraph.
+#[test]
+fn claims_say_what_they_say() {
+    let file = |story: &str, claims: &str| {
+        let axis =
+            "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"a\"\n[[curve]]\nlabel = \"b\"\n";
+        config(&format!("{story}{axis}{claims}")).narrative
+    };
+    let nothing = Narrative {
+        title: None,
+        text: None,
+        order: 1000,
+        claims: Vec::new(),
+    };
+    assert_eq!(file("", ""), nothing);
+    let claim = |test: &str| {
+        let claim = format!("[[claim]]\nclaim = \"c\"\nsource = \"s\"\ntest = {test}\n");
+        file("", &claim).claims[0].clone()
+    };
+    let labels =
+        |labels: &[&str]| -> Vec<String> { labels.iter().map(|&label| label.to_owned()).collect() };
+    let default = Claim {
+        claim: "c".to_owned(),
+        source: "s".to_owned(),
+        level: 0.001,
+        margin: 0.005,
+        test: Test::Grows {
+            curves: labels(&["a", "b"]),
+        },
+    };
+    assert_eq!(claim("\"grows\""), default);
+    assert_eq!(claim("{ grows = {} }"), default);
+    let curves = labels(&["b"]);
+    let some = "{ alpha_held = { curves = [\"b\"], excess = 2 } }";
+    assert_eq!(
+        claim(some).test,
+        Test::AlphaHeld {
+            curves,
+            excess: 2.0
+        }
+    );
+    let gain = Test::Gain {
+        first: "b".to_owned(),
+        second: "a".to_owned(),
+        power: 0.9,
+        from: 0.0,
+    };
+    assert_eq!(
+        claim("{ gain = { first = \"b\", second = \"a\" } }").test,
+        gain
+    );
+    let told = file(
+        "title = \"t\"\norder = 3\ntext = \"\"\"\none\ntwo\"\"\"\n",
+        "[[claim]]\nclaim = \"c\"\nsource = \"s\"\nlevel = 0.05\nmargin = 0\ntest = \"grows\"\n",
+    );
+    assert_eq!((told.title.as_deref(), told.order), (Some("t"), 3));
+    assert_eq!(told.text.as_deref(), Some("one two"));
+    assert_eq!((told.claims[0].level, told.claims[0].margin), (0.05, 0.0));
 }

@@ -112,7 +112,15 @@ fn completions_and_manual() {
         );
     }
     let manual = run(&["man"]);
-    for verb in ["sweep", "plot", "check", "threshold", "plan", "completions"] {
+    for verb in [
+        "sweep",
+        "plot",
+        "check",
+        "figures",
+        "threshold",
+        "plan",
+        "completions",
+    ] {
         assert!(
             manual.contains(&format!("liftsim\\-{verb}")) || manual.contains(verb),
             "{verb}"
