@@ -6,7 +6,9 @@
 //! [`ConfigError`] that points at the value to change.
 
 mod axis;
+mod drawing;
 mod error;
+mod exhibit;
 mod file;
 mod resolve;
 #[cfg(test)]
@@ -15,10 +17,11 @@ mod value;
 
 pub use axis::{Axis, AxisValue, Parameter};
 pub use error::{ConfigError, Problem};
+pub use exhibit::{ExhibitConfig, ExhibitKind, Experiment, Phase, PhaseKind, Trace};
 
 use crate::tally;
 use error::Source;
-use file::{File, Sections};
+use file::{AxisTable, File, Sections};
 use std::ops::Range;
 use std::path::Path;
 
@@ -55,13 +58,9 @@ impl Config {
     ///
     /// # Errors
     /// Where it cannot be read, is no TOML, has an unknown key, lacks a required one, or holds a
-    /// value of the wrong kind or range.
+    /// value of the wrong kind or range; where it sweeps nothing.
     pub fn load(path: &Path) -> Result<Self, ConfigError> {
-        let name = path.display().to_string();
-        match std::fs::read_to_string(path) {
-            Ok(text) => Self::parse(&name, &text),
-            Err(error) => Err(Source::new(&name, "").at(None, Problem::Unreadable(error))),
-        }
+        Experiment::load(path)?.sweep()
     }
 
     /// Checks a file's text; `name` is what messages call it.
@@ -69,9 +68,12 @@ impl Config {
     /// # Errors
     /// As [`Config::load`].
     pub fn parse(name: &str, text: &str) -> Result<Self, ConfigError> {
-        let source = Source::new(name, text);
-        let file = File::parse(&source)?;
-        let axis = Axis::new(&file.axis).map_err(|(span, problem)| source.at(span, problem))?;
+        Experiment::parse(name, text)?.sweep()
+    }
+
+    /// Checks the file of a sweep, whose axis is `axis`.
+    fn new(source: Source, file: &File, axis: &AxisTable) -> Result<Self, ConfigError> {
+        let axis = Axis::new(axis).map_err(|(span, problem)| source.at(span, problem))?;
         let confidence = file.confidence(&source)?;
         let trials = file.trials(&source, confidence)?;
         let base = file.sections();
@@ -98,7 +100,8 @@ impl Config {
             seed: file.seed.0,
             trials,
             confidence,
-            common_random_numbers: file.common_random_numbers.unwrap_or(true),
+            common_random_numbers: (file.common_random_numbers.as_ref())
+                .is_none_or(|shared| *shared.get_ref()),
             axis,
             curves,
             source,
