@@ -38,7 +38,8 @@
 //! | 4 | [`config`]: what the author wrote |
 //! | 5 | [`plan`]: what it comes to |
 //! | 6 | [`run`]: blocks of trials in parallel · [`gate`]: the false-alarm test · [`results`]: files |
-//! | 7 | [`figure`]: pictures |
+//! | 7 | [`exhibit`]: experiments that are no sweep |
+//! | 8 | [`figure`]: pictures |
 //!
 //! # Laws
 //! - A trial cannot fail: what can go wrong goes wrong when the plan is made.
@@ -75,6 +76,7 @@ pub mod binomial;
 pub mod chain;
 pub mod config;
 pub mod detect;
+pub mod exhibit;
 pub mod figure;
 pub mod gate;
 pub mod plan;

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each module of the library and its floor.
-const FLOORS: [&[&str]; 8] = [
+const FLOORS: [&[&str]; 9] = [
     &["rng", "binomial"],
     &["tally"],
     &["signal", "whiten", "detect"],
@@ -13,6 +13,7 @@ const FLOORS: [&[&str]; 8] = [
     &["config"],
     &["plan"],
     &["run", "gate", "results"],
+    &["exhibit"],
     &["figure"],
 ];
 
