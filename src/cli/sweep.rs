@@ -1,8 +1,8 @@
-//! `liftsim sweep CONFIG`: runs every point and writes counts and figure.
+//! `liftsim sweep CONFIG`: runs every point, or draws what is no sweep, and writes results and figure.
 
-use super::{Failure, Outcome, Simulation, print, progress};
+use super::{Failure, Outcome, Simulation, exhibit, print, progress};
 use clap::Args;
-use liftsim::config::Config;
+use liftsim::config::{Config, Experiment};
 use liftsim::figure;
 use liftsim::plan::Plan;
 use liftsim::results::{self, Directory, Manifest, Row};
@@ -13,6 +13,9 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 /// Run every point of an experiment; write points.csv, the figure and run.json.
+///
+/// A config that says what to draw instead of what to sweep is computed and drawn in the same way,
+/// with single numbers in quantities.csv where it has any.
 ///
 /// The same config and seed give the same bytes on any machine, with any number of threads.
 #[derive(Debug, Args)]
@@ -30,12 +33,20 @@ pub struct Sweep {
 impl Sweep {
     /// Runs the command.
     pub fn run(self, quiet: bool) -> Outcome {
-        let (config, plan) = self.simulation.prepare(Plan::new)?;
         let directory = Directory::new(
             self.out
                 .clone()
                 .unwrap_or_else(|| default_directory(&self.simulation.config)),
         );
+        let path = &self.simulation.config;
+        let config = match Experiment::load(path).map_err(Failure::input)? {
+            Experiment::Sweep(config) => config,
+            Experiment::Exhibit(config) => {
+                let config = self.simulation.exhibit(config)?;
+                return exhibit::run(&config, &directory, self.fresh);
+            }
+        };
+        let (config, plan) = self.simulation.plan(config, Plan::new)?;
         directory.admit(&plan, self.fresh).map_err(Failure::input)?;
 
         let bar = progress::bar(&plan, quiet);
@@ -64,22 +75,36 @@ fn write(
     rows: &[Row],
     seconds: f64,
 ) -> Result<(), Failure> {
-    let mut manifest = manifest(config, seconds);
+    let mut manifest = manifest(&Origin::of(config), seconds);
     let drawing = figure::sweep(config, rows, &manifest).map_err(Failure::run)?;
     let counts = results::csv_bytes(rows);
-    let mut report = store(directory, &mut manifest, "points.csv", &counts)?;
-    for (name, bytes) in drawing.files() {
-        report += &store(directory, &mut manifest, name, bytes)?;
-    }
-    directory
-        .write("run.json", &manifest.to_json())
-        .map_err(Failure::run)?;
-    report += &format!("{}  written\n", directory.path().join("run.json").display());
+    let [png, svg] = drawing.files();
+    let report = store_all(
+        directory,
+        &mut manifest,
+        &[("points.csv", &counts), png, svg],
+    )?;
     let trials = config.trials;
     print(&format!(
         "{} points of {trials} trials in {seconds:.1} s\n{report}",
         rows.len()
     ))
+}
+
+/// Writes files, then the manifest that vouches for them, and says what is new.
+pub(super) fn store_all(
+    directory: &Directory,
+    manifest: &mut Manifest,
+    files: &[(&str, &[u8])],
+) -> Result<String, Failure> {
+    let mut report = String::new();
+    for (name, bytes) in files {
+        report += &store(directory, manifest, name, bytes)?;
+    }
+    directory
+        .write("run.json", &manifest.to_json())
+        .map_err(Failure::run)?;
+    Ok(report + &format!("{}  written\n", directory.path().join("run.json").display()))
 }
 
 /// Writes a file, lets the manifest vouch for it, and says whether it is new.
@@ -100,31 +125,52 @@ pub(super) fn store(
     ))
 }
 
-fn manifest(config: &Config, seconds: f64) -> Manifest {
+/// What a manifest says of an experiment before it is run.
+pub(super) struct Origin<'a> {
+    pub name: &'a str,
+    pub text: &'a str,
+    pub seed: u64,
+    pub trials: u64,
+    pub common_random_numbers: bool,
+}
+
+impl<'a> Origin<'a> {
+    fn of(config: &'a Config) -> Self {
+        Self {
+            name: config.name(),
+            text: config.text(),
+            seed: config.seed,
+            trials: config.trials,
+            common_random_numbers: config.common_random_numbers,
+        }
+    }
+
+    /// The command that makes the same results, wherever the files are.
+    fn command_line(&self) -> String {
+        let Self { seed, trials, .. } = self;
+        format!(
+            "liftsim sweep {} --seed {seed} --trials {trials}",
+            file_name(self.name)
+        )
+    }
+}
+
+pub(super) fn manifest(origin: &Origin, seconds: f64) -> Manifest {
     Manifest {
-        config_name: file_name(config.name()),
-        config: config.text().to_owned(),
-        config_sha256: results::sha256(config.text().as_bytes()),
+        config_name: file_name(origin.name),
+        config: origin.text.to_owned(),
+        config_sha256: results::sha256(origin.text.as_bytes()),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         revision: env!("LIFTSIM_REVISION").to_owned(),
-        command: command_line(config),
-        seed: config.seed,
-        trials: config.trials,
-        common_random_numbers: config.common_random_numbers,
+        command: origin.command_line(),
+        seed: origin.seed,
+        trials: origin.trials,
+        common_random_numbers: origin.common_random_numbers,
         seconds,
         threads: rayon::current_num_threads(),
         architecture: architecture(),
         files: BTreeMap::new(),
     }
-}
-
-/// The command that makes the same results, wherever the files are.
-fn command_line(config: &Config) -> String {
-    let Config { seed, trials, .. } = config;
-    format!(
-        "liftsim sweep {} --seed {seed} --trials {trials}",
-        file_name(config.name())
-    )
 }
 
 fn file_name(path: &str) -> String {

@@ -2,22 +2,19 @@
 //! false-alarm rate.
 
 use super::FigureError;
-use super::frame::{CAPTION, Frame, Scale};
-use super::legend::Legend;
+use super::frame::{CAPTION_LEFT, CAPTION_STEP, Frame, Scale, WIDTH, draw_caption};
+use super::legend::{Entry, Key, Legend};
 use super::ruler::Ruler;
-use super::sheet::{Align, Look, Picture, Sheet, Style};
+use super::sheet::{Look, Picture, Sheet};
 use super::words::{axis_label, caption, common_facts, is_held_against_alpha, legend};
 use crate::config::{Config, Parameter};
 use crate::results::{Manifest, Row};
-use plotters::prelude::{BLACK, Color, DrawingBackend, WHITE};
+use plotters::prelude::{Color, DrawingBackend};
 
-const WIDTH: f64 = 396.0;
 /// Without legend above and caption below.
 const HEIGHT: f64 = 262.0;
 const LINE: f64 = 1.1;
 const MARKER: f64 = 2.3;
-const CAPTION_STEP: f64 = 10.5;
-const CAPTION_LEFT: f64 = 10.0;
 
 /// The picture of a sweep.
 pub(super) struct Curves {
@@ -150,18 +147,20 @@ impl Curves {
 
     /// The legend and its place; none for one curve without a name of its own.
     fn legend(&self) -> Option<(Legend, Option<(f64, f64)>)> {
-        let entries: Vec<_> = self
-            .curves
-            .iter()
-            .map(|curve| (curve.legend.clone(), curve.look))
-            .collect();
-        if entries.len() == 1 && entries[0].0 == "1" {
+        let key = match self.is_named {
+            true => Key::Marker,
+            false => Key::MarkedLine,
+        };
+        let entry = |curve: &Curve| Entry {
+            text: curve.legend.clone(),
+            look: curve.look,
+            key,
+        };
+        let entries: Vec<Entry> = self.curves.iter().map(entry).collect();
+        if entries.len() == 1 && entries[0].text == "1" {
             return None;
         }
-        let legend = Legend {
-            entries,
-            with_lines: !self.is_named,
-        };
+        let legend = Legend { entries };
         let corner = legend.free_corner(&self.frame(0.0), &self.covered());
         Some((legend, corner))
     }
@@ -243,11 +242,10 @@ impl Curves {
         sheet: &Sheet<B>,
         frame: &Frame,
     ) -> Result<(), FigureError> {
-        let Some(nominal) = self.nominal else {
-            return Ok(());
-        };
-        let (left, y) = frame.at(frame.x.from, nominal);
-        sheet.line(&[(left, y), (frame.right, y)], 0.8, BLACK.mix(0.6))
+        match self.nominal {
+            Some(nominal) => frame.draw_level(sheet, nominal, &[]),
+            None => Ok(()),
+        }
     }
 
     /// What the legend takes above the plot, where no corner is free.
@@ -266,12 +264,8 @@ impl Picture for Curves {
     }
 
     fn draw<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
-        let (width, height) = self.size();
         let frame = self.frame(self.above());
-        sheet.area(
-            &[(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)],
-            WHITE.to_rgba(),
-        )?;
+        sheet.clear(self.size())?;
         frame.draw_grid(sheet)?;
         self.draw_nominal(sheet, &frame)?;
         match self.is_named {
@@ -291,15 +285,7 @@ impl Picture for Curves {
         if let Some((legend, corner)) = self.legend() {
             legend.draw(sheet, corner.unwrap_or((frame.left, 4.0)))?;
         }
-        for (line, text) in (0..).zip(&self.caption) {
-            let baseline = frame.bottom + 41.0 + CAPTION_STEP * f64::from(line);
-            sheet.text(
-                text,
-                (CAPTION_LEFT, baseline),
-                Style::plain(CAPTION, Align::Left),
-            )?;
-        }
-        Ok(())
+        draw_caption(sheet, &self.caption, frame.bottom + 41.0)
     }
 }
 

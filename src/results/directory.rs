@@ -1,6 +1,7 @@
 //! The directory of one experiment: what it holds, what may replace it, how files get there.
 
 use super::{Manifest, Row, sha256};
+use crate::config::{ExhibitConfig, Experiment};
 use crate::plan::Plan;
 use crate::tally::Tally;
 use std::io::{self, Write};
@@ -81,6 +82,7 @@ pub enum ResultsError {
 
 const MANIFEST: &str = "run.json";
 const POINTS: &str = "points.csv";
+const QUANTITIES: &str = "quantities.csv";
 
 impl Directory {
     /// The directory at `path`, whether it exists or not.
@@ -109,6 +111,11 @@ impl Directory {
             return Err(ResultsError::Foreign { path, name });
         }
         let held = self.manifest()?;
+        if let Some(kind) = exhibit_in(&held) {
+            let path = self.path.clone();
+            let difference = format!("[{kind}] there, a sweep here");
+            return Err(ResultsError::Different { path, difference });
+        }
         let rows = self.rows(&held)?;
         if let Some(difference) = difference(&held, &rows, plan) {
             let path = self.path.clone();
@@ -125,9 +132,38 @@ impl Directory {
         Ok(())
     }
 
+    /// The same as [`Directory::admit`] for an experiment that is no sweep.
+    ///
+    /// # Errors
+    /// Where its results may not go here.
+    pub fn admit_exhibit(&self, config: &ExhibitConfig, fresh: bool) -> Result<(), ResultsError> {
+        self.check_writable()?;
+        let Some(name) = self.held().filter(|_| !fresh) else {
+            return Ok(());
+        };
+        let path = self.path.clone();
+        if !self.path.join(MANIFEST).exists() {
+            return Err(ResultsError::Foreign { path, name });
+        }
+        let held = self.manifest()?;
+        self.points(&held)?;
+        if let Some(difference) = exhibit_difference(&held, config) {
+            return Err(ResultsError::Different { path, difference });
+        }
+        match held.trials > config.trials {
+            true => Err(ResultsError::FewerTrials {
+                path,
+                held: held.trials,
+                asked: config.trials,
+            }),
+            false => Ok(()),
+        }
+    }
+
     /// A file that a run would replace.
     fn held(&self) -> Option<&'static str> {
-        let mut names = [MANIFEST, POINTS, "figure.png", "figure.svg"].into_iter();
+        let names = [MANIFEST, POINTS, QUANTITIES, "figure.png", "figure.svg"];
+        let mut names = names.into_iter();
         names.find(|name| self.path.join(name).exists())
     }
 
@@ -159,18 +195,33 @@ impl Directory {
     /// # Errors
     /// Where it is missing, damaged or changed.
     pub fn rows(&self, manifest: &Manifest) -> Result<Vec<Row>, ResultsError> {
-        let (path, bytes) = self.read(POINTS)?;
-        if manifest.files.get(POINTS) != Some(&sha256(&bytes)) {
-            let error = "its bytes are not those that run.json vouches for".to_owned();
-            return Err(ResultsError::Damaged { path, error });
-        }
-        csv::Reader::from_reader(&bytes[..])
+        csv::Reader::from_reader(&self.points(manifest)?[..])
             .deserialize()
             .collect::<Result<_, csv::Error>>()
-            .map_err(|error| ResultsError::Damaged {
-                path,
-                error: error.to_string(),
-            })
+            .map_err(|error| self.damaged_points(error))
+    }
+
+    /// The bytes of `points.csv`, which must be those that `manifest` vouches for.
+    ///
+    /// # Errors
+    /// Where it is missing or changed.
+    pub fn points(&self, manifest: &Manifest) -> Result<Vec<u8>, ResultsError> {
+        let (path, bytes) = self.read(POINTS)?;
+        match manifest.files.get(POINTS) == Some(&sha256(&bytes)) {
+            true => Ok(bytes),
+            false => {
+                let error = "its bytes are not those that run.json vouches for".to_owned();
+                Err(ResultsError::Damaged { path, error })
+            }
+        }
+    }
+
+    /// What is wrong with a `points.csv` that cannot be read as rows.
+    pub fn damaged_points(&self, error: csv::Error) -> ResultsError {
+        ResultsError::Damaged {
+            path: self.path.join(POINTS),
+            error: error.to_string(),
+        }
     }
 
     fn read(&self, name: &str) -> Result<(PathBuf, Vec<u8>), ResultsError> {
@@ -222,6 +273,34 @@ fn make_readable(file: &std::fs::File) -> io::Result<()> {
 #[cfg(not(unix))]
 fn make_readable(_: &std::fs::File) -> io::Result<()> {
     Ok(())
+}
+
+/// The exhibit that a manifest's config draws, if it is one.
+fn exhibit_in(held: &Manifest) -> Option<&'static str> {
+    match Experiment::parse(&held.config_name, &held.config) {
+        Ok(Experiment::Exhibit(config)) => Some(config.kind.name()),
+        _ => None,
+    }
+}
+
+/// The first thing that keeps held results from being those of `config`; the question and the number
+/// of trials do not count.
+fn exhibit_difference(held: &Manifest, config: &ExhibitConfig) -> Option<String> {
+    let here = config.kind.name();
+    let there = match Experiment::parse(&held.config_name, &held.config) {
+        Ok(Experiment::Exhibit(there)) => there,
+        _ => return Some(format!("a sweep there, [{here}] here")),
+    };
+    if there.kind.name() != here {
+        return Some(format!("[{}] there, [{here}] here", there.kind.name()));
+    }
+    if held.seed != config.seed {
+        return Some(format!("seed is {} there, {} here", held.seed, config.seed));
+    }
+    if there.kind != config.kind {
+        return Some(format!("[{here}] says something else there"));
+    }
+    (there.scenario != config.scenario).then(|| "the sections say something else there".to_owned())
 }
 
 /// The first thing that keeps held results from being those of `plan`; labels, captions and
