@@ -49,7 +49,7 @@ impl<'a> Lags<'a> {
                 to: 1.1,
                 ..Scale::linear(-1.0, 1.0, 4)
             },
-            Scale::linear(-1.1 * widest, 1.1 * widest, 4),
+            Scale::linear(-1.1 * widest, 1.1 * widest, 6),
         ];
         let is_adxl105 = config.scenario.sensor == Sensor::adxl105();
         Self {
@@ -111,7 +111,7 @@ impl<'a> Lags<'a> {
             let place = frame.at(x, row.estimate - row.theory);
             sheet.marker(look.marker, place, MARKER, look.colour)?;
         }
-        frame.draw_axes(sheet, self.x_label, "minus theory (2)")
+        frame.draw_axes(sheet, self.x_label, "minus theory")
     }
 
     fn legend(&self) -> Legend {
@@ -122,7 +122,7 @@ impl<'a> Lags<'a> {
         };
         Legend {
             entries: vec![
-                entry(THEORY, Key::Line, "theory, coefficients as used"),
+                entry(THEORY, Key::Line, "theory, coefficients of the simulation"),
                 entry(EXACT, Key::Line, "theory, exact transfer of (1)"),
                 entry(SIMULATION, Key::Marker, "simulation"),
             ],
@@ -155,10 +155,13 @@ fn deviations(row: &Row) -> [f64; 3] {
 fn caption(config: &ExhibitConfig, length: usize, manifest: &Manifest) -> Vec<String> {
     let scenario = &config.scenario;
     let parts = [
-        literal(&scenario.sensor.to_string()),
+        literal(&scenario.sensor.to_string()).replace('-', "−"),
         format!("{} noise", literal(&scenario.noise.to_string())),
-        format!("{} records", thousands(manifest.trials)),
-        format!("of {} samples", thousands(length as u64)),
+        format!(
+            "{} records of {} samples",
+            thousands(manifest.trials),
+            thousands(length as u64)
+        ),
         "mean product over the known variance of x".to_owned(),
         format!("seed {}", manifest.seed),
         format!(

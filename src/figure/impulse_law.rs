@@ -28,6 +28,7 @@ impl<'a> Laws<'a> {
         let curves: Vec<&[Row]> = rows.chunk_by(|a, b| a.nu == b.nu).collect();
         let last = rows.iter().map(|row| row.sample).max().unwrap_or(1) as f64;
         let x = Scale {
+            from: -0.02 * last,
             to: 1.02 * last,
             ..Scale::linear(0.0, last, 8)
         };
@@ -36,7 +37,7 @@ impl<'a> Laws<'a> {
         let ys = vec![
             Scale {
                 to: 1.03,
-                ..Scale::linear((lowest - 0.05).max(0.0), 1.0, 5)
+                ..Scale::linear((lowest - 0.05).max(0.0), 1.0, 6)
             },
             Scale::linear(0.0, 1.12 * highest, 4),
         ];

@@ -11,8 +11,8 @@ use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor};
 
 const UPPER: f64 = 84.0;
 const LOWER: f64 = 74.0;
-/// Points of the pulse.
-const POINTS: i64 = 400;
+/// Points of the pulse in one observation.
+const PARTS: u32 = 4;
 
 /// The picture of a layout.
 pub(super) struct Layout<'a> {
@@ -83,22 +83,22 @@ impl<'a> Layout<'a> {
     fn draw_pulse<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
         let frame = &self.frames[0];
         let end = self.rows.iter().map(|row| row.end).max().unwrap_or(0) as f64;
-        let mut line = Vec::new();
-        let mut last = 0.0;
-        for i in 0..=POINTS {
-            let time = frame.x.from + (end - frame.x.from) * i as f64 / POINTS as f64;
-            let level = if time < 0.0 {
+        let shape = |time: f64| {
+            if time < 0.0 {
                 0.0
             } else {
                 self.motion.shape(time)
-            };
-            // A jump is upright.
-            if (level - last).abs() > 0.5 {
-                line.push(frame.at(time, last));
             }
-            line.push(frame.at(time, level));
-            last = level;
+        };
+        let (from, parts) = (frame.x.from.floor(), f64::from(PARTS));
+        let mut line = vec![frame.at(frame.x.from, 0.0)];
+        for part in 1..((end - from) * parts) as u64 {
+            // A jump is upright: both its sides have a point.
+            let time = from + part as f64 / parts;
+            line.extend([-1e-9, 1e-9].map(|side| frame.at(time, shape(time + side))));
         }
+        line.push(frame.at(end, 0.0));
+        line.dedup();
         sheet.line(&line, 1.3, Look::of(1).colour.to_rgba())
     }
 
@@ -115,7 +115,7 @@ impl<'a> Layout<'a> {
                 sheet.outline(corner, opposite, 0.8, colour.to_rgba())?;
             }
             if row.start as f64 != from {
-                self.draw_cut(sheet, corner, opposite)?;
+                self.draw_cut(sheet, corner)?;
             }
             let middle = f64::midpoint(corner.0, opposite.0);
             let room = opposite.0 - corner.0;
@@ -137,9 +137,8 @@ impl<'a> Layout<'a> {
         &self,
         sheet: &Sheet<B>,
         corner: (f64, f64),
-        opposite: (f64, f64),
     ) -> Result<(), FigureError> {
-        let at = (corner.0 + 9.0, f64::midpoint(corner.1, opposite.1) + 3.0);
+        let at = (corner.0 + 9.0, corner.1 + 15.0);
         sheet.text("…", at, Style::plain(NORMAL, Align::Centre))
     }
 
@@ -199,7 +198,7 @@ impl Block {
         let (index, lines) = match row.name.as_str() {
             "training" => (
                 5,
-                vec!["training".to_owned(), format!("{length}, the filter")],
+                vec!["training".to_owned(), format!("{length}, for the filter")],
             ),
             "reference" => (0, vec!["X".to_owned(), format!("N = {length}")]),
             "shift" => (

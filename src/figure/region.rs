@@ -31,9 +31,15 @@ pub(super) struct Plane<'a> {
 /// What the regions share, and where they lie, in the parts of a caption.
 pub(super) fn title(samples: &Samples, alternative: Alternative, alpha: f64) -> Vec<String> {
     let side = match alternative {
-        Alternative::Greater => "at and to the right of a line its rule decides H_1*",
-        Alternative::Less => "at and to the left of a line its rule decides H_1*",
-        Alternative::TwoSided => "outside both its lines a rule decides H_1*",
+        Alternative::Greater => {
+            "a rule decides H_1* to the right of its line, and above it where it runs level"
+        }
+        Alternative::Less => {
+            "a rule decides H_1* to the left of its line, and above it where it runs level"
+        }
+        Alternative::TwoSided => {
+            "a rule decides H_1* outside its lines, and above them where they run level"
+        }
     };
     vec![
         format!("N = {}", samples.reference()),
@@ -42,7 +48,6 @@ pub(super) fn title(samples: &Samples, alternative: Alternative, alpha: f64) -> 
         format!("alternative {alternative}"),
         format!("α = {alpha}"),
         side.to_owned(),
-        "a line along T: from there on every T decides alike".to_owned(),
     ]
 }
 
@@ -106,7 +111,7 @@ impl Picture for Plane<'_> {
         self.draw_cells(sheet, &frame)?;
         self.draw_key(sheet, &frame)?;
         for (index, rows) in self.regions.iter().enumerate() {
-            let wider = 1.3 * (self.regions.len() - 1 - index) as f64;
+            let wider = 0.5 * (self.regions.len() - 1 - index) as f64;
             let look = Look::of(LOOKS[index % LOOKS.len()]);
             for line in boundaries(rows, &frame) {
                 sheet.dashed(&line, LINE + wider, look.colour.to_rgba(), look.dash)?;

@@ -10,16 +10,18 @@ use super::words::wrap;
 use crate::config::{ExhibitConfig, Trace};
 use crate::exhibit::trace::Row;
 use crate::results::Manifest;
-use plotters::prelude::{BLACK, Color, DrawingBackend};
+use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor};
 
 const SINGLE: f64 = 190.0;
 const PANEL: f64 = 128.0;
 /// Room for the names of the phases.
 const NAMES: f64 = 16.0;
 /// Room for the brackets of the samples.
-const BRACKETS: f64 = 22.0;
+const BRACKETS: f64 = 18.0;
 /// Fewer samples than this get a marker each.
 const FEW: usize = 250;
+/// Width of a column of a dense line, in points.
+const COLUMN: f64 = 0.4;
 
 /// The picture of a ride.
 pub(super) struct Ride<'a> {
@@ -46,13 +48,16 @@ impl<'a> Ride<'a> {
             false => 1.0,
         };
         let half = 0.5 / trace.rate;
-        let (from, to) = ((rows[0].time - half) / unit, (last.time + half) / unit);
+        let (from, to) = (
+            (rows[0].time - half) / unit,
+            (last.time + 2.0 * half) / unit,
+        );
         let x = Scale::linear(from, to, 8);
-        let mut ys = vec![values(rows, |row| Some(row.record))];
+        let mut ys = vec![values(rows, 0.34, |row| Some(row.record))];
         let mut top = NAMES;
         let mut heights = vec![SINGLE];
         if trace.whitened {
-            ys.push(values(rows, |row| row.whitened));
+            ys.push(values(rows, 0.06, |row| row.whitened));
             top += BRACKETS;
             heights = vec![PANEL; 2];
         }
@@ -82,16 +87,19 @@ impl<'a> Ride<'a> {
 
     fn draw_phases<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
         let upper = &self.frames[0];
+        let mut taken = 0.0;
         for (name, (from, to)) in self.stretches(|row| &row.phase) {
             for frame in &self.frames {
                 frame.draw_band(sheet, (from, to), phase_colour(name))?;
             }
             let (left, right) = (upper.at(from, 0.0).0, upper.at(to, 0.0).0);
             let words = phase_words(name);
-            // What does not fit stands in the shades of the caption's order alone.
-            if text_width(words, SMALL) < right - left {
-                let at = (f64::midpoint(left, right), NAMES - 5.0);
+            let (middle, half) = (f64::midpoint(left, right), text_width(words, SMALL) / 2.0);
+            // Of names that would run into each other the first is kept.
+            if middle - half > taken && middle + half < WIDTH {
+                let at = (middle, NAMES - 5.0);
                 sheet.text(words, at, Style::plain(SMALL, Align::Centre))?;
+                taken = middle + half + 4.0;
             }
         }
         Ok(())
@@ -132,12 +140,13 @@ impl<'a> Ride<'a> {
         let line: Vec<_> = (self.rows.iter())
             .filter_map(|row| Some(frame.at(self.x(row), value(row)?)))
             .collect();
-        let is_few = line.len() < FEW;
-        let width = if is_few { 0.7 } else { 0.35 };
-        if line.len() > 1 {
-            sheet.line(&line, width, colour.to_rgba())?;
+        if line.len() >= FEW {
+            return draw_dense(sheet, &line, colour);
         }
-        for &place in line.iter().filter(|_| is_few) {
+        if line.len() > 1 {
+            sheet.line(&line, 0.7, colour.to_rgba())?;
+        }
+        for &place in &line {
             sheet.marker(Look::of(0).marker, place, 1.4, colour)?;
         }
         Ok(())
@@ -146,13 +155,16 @@ impl<'a> Ride<'a> {
     /// The acceleration itself, over the record in which it hides.
     fn draw_acceleration<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
         let frame = &self.frames[0];
-        let line: Vec<_> = (self.rows.iter())
-            .map(|row| frame.at(self.x(row), row.acceleration))
+        let half = 0.5 / self.trace.rate / self.unit;
+        let of_equal = |a: &Row, b: &Row| a.acceleration == b.acceleration;
+        let line: Vec<_> = (self.rows.chunk_by(of_equal))
+            .flat_map(|stretch| {
+                let (first, last) = (&stretch[0], &stretch[stretch.len() - 1]);
+                let ends = [self.x(first) - half, self.x(last) + half];
+                ends.map(|x| frame.at(x, first.acceleration))
+            })
             .collect();
-        match line.len() {
-            0 | 1 => Ok(()),
-            _ => sheet.line(&line, 1.3, Look::of(1).colour.to_rgba()),
-        }
+        sheet.line(&line, 1.3, Look::of(1).colour.to_rgba())
     }
 
     fn draw_legend<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
@@ -215,13 +227,37 @@ impl Picture for Ride<'_> {
     }
 }
 
-/// A scale that holds every value and zero, with room for a legend.
-fn values(rows: &[Row], value: impl Fn(&Row) -> Option<f64>) -> Scale {
+/// A line so dense that its turns cannot be told apart: an upright bar over the extremes of each column,
+/// its neighbour's end included, because the turns of a thick line would reach beyond its points.
+fn draw_dense<B: DrawingBackend>(
+    sheet: &Sheet<B>,
+    line: &[(f64, f64)],
+    colour: RGBColor,
+) -> Result<(), FigureError> {
+    let column = |place: &(f64, f64)| (place.0 / COLUMN).floor();
+    let mut before: Option<f64> = None;
+    for places in line.chunk_by(|a, b| column(a) == column(b)) {
+        let ys = || places.iter().map(|place| place.1).chain(before);
+        let top = ys().fold(f64::INFINITY, f64::min);
+        let bottom = ys().fold(f64::NEG_INFINITY, f64::max);
+        let x = (column(&places[0]) + 0.5) * COLUMN;
+        sheet.line(
+            &[(x, top - 0.2), (x, bottom + 0.2)],
+            COLUMN,
+            colour.to_rgba(),
+        )?;
+        before = places.last().map(|place| place.1);
+    }
+    Ok(())
+}
+
+/// A scale that holds every value and zero, with a share `above` of their range left free on top.
+fn values(rows: &[Row], above: f64, value: impl Fn(&Row) -> Option<f64>) -> Scale {
     let all = || rows.iter().filter_map(&value).chain([0.0]);
     let low = all().fold(f64::INFINITY, f64::min);
     let high = all().fold(f64::NEG_INFINITY, f64::max);
     let room = (high - low).max(1e-9);
-    Scale::linear(low - 0.06 * room, high + 0.06 * room, 5)
+    Scale::linear(low - 0.06 * room, high + above * room, 5)
 }
 
 fn sample_words(name: &str) -> Option<&'static str> {
@@ -262,7 +298,7 @@ fn caption(config: &ExhibitConfig, trace: &Trace, manifest: &Manifest) -> Vec<St
         parts.push(measured("vibration", trace.vibration));
     }
     parts.push(format!("{} noise", literal(&scenario.noise.to_string())));
-    parts.push(literal(&scenario.sensor.to_string()));
+    parts.push(literal(&scenario.sensor.to_string()).replace('-', "−"));
     if let Some(quantum) = scenario.digitiser.quantum() {
         parts.push(measured("step", quantum));
     }
