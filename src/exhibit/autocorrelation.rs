@@ -246,7 +246,7 @@ mod tests {
     fn config(rest: &str) -> ExhibitConfig {
         let text = format!("question = \"?\"\nseed = 2014\n{rest}");
         match Experiment::parse("test", &text) {
-            Ok(Experiment::Exhibit(config)) => config,
+            Ok(Experiment::Exhibit(config)) => *config,
             other => panic!("{other:?}"),
         }
     }

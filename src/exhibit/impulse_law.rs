@@ -213,7 +213,7 @@ mod tests {
             "question = \"?\"\nseed = 2014\ntrials = {trials}\n[impulse_law]\nnu = [0.1]\n"
         );
         match Experiment::parse("test", &text) {
-            Ok(Experiment::Exhibit(config)) => config,
+            Ok(Experiment::Exhibit(config)) => *config,
             other => panic!("{other:?}"),
         }
     }

@@ -6,13 +6,11 @@ use super::sheet::{Align, Look, Picture, Sheet, Style, text_width};
 use super::words::wrap;
 use crate::config::ExhibitConfig;
 use crate::exhibit::layout::Row;
-use crate::signal::Motion;
+use crate::signal::{Motion, Profile};
 use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor};
 
 const UPPER: f64 = 84.0;
 const LOWER: f64 = 74.0;
-/// Points of the pulse in one observation.
-const PARTS: u32 = 4;
 
 /// The picture of a layout.
 pub(super) struct Layout<'a> {
@@ -83,22 +81,23 @@ impl<'a> Layout<'a> {
     fn draw_pulse<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
         let frame = &self.frames[0];
         let end = self.rows.iter().map(|row| row.end).max().unwrap_or(0) as f64;
-        let shape = |time: f64| {
-            if time < 0.0 {
-                0.0
-            } else {
-                self.motion.shape(time)
-            }
+        let shape = |time: f64| match time < 0.0 {
+            true => 0.0,
+            false => self.motion.shape(time),
         };
-        let (from, parts) = (frame.x.from.floor(), f64::from(PARTS));
+        let start = self.motion.offset as f64;
+        let stop = start + self.motion.duration as f64;
+        let rise = match self.motion.profile {
+            Profile::Rectangular => 0.0,
+            Profile::Trapezoid { rise } => rise,
+        };
         let mut line = vec![frame.at(frame.x.from, 0.0)];
-        for part in 1..((end - from) * parts) as u64 {
+        let turns = [start, start + rise, stop - rise, stop];
+        for time in turns.into_iter().filter(|time| *time < end) {
             // A jump is upright: both its sides have a point.
-            let time = from + part as f64 / parts;
-            line.extend([-1e-9, 1e-9].map(|side| frame.at(time, shape(time + side))));
+            line.extend([-1e-6, 1e-6].map(|side| frame.at(time, shape(time + side))));
         }
-        line.push(frame.at(end, 0.0));
-        line.dedup();
+        line.push(frame.at(end, shape(end - 1e-6)));
         sheet.line(&line, 1.3, Look::of(1).colour.to_rgba())
     }
 
@@ -258,8 +257,10 @@ fn caption(config: &ExhibitConfig) -> Vec<String> {
         format!("M_2 = {}", samples.scale()),
         format!("gap {}", samples.gap()),
         format!("training {}", scenario.whitening.training()),
-        format!("acceleration of {} observations", motion.duration),
-        format!("from observation {}", motion.offset),
+        format!(
+            "acceleration: {} observations from {} on",
+            motion.duration, motion.offset
+        ),
         "impulses from observation 0 on".to_owned(),
     ];
     wrap(&parts, WIDTH - 2.0 * CAPTION_LEFT)

@@ -188,9 +188,10 @@ fn steps(rows: &[Row], frame: &Frame, at: impl Fn(&Row) -> f64) -> Vec<Vec<(f64,
         .collect();
     let is_on_edge = |w: f64| w <= from || w >= to;
     let mut lines: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
-    for pair in corners.windows(2) {
+    for (index, pair) in corners.windows(2).enumerate() {
         let (a, b) = (pair[0], pair[1]);
-        if a.0 == b.0 && is_on_edge(a.0) {
+        let is_upright = index % 2 == 0;
+        if is_upright && (is_on_edge(a.0) || decides_always(&rows[index / 2])) {
             lines.push(Vec::new());
             continue;
         }
@@ -202,6 +203,11 @@ fn steps(rows: &[Row], frame: &Frame, at: impl Fn(&Row) -> f64) -> Vec<Vec<(f64,
     }
     lines.retain(|line| line.len() > 1);
     lines
+}
+
+/// Whether small W and large W meet.
+fn decides_always(row: &Row) -> bool {
+    matches!((row.lower, row.upper), (Some(lower), Some(upper)) if upper <= lower + 1)
 }
 
 /// Darker where likelier.
