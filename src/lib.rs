@@ -39,8 +39,8 @@
 //! | 4 | [`config`]: what the author wrote · [`ensemble`]: blocks of trials in parallel |
 //! | 5 | [`plan`]: what it comes to |
 //! | 6 | [`pilot`]: decisions that no law gives · [`run`]: counts · [`gate`]: the false-alarm test · [`results`]: files |
-//! | 7 | [`figure`]: pictures · [`claim`]: verdicts |
-//! | 8 | [`report`]: the report |
+//! | 7 | [`exhibit`]: experiments that are no sweep · [`claim`]: verdicts |
+//! | 8 | [`figure`]: pictures · [`report`]: the report |
 //!
 //! # Laws
 //! - A trial cannot fail: what can go wrong goes wrong when the plan is made.
@@ -79,6 +79,7 @@ pub mod claim;
 pub mod config;
 pub mod detect;
 pub mod ensemble;
+pub mod exhibit;
 pub mod figure;
 pub mod gate;
 pub mod pilot;

@@ -13,8 +13,8 @@ const FLOORS: [&[&str]; 9] = [
     &["config", "ensemble"],
     &["plan"],
     &["pilot", "run", "gate", "results"],
-    &["figure", "claim"],
-    &["report"],
+    &["exhibit", "claim"],
+    &["figure", "report"],
 ];
 
 fn source() -> PathBuf {

@@ -1,11 +1,12 @@
 //! `liftsim figures`: every config's results, and the report on all of them.
 
-use super::sweep::{self, Counts, file_name};
-use super::{Failure, Outcome, print, table};
+use super::store::{self, Origin};
+use super::sweep::{self, Counts};
+use super::{Failure, Outcome, exhibit, print, table};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::claim;
-use liftsim::config::Config;
+use liftsim::config::{Config, ExhibitConfig, Experiment};
 use liftsim::plan::Plan;
 use liftsim::report::{self, Section};
 use liftsim::results::{Comparison, Directory, Manifest};
@@ -40,19 +41,22 @@ pub struct Figures {
     fresh: bool,
 }
 
-/// A config and where its results go.
-struct Experiment {
+/// An experiment and where its results go.
+struct Entry {
     name: String,
-    config: Config,
+    experiment: Experiment,
     directory: Directory,
 }
 
 /// An experiment that must be written, ready to run.
-struct Task<'a> {
-    experiment: &'a Experiment,
-    plan: Plan,
-    /// Counts of the same plan, and how they came about.
-    held: Option<(Counts, Manifest)>,
+enum Task<'a> {
+    Sweep {
+        config: &'a Config,
+        plan: Box<Plan>,
+        /// Counts of the same plan, and how they came about.
+        held: Option<(Counts, Manifest)>,
+    },
+    Exhibit(&'a ExhibitConfig),
 }
 
 impl Figures {
@@ -62,27 +66,24 @@ impl Figures {
         let (chosen, others): (Vec<_>, Vec<_>) =
             (paths.iter()).partition(|(name, _)| self.only.is_empty() || self.only.contains(name));
         let chosen = (chosen.into_iter())
-            .map(|(name, path)| self.experiment(name, path))
+            .map(|(name, path)| self.entry(name, path))
             .collect::<Result<Vec<_>, _>>()?;
         // Everything that can be refused is refused before the first trial.
-        let tasks = chosen.iter().map(|experiment| self.task(experiment));
+        let tasks = chosen.iter().map(|entry| self.task(entry));
         let tasks = tasks.collect::<Result<Vec<_>, _>>()?;
         let work = tasks.iter().flatten().count();
         let (mut lines, mut done) = (Vec::new(), 0);
-        for (experiment, task) in chosen.iter().zip(tasks) {
+        for (entry, task) in chosen.iter().zip(tasks) {
             let Some(task) = task else {
-                lines.push(vec![
-                    experiment.name.clone(),
-                    "skipped".into(),
-                    "0.0".into(),
-                ]);
+                lines.push(vec![entry.name.clone(), "skipped".into(), "0.0".into()]);
                 continue;
             };
             done += 1;
             let start = Instant::now();
-            let note = task.run(&format!("{} ({done} of {work})  ", experiment.name), quiet)?;
+            let prefix = format!("{} ({done} of {work})  ", entry.name);
+            let note = task.run(&entry.directory, &prefix, quiet)?;
             let seconds = format!("{:.1}", start.elapsed().as_secs_f64());
-            lines.push(vec![experiment.name.clone(), note.into(), seconds]);
+            lines.push(vec![entry.name.clone(), note.into(), seconds]);
         }
         print(&table(&["experiment", "results", "seconds"], &lines))?;
         self.report(chosen, &others)?;
@@ -118,48 +119,48 @@ impl Figures {
         Ok(paths)
     }
 
-    fn experiment(&self, name: &str, path: &Path) -> Result<Experiment, Failure> {
-        let mut config = Config::load(path).map_err(Failure::input)?;
-        config.trials = self.trials.unwrap_or(config.trials);
-        Ok(Experiment {
+    fn entry(&self, name: &str, path: &Path) -> Result<Entry, Failure> {
+        let mut experiment = Experiment::load(path).map_err(Failure::input)?;
+        if let Some(trials) = self.trials {
+            experiment = experiment.with_trials(trials).map_err(Failure::input)?;
+        }
+        Ok(Entry {
             name: name.to_owned(),
-            config,
+            experiment,
             directory: Directory::new(self.results.join(name)),
         })
     }
 
     /// What there is to do; nothing where the results are complete.
-    fn task<'a>(&self, experiment: &'a Experiment) -> Result<Option<Task<'a>>, Failure> {
-        if !self.fresh && experiment.complete().is_some() {
+    fn task<'a>(&self, entry: &'a Entry) -> Result<Option<Task<'a>>, Failure> {
+        if !self.fresh && entry.complete().is_some() {
             return Ok(None);
         }
-        let Experiment {
-            config, directory, ..
-        } = experiment;
-        let plan = Plan::new(config).map_err(Failure::input)?;
+        let directory = &entry.directory;
         if self.fresh {
-            directory.admit(&plan, true).map_err(Failure::input)?;
+            directory.check_writable().map_err(Failure::input)?;
         } else {
             directory.admit_any().map_err(Failure::input)?;
-            self.check_trials(experiment)?;
+            self.check_trials(entry)?;
         }
+        let config = match &entry.experiment {
+            Experiment::Exhibit(config) => return Ok(Some(Task::Exhibit(config))),
+            Experiment::Sweep(config) => config,
+        };
+        let plan = Box::new(Plan::new(config).map_err(Failure::input)?);
         sweep::rehearse(config, &plan)?;
-        let held = experiment.held(&plan).filter(|_| !self.fresh);
-        Ok(Some(Task {
-            experiment,
-            plan,
-            held,
-        }))
+        let held = entry.held(config, &plan).filter(|_| !self.fresh);
+        Ok(Some(Task::Sweep { config, plan, held }))
     }
 
     /// A quick look must not cost a long run.
-    fn check_trials(&self, experiment: &Experiment) -> Result<(), Failure> {
-        let held = experiment.directory.manifest();
+    fn check_trials(&self, entry: &Entry) -> Result<(), Failure> {
+        let held = entry.directory.manifest();
         match (self.trials, held) {
             (Some(asked), Ok(held)) if held.trials > asked => Err(Failure::Input(anyhow!(
                 "{}: holds {} trials per point, more than the {asked} asked for \
                  (give another --results, or --fresh to replace them)",
-                experiment.directory.path().display(),
+                entry.directory.path().display(),
                 held.trials,
             ))),
             _ => Ok(()),
@@ -167,16 +168,12 @@ impl Figures {
     }
 
     /// Writes the report where every config has its results.
-    fn report(
-        &self,
-        chosen: Vec<Experiment>,
-        others: &[&(String, PathBuf)],
-    ) -> Result<(), Failure> {
-        let mut experiments = chosen;
+    fn report(&self, chosen: Vec<Entry>, others: &[&(String, PathBuf)]) -> Result<(), Failure> {
+        let mut entries = chosen;
         let mut missing: Vec<&str> = Vec::new();
         for (name, path) in others {
-            match self.experiment(name, path) {
-                Ok(experiment) if experiment.complete().is_some() => experiments.push(experiment),
+            match self.entry(name, path) {
+                Ok(entry) if entry.complete().is_some() => entries.push(entry),
                 _ => missing.push(name),
             }
         }
@@ -190,12 +187,12 @@ impl Figures {
             );
             return Ok(());
         }
-        let sections = experiments.iter().map(Experiment::section);
+        let sections = entries.iter().map(Entry::section);
         let sections = sections.collect::<Result<_, _>>()?;
         let configs = self.way_to_configs().map_err(Failure::run)?;
         let text = report::markdown(sections, &configs).map_err(Failure::input)?;
         let is_new = directory.write("README.md", &text).map_err(Failure::run)?;
-        print(&sweep::line(&directory, "README.md", is_new))
+        print(&store::line(&directory, "README.md", is_new))
     }
 
     /// From the results to the configs, as a link has it.
@@ -218,23 +215,20 @@ impl Figures {
     }
 }
 
-impl Experiment {
+impl Entry {
     /// What made the results here, if they are those of this config, whole.
     fn complete(&self) -> Option<Manifest> {
-        let Self {
-            config, directory, ..
-        } = self;
-        let manifest = directory.manifest().ok()?;
-        let is_same = manifest.config == config.text()
-            && manifest.config_name == file_name(config.name())
-            && manifest.seed == config.seed
-            && manifest.trials == config.trials
-            && manifest.version == env!("CARGO_PKG_VERSION");
-        (is_same && directory.is_intact(&manifest)).then_some(manifest)
+        let manifest = self.directory.manifest().ok()?;
+        let origin = match &self.experiment {
+            Experiment::Sweep(config) => Origin::from(config),
+            Experiment::Exhibit(config) => Origin::from(&**config),
+        };
+        let is_complete = origin.made(&manifest) && self.directory.is_intact(&manifest);
+        is_complete.then_some(manifest)
     }
 
     /// Counts of the same plan, if the directory has them with every comparison that is wanted.
-    fn held(&self, plan: &Plan) -> Option<(Counts, Manifest)> {
+    fn held(&self, config: &Config, plan: &Plan) -> Option<(Counts, Manifest)> {
         let manifest = self.directory.manifest().ok()?;
         if manifest.version != env!("CARGO_PKG_VERSION") {
             return None;
@@ -254,7 +248,7 @@ impl Experiment {
             } = comparison;
             first_only.zip(*second_only).map(|(a, b)| [a, b])
         };
-        let pairs = claim::pairs(&self.config, &plan.points);
+        let pairs = claim::pairs(config, &plan.points);
         let find = |pair: &claim::Pair| {
             let is_same =
                 |other: &claim::Pair| (other.first, other.second) == (pair.first, pair.second);
@@ -263,7 +257,7 @@ impl Experiment {
         };
         let counts = Counts {
             rows: (rows.iter().zip(&plan.points))
-                .map(|(row, point)| row.told_again(point, self.config.confidence))
+                .map(|(row, point)| row.told_again(point, config.confidence))
                 .collect(),
             discordant: pairs.iter().map(find).collect::<Option<_>>()?,
             pairs,
@@ -274,20 +268,24 @@ impl Experiment {
 
     /// For the report, from the files.
     fn section(&self) -> Result<Section, Failure> {
-        let Self {
-            name,
-            config,
-            directory,
-        } = self;
+        let directory = &self.directory;
         let manifest = directory.manifest().map_err(Failure::run)?;
+        let (question, narrative, axis, rows) = match &self.experiment {
+            Experiment::Sweep(config) => {
+                let rows = directory.rows(&manifest).map_err(Failure::run)?;
+                let axis = Some(config.axis.clone());
+                (&config.question, &config.narrative, axis, rows)
+            }
+            Experiment::Exhibit(config) => (&config.question, &config.narrative, None, Vec::new()),
+        };
         Ok(Section {
-            name: name.clone(),
+            name: self.name.clone(),
             config: manifest.config_name.clone(),
-            question: config.question.clone(),
-            narrative: config.narrative.clone(),
-            axis: Some(config.axis.clone()),
+            question: question.clone(),
+            narrative: narrative.clone(),
+            axis,
             trials: manifest.trials,
-            rows: directory.rows(&manifest).map_err(Failure::run)?,
+            rows,
             comparisons: directory.comparisons(&manifest).map_err(Failure::run)?,
             quantities: directory.quantities(&manifest).map_err(Failure::run)?,
         })
@@ -296,33 +294,35 @@ impl Experiment {
 
 impl Task<'_> {
     /// Simulates and writes, or only writes where the counts are there.
-    fn run(self, prefix: &str, quiet: bool) -> Result<&'static str, Failure> {
-        let Self {
-            experiment,
-            plan,
-            held,
-        } = self;
-        let Experiment {
-            config, directory, ..
-        } = experiment;
-        let Some((counts, held)) = held else {
-            let counts = Counts::simulate(config, &plan, prefix, quiet)?;
-            let manifest = sweep::manifest(config, &counts);
-            let written = sweep::write(directory, config, &counts, manifest)?;
-            return Ok(if written.is_new {
-                "written"
-            } else {
-                "unchanged"
-            });
+    fn run(
+        self,
+        directory: &Directory,
+        prefix: &str,
+        quiet: bool,
+    ) -> Result<&'static str, Failure> {
+        let written = match self {
+            Self::Exhibit(config) => {
+                let (made, seconds) = exhibit::compute(config)?;
+                exhibit::write(directory, config, &made, seconds)?
+            }
+            Self::Sweep { config, plan, held } => {
+                let Some((counts, held)) = held else {
+                    let counts = Counts::simulate(config, &plan, prefix, quiet)?;
+                    let manifest = store::manifest(&Origin::from(config), counts.seconds);
+                    let written = sweep::write(directory, config, &counts, manifest)?;
+                    return Ok(written.note());
+                };
+                // The counts are as old as they were.
+                let manifest = Manifest {
+                    revision: held.revision,
+                    threads: held.threads,
+                    architecture: held.architecture,
+                    ..store::manifest(&Origin::from(config), counts.seconds)
+                };
+                sweep::write(directory, config, &counts, manifest)?;
+                return Ok("redrawn");
+            }
         };
-        // The counts are as old as they were.
-        let manifest = Manifest {
-            revision: held.revision,
-            threads: held.threads,
-            architecture: held.architecture,
-            ..sweep::manifest(config, &counts)
-        };
-        sweep::write(directory, config, &counts, manifest)?;
-        Ok("redrawn")
+        Ok(written.note())
     }
 }

@@ -3,17 +3,19 @@
 
 mod check;
 mod completions;
+mod exhibit;
 mod figures;
 mod man;
 mod plan;
 mod plot;
 mod progress;
+mod store;
 mod sweep;
 mod threshold;
 
 use anyhow::Context;
 use clap::{Args, Parser, Subcommand};
-use liftsim::config::{Config, ConfigError};
+use liftsim::config::{Config, ConfigError, ExhibitConfig};
 use liftsim::plan::Plan;
 use liftsim::tally::MOST_TRIALS;
 use std::io::{self, Write};
@@ -108,18 +110,41 @@ impl Simulation {
         &self,
         plan: impl Fn(&Config) -> Result<Plan, ConfigError>,
     ) -> Result<(Config, Plan), Failure> {
-        let mut config = Config::load(&self.config).map_err(Failure::input)?;
+        self.plan(Config::load(&self.config).map_err(Failure::input)?, plan)
+    }
+
+    /// The same for a config that has been read.
+    fn plan(
+        &self,
+        mut config: Config,
+        plan: impl Fn(&Config) -> Result<Plan, ConfigError>,
+    ) -> Result<(Config, Plan), Failure> {
         config.trials = self.trials.unwrap_or(config.trials);
         config.seed = self.seed.unwrap_or(config.seed);
         let plan = plan(&config).map_err(Failure::input)?;
-        if let Some(threads) = self.threads {
-            rayon::ThreadPoolBuilder::new()
-                .num_threads(threads.into())
-                .build_global()
-                .context("threads")
-                .map_err(Failure::Run)?;
-        }
+        self.start_threads()?;
         Ok((config, plan))
+    }
+
+    /// The same for a config that sweeps nothing.
+    fn exhibit(&self, mut config: ExhibitConfig) -> Result<ExhibitConfig, Failure> {
+        config.seed = self.seed.unwrap_or(config.seed);
+        if let Some(trials) = self.trials {
+            config = config.with_trials(trials).map_err(Failure::input)?;
+        }
+        self.start_threads()?;
+        Ok(config)
+    }
+
+    fn start_threads(&self) -> Result<(), Failure> {
+        let Some(threads) = self.threads else {
+            return Ok(());
+        };
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.into())
+            .build_global()
+            .context("threads")
+            .map_err(Failure::Run)
     }
 }
 

@@ -1,9 +1,9 @@
-//! `liftsim plot DIR`: draws the figure again from the stored counts.
+//! `liftsim plot DIR`: draws the figure again from the stored rows.
 
-use super::sweep::{line, store};
-use super::{Failure, Outcome, print};
+use super::store::{line, store};
+use super::{Failure, Outcome, exhibit, print};
 use clap::Args;
-use liftsim::config::Config;
+use liftsim::config::Experiment;
 use liftsim::figure;
 use liftsim::results::Directory;
 use std::path::PathBuf;
@@ -21,10 +21,15 @@ impl Plot {
     pub fn run(self) -> Outcome {
         let directory = Directory::new(self.directory);
         let mut manifest = directory.manifest().map_err(Failure::input)?;
-        let rows = directory.rows(&manifest).map_err(Failure::input)?;
-        let config =
-            Config::parse(&manifest.config_name, &manifest.config).map_err(Failure::input)?;
-        let drawing = figure::sweep(&config, &rows, &manifest).map_err(Failure::run)?;
+        let experiment =
+            Experiment::parse(&manifest.config_name, &manifest.config).map_err(Failure::input)?;
+        let drawing = match experiment {
+            Experiment::Sweep(config) => {
+                let rows = directory.rows(&manifest).map_err(Failure::input)?;
+                figure::sweep(&config, &rows, &manifest).map_err(Failure::run)?
+            }
+            Experiment::Exhibit(config) => exhibit::redraw(&config, &directory, &manifest)?,
+        };
         for (name, bytes) in drawing.files() {
             let is_new = store(&directory, &mut manifest, name, bytes)?;
             print(&line(&directory, name, is_new))?;

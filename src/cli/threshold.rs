@@ -95,15 +95,8 @@ impl Threshold {
             false => self.as_table(&laws, &region, &rule, alternative),
         };
         if let Some(path) = &self.figure {
-            let title = [
-                format!("rule {rule}"),
-                format!("alternative {alternative}"),
-                format!("N/M_1/M_2 = {samples}"),
-                format!("α = {}", self.alpha),
-                format!("exact size {:.6}", region.size()),
-                "orange: W and T decide H_1*".to_owned(),
-            ];
-            let drawing = figure::region(&laws, &region, &title).map_err(Failure::run)?;
+            let title = figure::region_title(&samples, alternative, self.alpha);
+            let drawing = figure::region(&laws, &rule, &region, title).map_err(Failure::run)?;
             let bytes = match path.extension().and_then(|extension| extension.to_str()) {
                 Some("svg") => drawing.svg,
                 _ => drawing.png,

@@ -42,6 +42,56 @@ pub enum Problem {
     /// The file is no TOML, or holds something that does not belong there.
     #[error("{0}")]
     Toml(Refusal),
+    /// Neither an axis nor a drawing table.
+    #[error(
+        "required key `axis` is missing (add what is swept, for instance [axis] delta = [0.0, 1.0], \
+         or one table that says what to draw: {0})"
+    )]
+    NothingToDo(String),
+    /// An axis and a drawing table, or two drawing tables.
+    #[error(
+        "[{second}] cannot stand beside [{first}]: a config does one thing (take one of them out)"
+    )]
+    TwoThingsToDo {
+        /// The one that stands first in the list of tables.
+        first: &'static str,
+        /// The other.
+        second: &'static str,
+    },
+    /// A drawing where a sweep is needed.
+    #[error(
+        "[{0}] says what to draw, but nothing is swept here (give a config with [axis], \
+         or draw this one with `liftsim sweep`)"
+    )]
+    NoSweep(&'static str),
+    /// A key that a drawing has no use for.
+    #[error("{key} means nothing to [{kind}] (take it out)")]
+    Unheeded {
+        /// As written, with its section.
+        key: String,
+        /// The drawing.
+        kind: &'static str,
+    },
+    /// A number of a drawing table that is out of range.
+    #[error("{kind}.{key} must {rule}, got {got}{remedy}")]
+    DrawingValue {
+        /// The drawing.
+        kind: &'static str,
+        /// Its key.
+        key: &'static str,
+        /// What would do.
+        rule: String,
+        /// As given.
+        got: String,
+        /// What to do, in brackets after a space; or nothing.
+        remedy: &'static str,
+    },
+    /// A law whose autocorrelation has no band.
+    #[error(
+        "noise.law: the band of an autocorrelation needs a fourth moment, which this law has not \
+         (take another law, or a student_t above 4)"
+    )]
+    NoFourthMoment,
     /// No axis, or more than one.
     #[error("axis: exactly one key says what is swept, got {0} (for instance delta = [0.0, 1.0])")]
     AxisKeys(usize),
@@ -256,11 +306,7 @@ impl fmt::Display for Refusal {
             );
         }
         if let Some(name) = message.strip_prefix("missing field ") {
-            let example = match name {
-                "`axis`" => "add what is swept, for instance [axis] delta = [0.0, 1.0]",
-                _ => "add it",
-            };
-            return write!(f, "required key {name} is missing ({example})");
+            return write!(f, "required key {name} is missing (add it)");
         }
         if message.contains("expected newtype variant")
             || message.contains("expected struct variant")

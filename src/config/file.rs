@@ -2,6 +2,9 @@
 //! did not write is `None`, so that a curve can be laid over the file and the axis over a curve.
 
 use super::claim::{ClaimTable, Story};
+use super::drawing::{
+    AutocorrelationTable, ImpulseLawTable, IndependenceTable, LayoutTable, RegionTable, TraceTable,
+};
 use super::error::{ConfigError, Source};
 use super::value::{Critical, Number, Whole};
 use serde::Deserialize;
@@ -43,6 +46,12 @@ macro_rules! section {
                     _ => unreachable!("no section has {key}"),
                 }
                 Ok(())
+            }
+
+            /// The keys that are written, each with the place of its value.
+            fn written(&self) -> Vec<(&'static str, Range<usize>)> {
+                let keys = [$((stringify!($key), self.span(stringify!($key)))),*];
+                keys.into_iter().filter_map(|(key, span)| Some((key, span?))).collect()
             }
 
             /// Where the value of `key` stands.
@@ -167,6 +176,27 @@ impl Sections {
     }
 }
 
+impl Sections {
+    /// Every section and key that is written, with the place of its value.
+    pub fn written(&self) -> Vec<(&'static str, &'static str, Range<usize>)> {
+        let sections = [
+            ("sensor", self.sensor.written()),
+            ("noise", self.noise.written()),
+            ("rest", self.rest.written()),
+            ("motion", self.motion.written()),
+            ("impulses", self.impulses.written()),
+            ("whitening", self.whitening.written()),
+            ("samples", self.samples.written()),
+            ("detector", self.detector.written()),
+        ];
+        let keys = sections.into_iter().flat_map(|(section, keys)| {
+            keys.into_iter()
+                .map(move |(key, span)| (section, key, span))
+        });
+        keys.collect()
+    }
+}
+
 /// A struct with the sections beside its own keys. (`flatten` would lose the place of an error.)
 macro_rules! with_sections {
     ($(#[$doc:meta])* $name:ident { $($(#[$attribute:meta])* $key:ident: $kind:ty),* $(,)? }) => {
@@ -221,10 +251,16 @@ with_sections! {
         trials: Option<Spanned<Whole>>,
         half_width: Option<Spanned<Number>>,
         confidence: Option<Spanned<Number>>,
-        common_random_numbers: Option<bool>,
+        common_random_numbers: Option<Spanned<bool>>,
         pilot: Option<Spanned<Whole>>,
         at_rest: Option<bool>,
-        axis: AxisTable,
+        axis: Option<AxisTable>,
+        autocorrelation: Option<Spanned<AutocorrelationTable>>,
+        trace: Option<Spanned<TraceTable>>,
+        layout: Option<Spanned<LayoutTable>>,
+        region: Option<Spanned<RegionTable>>,
+        independence: Option<Spanned<IndependenceTable>>,
+        impulse_law: Option<Spanned<ImpulseLawTable>>,
         #[serde(default)]
         curve: Vec<CurveTable>,
         title: Option<Spanned<String>>,

@@ -7,7 +7,9 @@
 
 mod axis;
 mod claim;
+mod drawing;
 mod error;
+mod exhibit;
 mod file;
 mod resolve;
 #[cfg(test)]
@@ -17,10 +19,11 @@ mod value;
 pub use axis::{Axis, AxisValue, Parameter};
 pub use claim::{Claim, ClaimProblem, Narrative, Test};
 pub use error::{ConfigError, Problem};
+pub use exhibit::{ExhibitConfig, ExhibitKind, Experiment, Phase, PhaseKind, Trace};
 
 use crate::tally;
 use error::Source;
-use file::{File, Sections};
+use file::{AxisTable, File, Sections};
 use std::ops::Range;
 use std::path::Path;
 
@@ -67,13 +70,9 @@ impl Config {
     ///
     /// # Errors
     /// Where it cannot be read, is no TOML, has an unknown key, lacks a required one, or holds a
-    /// value of the wrong kind or range.
+    /// value of the wrong kind or range; where it sweeps nothing.
     pub fn load(path: &Path) -> Result<Self, ConfigError> {
-        let name = path.display().to_string();
-        match std::fs::read_to_string(path) {
-            Ok(text) => Self::parse(&name, &text),
-            Err(error) => Err(Source::new(&name, "").at(None, Problem::Unreadable(error))),
-        }
+        Experiment::load(path)?.sweep()
     }
 
     /// Checks a file's text; `name` is what messages call it.
@@ -81,9 +80,12 @@ impl Config {
     /// # Errors
     /// As [`Config::load`].
     pub fn parse(name: &str, text: &str) -> Result<Self, ConfigError> {
-        let source = Source::new(name, text);
-        let file = File::parse(&source)?;
-        let axis = Axis::new(&file.axis).map_err(|(span, problem)| source.at(span, problem))?;
+        Experiment::parse(name, text)?.sweep()
+    }
+
+    /// Checks the file of a sweep, whose axis is `axis`.
+    fn new(source: Source, file: &File, axis: &AxisTable) -> Result<Self, ConfigError> {
+        let axis = Axis::new(axis).map_err(|(span, problem)| source.at(span, problem))?;
         let confidence = file.confidence(&source)?;
         let trials = file.trials(&source, confidence)?;
         let base = file.sections();
@@ -114,7 +116,8 @@ impl Config {
             seed: file.seed.0,
             trials,
             confidence,
-            common_random_numbers: file.common_random_numbers.unwrap_or(true),
+            common_random_numbers: (file.common_random_numbers.as_ref())
+                .is_none_or(|shared| *shared.get_ref()),
             at_rest: file.at_rest.unwrap_or(false),
             pilot: file.pilot(&source)?,
             axis,

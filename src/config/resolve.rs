@@ -20,7 +20,7 @@ use crate::whiten::{Fit, Whitening, WhiteningError};
 use toml::Spanned;
 
 /// A problem and the sections and keys that may be to blame, the likeliest first.
-type Blamed = (Problem, &'static [(&'static str, &'static str)]);
+pub(super) type Blamed = (Problem, &'static [(&'static str, &'static str)]);
 
 impl Config {
     /// The scenario of `curve` (from 0) at one value of the axis.
@@ -75,7 +75,7 @@ impl Config {
 }
 
 impl Sections {
-    fn resolve(&self) -> Result<Scenario, Blamed> {
+    pub(super) fn resolve(&self) -> Result<Scenario, Blamed> {
         let sensor = self.sensor()?;
         let samples = self.samples()?;
         self.check_decimation(&sensor, &samples)?;

@@ -2,23 +2,20 @@
 //! false-alarm rate; in one panel, or in as many as the curves name.
 
 use super::FigureError;
-use super::frame::{CAPTION, Frame, NORMAL, Scale};
-use super::legend::Legend;
+use super::frame::{CAPTION_LEFT, CAPTION_STEP, Frame, NORMAL, Scale, WIDTH, draw_caption};
+use super::legend::{Entry, Key, Legend};
 use super::panel::{Curve, Manner, Panel, Point, rate_scale};
 use super::ruler::{LONG_RANGE, Ruler};
 use super::sheet::{Align, Look, Picture, Sheet, Style, literal};
 use super::words::{axis_label, caption, common_facts, is_held_against_alpha, legend};
 use crate::config::{Config, Parameter};
 use crate::results::{Manifest, Row};
-use plotters::prelude::{DrawingBackend, WHITE};
+use plotters::prelude::DrawingBackend;
 
-const WIDTH: f64 = 396.0;
 /// One panel without legend above and caption below.
 const HEIGHT: f64 = 262.0;
 /// One of several, with its title.
 const SMALL_HEIGHT: f64 = 150.0;
-const CAPTION_STEP: f64 = 10.5;
-const CAPTION_LEFT: f64 = 10.0;
 const LEFT: f64 = 54.0;
 const RIGHT: f64 = WIDTH - 16.0;
 /// For tick labels and the axis label under the lowest panel.
@@ -51,7 +48,11 @@ impl Curves {
         }
         let common = common_facts(&all);
         let ruler = Ruler::new(config, &all);
-        let mut entries: Vec<(String, Look)> = Vec::new();
+        let key = match ruler.is_named() {
+            true => Key::Marker,
+            false => Key::MarkedLine,
+        };
+        let mut entries: Vec<Entry> = Vec::new();
         let mut panels: Vec<Panel> = Vec::new();
         for (curve, rows) in config.curves.iter().zip(&drawn) {
             if rows.is_empty() {
@@ -61,10 +62,14 @@ impl Curves {
                 Some(series) => literal(series),
                 None => legend(rows, &common, axis),
             };
-            let known = entries.iter().find(|(known, _)| *known == words);
-            let look = known.map_or(Look::of(entries.len()), |(_, look)| *look);
+            let known = entries.iter().find(|entry| entry.text == words);
+            let look = known.map_or(Look::of(entries.len()), |entry| entry.look);
             if known.is_none() {
-                entries.push((words, look));
+                entries.push(Entry {
+                    text: words,
+                    look,
+                    key,
+                });
             }
             let mut points: Vec<Point> = (0..rows.len())
                 .map(|i| point(ruler.place(rows, i), rows[i]))
@@ -105,10 +110,7 @@ impl Curves {
             y: rate_scale(&panels, is_false_alarm, manner),
             is_whitened: all.iter().all(|row| row.delta_at == "whitened"),
             whitened_unit: whitened_unit(config, &all).filter(|_| panels.len() == 1),
-            legend: Legend {
-                entries,
-                with_lines: !manner.is_named,
-            },
+            legend: Legend { entries },
             is_false_alarm,
             manner,
             caption,
@@ -170,7 +172,7 @@ impl Curves {
 
     /// One curve without a name of its own needs no legend.
     fn has_legend(&self) -> bool {
-        !(self.legend.entries.len() == 1 && self.legend.entries[0].0 == "1")
+        !(self.legend.entries.len() == 1 && self.legend.entries[0].text == "1")
     }
 
     /// What the legend takes above the panels, where there is no better place.
@@ -205,8 +207,7 @@ impl Curves {
             (true, false) => "D, probability of detection",
         };
         if !is_left {
-            let unlabelled = frame.y.ticks.iter().map(|(y, _)| (*y, String::new()));
-            frame.y.ticks = unlabelled.collect();
+            frame.y = frame.y.unlabelled();
         }
         let x_label = match is_lowest {
             true => axis_label(self.axis, self.is_whitened),
@@ -225,11 +226,7 @@ impl Picture for Curves {
     }
 
     fn draw<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
-        let (width, height) = self.size();
-        sheet.area(
-            &[(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)],
-            plotters::style::Color::to_rgba(&WHITE),
-        )?;
+        sheet.clear(self.size())?;
         for index in 0..self.panels.len() {
             self.draw_panel(sheet, index)?;
         }
@@ -242,15 +239,7 @@ impl Picture for Curves {
             self.legend
                 .draw(sheet, self.place().unwrap_or((LEFT, 4.0)))?;
         }
-        for (line, text) in (0..).zip(&self.caption) {
-            let baseline = self.bottom() + 1.0 + CAPTION_STEP * f64::from(line);
-            sheet.text(
-                text,
-                (CAPTION_LEFT, baseline),
-                Style::plain(CAPTION, Align::Left),
-            )?;
-        }
-        Ok(())
+        draw_caption(sheet, &self.caption, self.bottom() + 1.0)
     }
 }
 

@@ -11,6 +11,15 @@ pub(super) const CAPTION: f64 = 7.5;
 /// Em size of axis labels.
 pub(super) const NORMAL: f64 = 9.0;
 
+/// Width of every picture, in points.
+pub(super) const WIDTH: f64 = 396.0;
+/// From one line of a caption to the next.
+pub(super) const CAPTION_STEP: f64 = 10.5;
+/// Where a caption starts.
+pub(super) const CAPTION_LEFT: f64 = 10.0;
+/// Between panels one under the other.
+const BETWEEN: f64 = 10.0;
+
 const AXIS_WIDTH: f64 = 0.6;
 const TICK: f64 = 3.0;
 const GRID: RGBColor = RGBColor(225, 225, 225);
@@ -81,20 +90,26 @@ impl Scale {
         }
     }
 
-    /// Decimal logarithms, `from` to `to`, with ticks at the powers of ten, written as such.
-    pub fn powers(from: f64, to: f64) -> Self {
-        let powers = (from.ceil() as i32)..=(to.floor() as i32);
-        if powers.clone().count() < 2 {
-            return Self::logarithms(from, to);
-        }
-        let label = |power: i32| match power {
-            -3..=0 => format!("{}", libm::pow(10.0, power.into())),
-            _ => minus_sign(format!("1e{power}")),
-        };
+    /// Decimal logarithms, `from` to `to`, with ticks at some of the powers of ten, about `count`.
+    pub fn powers_of_ten(from: f64, to: f64, count: usize) -> Self {
+        let (first, last) = (from.ceil() as i32, to.floor() as i32);
+        let step = ((to - from) / count as f64).ceil().max(1.0) as usize;
+        let ticks = (first..=last).rev().step_by(step);
         Self {
             from,
             to,
-            ticks: powers.map(|power| (power.into(), label(power))).collect(),
+            ticks: ticks
+                .map(|power| (f64::from(power), power_of_ten(power)))
+                .collect(),
+        }
+    }
+
+    /// The same without the words at its ticks.
+    pub fn unlabelled(&self) -> Self {
+        let ticks = self.ticks.iter().map(|(at, _)| (*at, String::new()));
+        Self {
+            ticks: ticks.collect(),
+            ..self.clone()
         }
     }
 
@@ -138,12 +153,87 @@ fn tick_step(rough: f64) -> (f64, usize) {
     }
 }
 
+/// 10⁻³.
+pub(super) fn power_of_ten(power: i32) -> String {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raised = power
+        .to_string()
+        .chars()
+        .map(|c| match c.to_digit(10) {
+            Some(digit) => RAISED[digit as usize],
+            None => '⁻',
+        })
+        .collect::<String>();
+    format!("10{raised}")
+}
+
+/// A caption below a picture, its first line at `baseline`.
+pub(super) fn draw_caption<B: DrawingBackend>(
+    sheet: &Sheet<B>,
+    lines: &[String],
+    baseline: f64,
+) -> Result<(), FigureError> {
+    for (line, text) in (0..).zip(lines) {
+        let at = (CAPTION_LEFT, baseline + CAPTION_STEP * f64::from(line));
+        sheet.text(text, at, Style::plain(CAPTION, Align::Left))?;
+    }
+    Ok(())
+}
+
 /// A hyphen is no minus.
 fn minus_sign(number: String) -> String {
     number.replace('-', "−")
 }
 
 impl Frame {
+    /// `count` panels one under the other, sharing `x`, the first below `top`; only the last has words
+    /// at the ticks of x.
+    pub fn stack(top: f64, heights: &[f64], x: &Scale, ys: Vec<Scale>) -> Vec<Self> {
+        let mut frames = Vec::new();
+        let mut top = top;
+        let last = heights.len() - 1;
+        for (index, (height, y)) in heights.iter().zip(ys).enumerate() {
+            frames.push(Self {
+                left: 54.0,
+                right: WIDTH - 16.0,
+                top,
+                bottom: top + height,
+                x: if index == last {
+                    x.clone()
+                } else {
+                    x.unlabelled()
+                },
+                y,
+            });
+            top += height + BETWEEN;
+        }
+        frames
+    }
+
+    /// A band over the whole height between two values of x.
+    pub fn draw_band<B: DrawingBackend>(
+        &self,
+        sheet: &Sheet<B>,
+        (from, to): (f64, f64),
+        colour: RGBColor,
+    ) -> Result<(), FigureError> {
+        let (left, _) = self.at(from, self.y.from);
+        let (right, _) = self.at(to, self.y.from);
+        let corners = ((left, self.top), (right, self.bottom));
+        sheet.rectangle(corners.0, corners.1, colour.to_rgba())
+    }
+
+    /// A line over the whole width at one value of y.
+    pub fn draw_level<B: DrawingBackend>(
+        &self,
+        sheet: &Sheet<B>,
+        y: f64,
+        dash: &[f64],
+    ) -> Result<(), FigureError> {
+        let (left, y) = self.at(self.x.from, y);
+        sheet.dashed(&[(left, y), (self.right, y)], 0.8, BLACK.mix(0.6), dash)
+    }
+
     /// Where a value stands on the sheet.
     pub fn at(&self, x: f64, y: f64) -> (f64, f64) {
         (
@@ -169,14 +259,8 @@ impl Frame {
         y_label: &str,
     ) -> Result<(), FigureError> {
         let black = BLACK.to_rgba();
-        let corners = [
-            (self.left, self.top),
-            (self.right, self.top),
-            (self.right, self.bottom),
-            (self.left, self.bottom),
-            (self.left, self.top),
-        ];
-        sheet.line(&corners, AXIS_WIDTH, black)?;
+        let corners = [(self.left, self.top), (self.right, self.bottom)];
+        sheet.outline(corners[0], corners[1], AXIS_WIDTH, black)?;
         for (value, label) in &self.x.ticks {
             let (x, y) = self.at(*value, self.y.from);
             sheet.line(&[(x, y), (x, y - TICK)], AXIS_WIDTH, black)?;

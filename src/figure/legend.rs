@@ -12,15 +12,28 @@ const LINE: f64 = 1.1;
 
 /// The entries of a legend.
 pub(super) struct Legend {
-    pub entries: Vec<(String, Look)>,
-    /// Whether a line runs through each marker.
-    pub with_lines: bool,
+    pub entries: Vec<Entry>,
+}
+
+/// What a look stands for.
+pub(super) struct Entry {
+    pub text: String,
+    pub look: Look,
+    pub key: Key,
+}
+
+/// How a curve is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Key {
+    Marker,
+    MarkedLine,
+    Line,
 }
 
 impl Legend {
     /// What it takes from left to right.
     pub fn width(&self) -> f64 {
-        let widths = self.entries.iter().map(|(text, _)| text_width(text, SMALL));
+        let widths = (self.entries.iter()).map(|entry| text_width(&entry.text, SMALL));
         widths.fold(0.0, f64::max) + 32.0
     }
 
@@ -51,22 +64,21 @@ impl Legend {
         (x, y): (f64, f64),
     ) -> Result<(), FigureError> {
         let (width, height) = (self.width(), self.height());
-        let corners = [
-            (x, y),
-            (x + width, y),
-            (x + width, y + height),
-            (x, y + height),
-        ];
-        sheet.area(&corners, WHITE.to_rgba())?;
-        let outline: Vec<_> = corners.into_iter().chain([(x, y)]).collect();
-        sheet.line(&outline, 0.4, BLACK.mix(0.3))?;
-        for (index, (text, look)) in self.entries.iter().enumerate() {
+        let opposite = (x + width, y + height);
+        sheet.rectangle((x, y), opposite, WHITE.to_rgba())?;
+        sheet.outline((x, y), opposite, 0.4, BLACK.mix(0.3))?;
+        for (index, Entry { text, look, key }) in self.entries.iter().enumerate() {
             let middle = y + 3.0 + STEP * (index as f64 + 0.5);
-            if self.with_lines {
-                let ends = [(x + 4.0, middle), (x + 22.0, middle)];
-                sheet.line(&ends, LINE, look.colour.to_rgba())?;
+            let ends = [(x + 4.0, middle), (x + 22.0, middle)];
+            let colour = look.colour.to_rgba();
+            match key {
+                Key::Marker => {}
+                Key::MarkedLine => sheet.line(&ends, LINE, colour)?,
+                Key::Line => sheet.dashed(&ends, LINE, colour, look.dash)?,
             }
-            sheet.marker(look.marker, (x + 13.0, middle), MARKER, look.colour)?;
+            if *key != Key::Line {
+                sheet.marker(look.marker, (x + 13.0, middle), MARKER, look.colour)?;
+            }
             let baseline = (x + 27.0, middle + 0.36 * SMALL);
             sheet.text(text, baseline, Style::plain(SMALL, Align::Left))?;
         }

@@ -3,18 +3,25 @@
 //! `sheet` is the paper: a drawing area measured in points, with lines, markers and text.
 //! `frame` puts axes on it. The other files each draw one kind of picture from results alone.
 
+mod autocorrelation;
 mod curves;
 mod frame;
+mod impulse_law;
+mod independence;
+mod layout;
 mod legend;
 mod panel;
 mod region;
 mod ruler;
 mod sheet;
 mod svg;
+mod trace;
 mod words;
 
-use crate::config::Config;
-use crate::detect::{NullLaws, Region};
+use crate::config::{Config, ExhibitConfig};
+use crate::detect::{Alternative, NullLawError, NullLaws, Region, Rule, Samples};
+use crate::exhibit::Rows;
+use crate::exhibit::region::boundary;
 use crate::results::{Manifest, Row};
 
 /// A picture in both its forms.
@@ -47,6 +54,12 @@ pub enum FigureError {
         "figure: no point of the results lies on the axis {0} (draw it from a sweep's results)"
     )]
     Empty(&'static str),
+    /// No rows, or rows that do not belong to the config.
+    #[error("figure: the rows are not those of a [{0}] (compute it again with `liftsim sweep`)")]
+    NoRows(&'static str),
+    /// The law behind a picture does not fit in memory.
+    #[error("figure: {0}")]
+    Law(#[from] NullLawError),
 }
 
 /// Draws a sweep: power, or false-alarm rate where nothing moves, against the axis.
@@ -54,27 +67,81 @@ pub enum FigureError {
 /// # Errors
 /// Where the results have no point on the config's axis, or drawing fails.
 pub fn sweep(config: &Config, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
-    let provenance = format!(
+    let picture = curves::Curves::new(config, rows, manifest)?;
+    sheet::render(&picture, &provenance(manifest))
+}
+
+/// Draws an experiment that is no sweep, from its rows.
+///
+/// # Errors
+/// Where the rows are not those of the config's kind, or drawing fails.
+pub fn exhibit(
+    config: &ExhibitConfig,
+    rows: &Rows,
+    manifest: &Manifest,
+) -> Result<Drawing, FigureError> {
+    use crate::config::ExhibitKind as Kind;
+    let from = provenance(manifest);
+    match (&config.kind, rows) {
+        _ if rows.is_empty() => Err(FigureError::NoRows(config.kind.name())),
+        (Kind::Autocorrelation { length, .. }, Rows::Autocorrelation(rows)) => {
+            let picture = autocorrelation::Lags::new(config, *length, rows, manifest);
+            sheet::render(&picture, &from)
+        }
+        (Kind::Trace(trace), Rows::Trace(rows)) => {
+            let picture = trace::Ride::new(config, trace, rows, manifest);
+            sheet::render(&picture, &from)
+        }
+        (_, Rows::Layout(rows)) => sheet::render(&layout::Layout::new(config, rows), &from),
+        (_, Rows::Region(rows)) => {
+            let scenario = &config.scenario;
+            let laws = NullLaws::new(scenario.detector.alternative, &scenario.samples)?;
+            let title = region_title(
+                &scenario.samples,
+                scenario.detector.alternative,
+                scenario.detector.alpha,
+            );
+            sheet::render(&region::Plane::new(&laws, rows, title), &from)
+        }
+        (_, Rows::Independence(rows)) => sheet::render(&independence::Diagonal::new(rows), &from),
+        (_, Rows::ImpulseLaw(rows)) => sheet::render(
+            &impulse_law::Laws::new(rows, manifest, config.confidence),
+            &from,
+        ),
+        _ => Err(FigureError::NoRows(config.kind.name())),
+    }
+}
+
+/// Draws the plane of W and T: the null probability of every cell, and the boundary of a region in it.
+/// `title` is in parts, between which a line may break.
+///
+/// # Errors
+/// Where drawing fails.
+pub fn region(
+    laws: &NullLaws,
+    rule: &Rule,
+    region: &Region,
+    title: Vec<String>,
+) -> Result<Drawing, FigureError> {
+    let rows = boundary(rule, region);
+    let version = env!("CARGO_PKG_VERSION");
+    let provenance = format!("liftsim {version}, rule {rule}, {}", title.join("; "));
+    sheet::render(&region::Plane::new(laws, &rows, title), &provenance)
+}
+
+/// What the title of a plane of W and T says of regions at these sizes and this level.
+pub fn region_title(samples: &Samples, alternative: Alternative, alpha: f64) -> Vec<String> {
+    region::title(samples, alternative, alpha)
+}
+
+/// What made a picture, for whoever finds it alone.
+fn provenance(manifest: &Manifest) -> String {
+    format!(
         "liftsim {}, config {} ({}), seed {}, {} trials per point",
         manifest.version,
         manifest.config_name,
         manifest.short_hash(),
         manifest.seed,
         manifest.trials
-    );
-    sheet::render(&curves::Curves::new(config, rows, manifest)?, &provenance)
-}
-
-/// Draws the plane of W and T: the null probability of every cell, and the region in it. `title` is in
-/// parts, between which a line may break.
-///
-/// # Errors
-/// Where drawing fails.
-pub fn region(laws: &NullLaws, region: &Region, title: &[String]) -> Result<Drawing, FigureError> {
-    let provenance = format!(
-        "liftsim {}, {}",
-        env!("CARGO_PKG_VERSION"),
-        title.join("; ")
-    );
-    sheet::render(&region::Plane::new(laws, region, title), &provenance)
+    )
 }

@@ -3,7 +3,7 @@
 use super::FigureError;
 use super::frame::{Frame, Scale};
 use super::sheet::{Look, Sheet};
-use plotters::prelude::{BLACK, Color, DrawingBackend};
+use plotters::prelude::{Color, DrawingBackend};
 
 const LINE: f64 = 1.1;
 const MARKER: f64 = 2.3;
@@ -90,8 +90,7 @@ impl Panel {
     ) -> Result<(), FigureError> {
         frame.draw_grid(sheet)?;
         if let Some(nominal) = manner.nominal {
-            let (left, y) = frame.at(frame.x.from, nominal);
-            sheet.line(&[(left, y), (frame.right, y)], 0.8, BLACK.mix(0.6))?;
+            frame.draw_level(sheet, nominal, &[])?;
         }
         match manner.is_named {
             false => self.draw_lines(sheet, frame)?,
@@ -171,7 +170,7 @@ pub(super) fn rate_scale(panels: &[Panel], is_false_alarm: bool, manner: Manner)
         (true, true) => {
             let rates = || points().map(|p| p.rate).chain(nominal);
             let (bottom, top) = (lowest(&mut rates()), highest(&mut rates()));
-            Scale::powers(bottom - 0.25, (top + 0.15).min(0.0))
+            Scale::powers_of_ten(bottom - 0.25, (top + 0.15).min(0.0), 6)
         }
         (true, false) => {
             let bottom = lowest(&mut points().map(|p| p.low).chain(nominal));

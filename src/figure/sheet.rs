@@ -83,6 +83,8 @@ pub(super) enum Marker {
 pub(super) struct Look {
     pub colour: RGBColor,
     pub marker: Marker,
+    /// Points drawn and left out in turn, for lines without markers; none for a solid line.
+    pub dash: &'static [f64],
 }
 
 impl Look {
@@ -105,9 +107,11 @@ impl Look {
             Marker::Wedge,
             Marker::Cross,
         ];
+        const DASHES: [&[f64]; 4] = [&[], &[6.0, 2.0], &[1.5, 1.5], &[6.0, 1.5, 1.5, 1.5]];
         Self {
             colour: COLOURS[index % 6],
             marker: MARKERS[(index + index / 6) % 6],
+            dash: DASHES[index % 4],
         }
     }
 }
@@ -251,6 +255,32 @@ fn runs(text: &str) -> Vec<Run> {
     runs
 }
 
+/// The parts of a line through `points` that a `dash` leaves.
+fn strokes(points: &[(f64, f64)], dash: &[f64]) -> Vec<Vec<(f64, f64)>> {
+    let mut strokes = vec![points[..1].to_vec()];
+    let (mut phase, mut left) = (0, dash[0]);
+    for pair in points.windows(2) {
+        let ((x, y), (dx, dy)) = (pair[0], (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1));
+        let length = dx.hypot(dy);
+        let mut along = 0.0;
+        while length - along > left {
+            along += left;
+            let turn = (x + dx * along / length, y + dy * along / length);
+            match phase % 2 {
+                0 => strokes[phase / 2].push(turn),
+                _ => strokes.push(vec![turn]),
+            }
+            phase += 1;
+            left = dash[phase % dash.len()];
+        }
+        left -= length - along;
+        if phase % 2 == 0 {
+            strokes[phase / 2].push(pair[1]);
+        }
+    }
+    strokes
+}
+
 fn refused(error: impl std::error::Error) -> FigureError {
     FigureError::Drawing(error.to_string())
 }
@@ -281,6 +311,57 @@ impl<B: DrawingBackend> Sheet<B> {
         let points: Vec<_> = points.iter().map(|&point| self.at(point)).collect();
         let width = (width * self.unit).round().max(1.0) as u32;
         self.put(&PathElement::new(points, colour.stroke_width(width)))
+    }
+
+    /// A line through `points`, its `dash` drawn and left out in turn.
+    pub fn dashed(
+        &self,
+        points: &[(f64, f64)],
+        width: f64,
+        colour: RGBAColor,
+        dash: &[f64],
+    ) -> Result<(), FigureError> {
+        if dash.is_empty() {
+            return self.line(points, width, colour);
+        }
+        for stroke in strokes(points, dash) {
+            self.line(&stroke, width, colour)?;
+        }
+        Ok(())
+    }
+
+    /// White paper of the given size.
+    pub fn clear(&self, (width, height): (f64, f64)) -> Result<(), FigureError> {
+        self.rectangle((0.0, 0.0), (width, height), WHITE.to_rgba())
+    }
+
+    /// A filled rectangle between two opposite corners.
+    pub fn rectangle(
+        &self,
+        (left, top): (f64, f64),
+        (right, bottom): (f64, f64),
+        colour: RGBAColor,
+    ) -> Result<(), FigureError> {
+        let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
+        self.area(&corners, colour)
+    }
+
+    /// The edge of a rectangle.
+    pub fn outline(
+        &self,
+        (left, top): (f64, f64),
+        (right, bottom): (f64, f64),
+        width: f64,
+        colour: RGBAColor,
+    ) -> Result<(), FigureError> {
+        let corners = [
+            (left, top),
+            (right, top),
+            (right, bottom),
+            (left, bottom),
+            (left, top),
+        ];
+        self.line(&corners, width, colour)
     }
 
     /// A filled polygon.
@@ -373,5 +454,22 @@ impl<B: DrawingBackend> Sheet<B> {
             along += run.width(style.size);
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Round a corner, 3 drawn and 2 left out.
+    #[test]
+    fn dashes_go_round_corners() {
+        let line = [(0.0, 0.0), (6.0, 0.0), (6.0, 5.0)];
+        let expected = [
+            vec![(0.0, 0.0), (3.0, 0.0)],
+            vec![(5.0, 0.0), (6.0, 0.0), (6.0, 2.0)],
+            vec![(6.0, 4.0), (6.0, 5.0)],
+        ];
+        assert_eq!(strokes(&line, &[3.0, 2.0]), expected);
     }
 }

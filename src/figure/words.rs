@@ -266,7 +266,7 @@ fn calibration(row: &Row) -> String {
 }
 
 /// 200000 as 200 000, with thin spaces.
-fn thousands(number: u64) -> String {
+pub(super) fn thousands(number: u64) -> String {
     let digits = number.to_string();
     let first = digits.len() % 3;
     let (head, tail) = digits.split_at(first);

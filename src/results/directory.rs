@@ -1,6 +1,7 @@
 //! The directory of one experiment: what it holds, what may replace it, how files get there.
 
 use super::{Comparison, Manifest, Quantity, Row, sha256};
+use crate::config::{ExhibitConfig, Experiment};
 use crate::plan::Plan;
 use crate::tally::Tally;
 use serde::de::DeserializeOwned;
@@ -111,6 +112,11 @@ impl Directory {
         };
         self.check_origin(name)?;
         let held = self.manifest()?;
+        if let Some(kind) = exhibit_in(&held) {
+            let path = self.path.clone();
+            let difference = format!("[{kind}] there, a sweep here");
+            return Err(ResultsError::Different { path, difference });
+        }
         let rows = self.rows(&held)?;
         if let Some(difference) = difference(&held, &rows, plan) {
             let path = self.path.clone();
@@ -147,6 +153,32 @@ impl Directory {
         }
     }
 
+    /// The same as [`Directory::admit`] for an experiment that is no sweep.
+    ///
+    /// # Errors
+    /// Where its results may not go here.
+    pub fn admit_exhibit(&self, config: &ExhibitConfig, fresh: bool) -> Result<(), ResultsError> {
+        self.check_writable()?;
+        let Some(name) = self.held().filter(|_| !fresh) else {
+            return Ok(());
+        };
+        self.check_origin(name)?;
+        let path = self.path.clone();
+        let held = self.manifest()?;
+        self.points(&held)?;
+        if let Some(difference) = exhibit_difference(&held, config) {
+            return Err(ResultsError::Different { path, difference });
+        }
+        match held.trials > config.trials {
+            true => Err(ResultsError::FewerTrials {
+                path,
+                held: held.trials,
+                asked: config.trials,
+            }),
+            false => Ok(()),
+        }
+    }
+
     /// A file that a run would replace.
     fn held(&self) -> Option<&'static str> {
         let mut names = [MANIFEST].into_iter().chain(FILES);
@@ -154,7 +186,10 @@ impl Directory {
     }
 
     /// Whether a file can be made here, or a directory where this one is to be.
-    fn check_writable(&self) -> Result<(), ResultsError> {
+    ///
+    /// # Errors
+    /// Where not.
+    pub fn check_writable(&self) -> Result<(), ResultsError> {
         let existing = self.path.ancestors().find(|path| path.exists());
         let place = existing.unwrap_or(Path::new("."));
         tempfile::Builder::new()
@@ -232,18 +267,41 @@ impl Directory {
         name: &str,
         manifest: &Manifest,
     ) -> Result<Vec<R>, ResultsError> {
-        let (path, bytes) = self.read(name)?;
-        if manifest.files.get(name) != Some(&sha256(&bytes)) {
-            let error = "its bytes are not those that run.json vouches for".to_owned();
-            return Err(ResultsError::Damaged { path, error });
-        }
-        csv::Reader::from_reader(&bytes[..])
+        csv::Reader::from_reader(&self.vouched(name, manifest)?[..])
             .deserialize()
             .collect::<Result<_, csv::Error>>()
-            .map_err(|error| ResultsError::Damaged {
-                path,
-                error: error.to_string(),
-            })
+            .map_err(|error| self.damaged(name, error))
+    }
+
+    /// The bytes of `points.csv`, which must be those that `manifest` vouches for.
+    ///
+    /// # Errors
+    /// Where it is missing or changed.
+    pub fn points(&self, manifest: &Manifest) -> Result<Vec<u8>, ResultsError> {
+        self.vouched(POINTS, manifest)
+    }
+
+    /// What is wrong with a `points.csv` that cannot be read as rows.
+    pub fn damaged_points(&self, error: csv::Error) -> ResultsError {
+        self.damaged(POINTS, error)
+    }
+
+    fn vouched(&self, name: &str, manifest: &Manifest) -> Result<Vec<u8>, ResultsError> {
+        let (path, bytes) = self.read(name)?;
+        match manifest.files.get(name) == Some(&sha256(&bytes)) {
+            true => Ok(bytes),
+            false => {
+                let error = "its bytes are not those that run.json vouches for".to_owned();
+                Err(ResultsError::Damaged { path, error })
+            }
+        }
+    }
+
+    fn damaged(&self, name: &str, error: csv::Error) -> ResultsError {
+        ResultsError::Damaged {
+            path: self.path.join(name),
+            error: error.to_string(),
+        }
     }
 
     fn read(&self, name: &str) -> Result<(PathBuf, Vec<u8>), ResultsError> {
@@ -312,6 +370,34 @@ fn make_readable(file: &std::fs::File) -> io::Result<()> {
 #[cfg(not(unix))]
 fn make_readable(_: &std::fs::File) -> io::Result<()> {
     Ok(())
+}
+
+/// The exhibit that a manifest's config draws, if it is one.
+fn exhibit_in(held: &Manifest) -> Option<&'static str> {
+    match Experiment::parse(&held.config_name, &held.config) {
+        Ok(Experiment::Exhibit(config)) => Some(config.kind.name()),
+        _ => None,
+    }
+}
+
+/// The first thing that keeps held results from being those of `config`; the question and the number
+/// of trials do not count.
+fn exhibit_difference(held: &Manifest, config: &ExhibitConfig) -> Option<String> {
+    let here = config.kind.name();
+    let there = match Experiment::parse(&held.config_name, &held.config) {
+        Ok(Experiment::Exhibit(there)) => there,
+        _ => return Some(format!("a sweep there, [{here}] here")),
+    };
+    if there.kind.name() != here {
+        return Some(format!("[{}] there, [{here}] here", there.kind.name()));
+    }
+    if held.seed != config.seed {
+        return Some(format!("seed is {} there, {} here", held.seed, config.seed));
+    }
+    if there.kind != config.kind {
+        return Some(format!("[{here}] says something else there"));
+    }
+    (there.scenario != config.scenario).then(|| "the sections say something else there".to_owned())
 }
 
 /// The first thing that keeps held results from being those of `plan`; labels, captions and

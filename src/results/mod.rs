@@ -15,4 +15,4 @@ pub use comparison::{Comparison, Place};
 pub use directory::{Directory, ResultsError};
 pub use manifest::{Manifest, sha256};
 pub use quantity::Quantity;
-pub use row::{Row, csv_bytes};
+pub use row::{Row, csv_bytes, eight_digits};

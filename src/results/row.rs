@@ -202,7 +202,7 @@ fn stated((motion, impulses): (Motion, Impulses)) -> String {
 }
 
 /// Eight significant digits: more than any count supports, fewer than the last bits of a bisection.
-pub(super) fn eight_digits(value: f64) -> f64 {
+pub fn eight_digits(value: f64) -> f64 {
     format!("{value:.7e}").parse().unwrap_or(value)
 }
 

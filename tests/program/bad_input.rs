@@ -196,6 +196,35 @@ const CONFIGS: &[(&str, &str)] = &[
         "two numbers of trials",
         "half_width = 0.01\n[axis]\ndelta = [1.0]\n",
     ),
+    ("two things to do", "[axis]\ndelta = [1.0]\n[layout]\n"),
+    ("two drawings", "[layout]\n[impulse_law]\nnu = [0.1]\n"),
+    ("trials of a drawing that has none", "[layout]\n"),
+    (
+        "curves of a drawing",
+        "[impulse_law]\nnu = [0.1]\n[[curve]]\nlabel = \"1\"\n",
+    ),
+    (
+        "a section that means nothing",
+        "[autocorrelation]\n[samples]\nscale = 3\n",
+    ),
+    (
+        "noise shared by nothing",
+        "common_random_numbers = false\n[autocorrelation]\n",
+    ),
+    ("unknown key of a drawing", "[autocorrelation]\nlag = 3\n"),
+    ("no lags", "[autocorrelation]\nlags = 0\n"),
+    (
+        "lags beyond the record",
+        "[autocorrelation]\nlength = 10\nlags = 10\n",
+    ),
+    (
+        "a law without a fourth moment",
+        "[autocorrelation]\n[noise]\nlaw = { student_t = 3.0 }\n",
+    ),
+    ("nu of 0", "[impulse_law]\nnu = [0.1, 0.0]\n"),
+    ("nu twice", "[impulse_law]\nnu = [0.1, 0.1]\n"),
+    ("no nu", "[impulse_law]\nnu = []\n"),
+    ("a drawing without its key", "[impulse_law]\nlength = 10\n"),
     (
         "confidence of 1",
         "confidence = 1.0\n[axis]\ndelta = [1.0]\n",
@@ -339,6 +368,118 @@ fn configs() {
         writeln!(messages, "--- {about}\n{err}").unwrap();
     }
     insta::assert_snapshot!("configs", messages);
+}
+
+/// Drawings that repeat nothing and so have no trials.
+const DRAWINGS: &[(&str, &str)] = &[
+    ("no phases", "[trace]\nphases = []\n"),
+    ("an unknown phase", "[trace]\nphases = [{ resting = 5 }]\n"),
+    (
+        "a phase of 0",
+        "[trace]\nphases = [{ rest = 5 }, { inertial = 0 }]\n",
+    ),
+    (
+        "an endless phase",
+        "[trace]\nphases = [{ rest = 100000000000 }]\n",
+    ),
+    (
+        "rate of 0",
+        "[trace]\nphases = [{ rest = 5 }]\nrate = 0.0\n",
+    ),
+    (
+        "negative sigma",
+        "[trace]\nphases = [{ rest = 5 }]\nsigma = -1.0\n",
+    ),
+    (
+        "negative vibration",
+        "[trace]\nphases = [{ rest = 5 }]\nvibration = -1.0\n",
+    ),
+    (
+        "a unit without a name",
+        "[trace]\nphases = [{ rest = 5 }]\nunit = \"\"\n",
+    ),
+    (
+        "drawn from beyond the end",
+        "[trace]\nphases = [{ rest = 5 }]\ndrawn_from = 5\n",
+    ),
+    (
+        "whitened without an acceleration",
+        "[trace]\nphases = [{ rest = 500 }]\nwhitened = true\n",
+    ),
+    (
+        "no rest to train on",
+        "[trace]\nphases = [{ rest = 50 }, { acceleration = 12 }]\nwhitened = true\n",
+    ),
+    (
+        "no room for Y2",
+        "[trace]\nphases = [{ rest = 300 }, { acceleration = 12 }]\nwhitened = true\n",
+    ),
+    (
+        "a rise longer than a phase",
+        "[trace]\nphases = [{ acceleration = 10 }]\n[motion]\nprofile = { trapezoid = { rise = 6.0 } }\n",
+    ),
+    (
+        "a duration beside phases",
+        "[trace]\nphases = [{ acceleration = 10 }]\n[motion]\nduration = 6\n",
+    ),
+    (
+        "whitening of what is not whitened",
+        "[trace]\nphases = [{ acceleration = 10 }]\n[whitening]\norder = 3\n",
+    ),
+    ("no rules", "[region]\nrules = []\n"),
+    ("an unknown rule", "[region]\nrules = [\"wilcoxen\"]\n"),
+    (
+        "a rule beside rules",
+        "[region]\nrules = [\"product\"]\n[detector]\nrule = \"product\"\n",
+    ),
+    (
+        "a rule out of reach",
+        "[region]\nrules = [\"conjunction\"]\n[samples]\nscale = 1\n",
+    ),
+    ("no sizes", "[independence]\nsizes = []\n"),
+    ("two sizes", "[independence]\nsizes = [[2, 2]]\n"),
+    (
+        "sizes of 0",
+        "[independence]\nsizes = [[2, 2, 2], [2, 0, 2]]\n",
+    ),
+    (
+        "too many assignments",
+        "[independence]\nsizes = [[12, 12, 12]]\n",
+    ),
+    (
+        "sizes twice",
+        "[independence]\nsizes = [[2, 2, 2], [2, 2, 2]]\n",
+    ),
+    (
+        "a rule twice",
+        "[region]\nrules = [\"product\", \"product\"]\n",
+    ),
+    (
+        "an immense layout",
+        "[layout]\n[samples]\ngap = 9223372036854775807\n",
+    ),
+    (
+        "immense sizes",
+        "[independence]\nsizes = [[1, 1, 9223372036854775807]]\n",
+    ),
+];
+
+#[test]
+fn drawings() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut messages = String::new();
+    for (about, rest) in DRAWINGS {
+        let text = format!("question = \"?\"\nseed = 1\n{rest}");
+        fs::write(directory.path().join("bad.toml"), text).unwrap();
+        let mut command = liftsim();
+        command.current_dir(&directory).args(["sweep", "bad.toml"]);
+        let (code, out, err) = outcome(&mut command);
+        assert_eq!((code, out.as_str()), (2, ""), "{about}: {err}");
+        assert!(!err.contains("panicked"), "{about}: {err}");
+        assert!(!directory.path().join("results").exists(), "{about}");
+        writeln!(messages, "--- {about}\n{err}").unwrap();
+    }
+    insta::assert_snapshot!("drawings", messages);
 }
 
 #[test]

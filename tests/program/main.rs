@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod commands;
+mod exhibits;
 mod figures;
 mod gate;
 mod results;

@@ -1,0 +1,164 @@
+//! From results to files: what every verb that writes a result directory shares.
+
+use super::Failure;
+use liftsim::config::{Config, ExhibitConfig};
+use liftsim::results::{self, Directory, Manifest};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// What a manifest says of an experiment before it is run.
+pub struct Origin<'a> {
+    pub name: &'a str,
+    pub text: &'a str,
+    pub seed: u64,
+    pub trials: u64,
+    pub common_random_numbers: bool,
+}
+
+impl<'a> From<&'a Config> for Origin<'a> {
+    fn from(config: &'a Config) -> Self {
+        Self {
+            name: config.name(),
+            text: config.text(),
+            seed: config.seed,
+            trials: config.trials,
+            common_random_numbers: config.common_random_numbers,
+        }
+    }
+}
+
+impl<'a> From<&'a ExhibitConfig> for Origin<'a> {
+    fn from(config: &'a ExhibitConfig) -> Self {
+        Self {
+            name: config.name(),
+            text: config.text(),
+            seed: config.seed,
+            trials: config.trials,
+            common_random_numbers: true,
+        }
+    }
+}
+
+impl Origin<'_> {
+    /// Whether results with this manifest are those of this experiment by this version.
+    pub fn made(&self, manifest: &Manifest) -> bool {
+        manifest.config == self.text
+            && manifest.config_name == file_name(self.name)
+            && manifest.seed == self.seed
+            && manifest.trials == self.trials
+            && manifest.version == env!("CARGO_PKG_VERSION")
+    }
+
+    /// The command that makes the same results, wherever the files are.
+    fn command_line(&self) -> String {
+        let Self { seed, trials, .. } = self;
+        format!(
+            "liftsim sweep {} --seed {seed} --trials {trials}",
+            file_name(self.name)
+        )
+    }
+}
+
+/// How results came about that took `seconds`; no file is vouched for yet.
+pub fn manifest(origin: &Origin, seconds: f64) -> Manifest {
+    Manifest {
+        config_name: file_name(origin.name),
+        config: origin.text.to_owned(),
+        config_sha256: results::sha256(origin.text.as_bytes()),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        revision: env!("LIFTSIM_REVISION").to_owned(),
+        command: origin.command_line(),
+        seed: origin.seed,
+        trials: origin.trials,
+        common_random_numbers: origin.common_random_numbers,
+        seconds,
+        threads: rayon::current_num_threads(),
+        architecture: architecture(),
+        files: BTreeMap::new(),
+    }
+}
+
+/// What has been written.
+pub struct Written {
+    /// A line per file.
+    pub files: String,
+    /// Whether a file other than the manifest has new bytes.
+    pub is_new: bool,
+}
+
+impl Written {
+    /// In a word.
+    pub fn note(&self) -> &'static str {
+        if self.is_new { "written" } else { "unchanged" }
+    }
+}
+
+/// Writes files, then the manifest that vouches for them, and takes away what it does not vouch for.
+pub fn write_all(
+    directory: &Directory,
+    mut manifest: Manifest,
+    files: &[(&str, Vec<u8>)],
+) -> Result<Written, Failure> {
+    let mut written = Written {
+        files: String::new(),
+        is_new: false,
+    };
+    for (name, bytes) in files {
+        let is_new = store(directory, &mut manifest, name, bytes)?;
+        written.files += &line(directory, name, is_new);
+        written.is_new |= is_new;
+    }
+    directory
+        .write("run.json", &manifest.to_json())
+        .map_err(Failure::run)?;
+    directory.remove_stale(&manifest).map_err(Failure::run)?;
+    written.files += &line(directory, "run.json", true);
+    Ok(written)
+}
+
+/// Writes a file, lets the manifest vouch for it, and says whether it is new.
+pub fn store(
+    directory: &Directory,
+    manifest: &mut Manifest,
+    name: &str,
+    bytes: &[u8],
+) -> Result<bool, Failure> {
+    let is_new = directory.write(name, bytes).map_err(Failure::run)?;
+    manifest
+        .files
+        .insert(name.to_owned(), results::sha256(bytes));
+    Ok(is_new)
+}
+
+/// A file and whether it is new.
+pub fn line(directory: &Directory, name: &str, is_new: bool) -> String {
+    let note = if is_new { "written" } else { "unchanged" };
+    format!("{}  {note}\n", directory.path().join(name).display())
+}
+
+/// Without the way to it.
+pub fn file_name(path: &str) -> String {
+    let name = Path::new(path).file_name();
+    name.map_or(path.to_owned(), |name| name.to_string_lossy().into_owned())
+}
+
+/// The processor family, and which vector instructions it offers.
+fn architecture() -> String {
+    #[cfg(target_arch = "x86_64")]
+    let features = [
+        ("avx2", std::is_x86_feature_detected!("avx2")),
+        ("fma", std::is_x86_feature_detected!("fma")),
+        ("avx512f", std::is_x86_feature_detected!("avx512f")),
+    ];
+    #[cfg(not(target_arch = "x86_64"))]
+    let features: [(&str, bool); 0] = [];
+    let present = features
+        .iter()
+        .filter(|(_, present)| *present)
+        .map(|(name, _)| *name);
+    [std::env::consts::ARCH]
+        .into_iter()
+        .chain(present)
+        .collect::<Vec<_>>()
+        .join(" ")
+}

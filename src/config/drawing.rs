@@ -1,0 +1,371 @@
+//! The tables that say what to draw, as they stand in the file, and what they come to: one of them
+//! takes the place of `[axis]` and `[[curve]]`.
+
+use super::error::Problem;
+use super::exhibit::{ExhibitKind, Phase, PhaseKind, Trace};
+use super::file::{File, LawKind, RuleKind, Sections};
+use super::value::{Number, Whole};
+use crate::chain::Scenario;
+use crate::detect::{Method, Rule};
+use serde::Deserialize;
+use std::ops::{Range, RangeInclusive};
+use toml::Spanned;
+
+/// A problem and where it stands, if anywhere but the whole table.
+pub(super) type Refused = (Option<Range<usize>>, Problem);
+
+/// Most samples in one realisation.
+const LONGEST: usize = 1_000_000;
+/// Most assignments of ranks that an enumeration may take; their square is exact in an f64.
+const MOST_ASSIGNMENTS: u128 = 50_000_000;
+/// Most curves that can be told apart.
+const MOST_CURVES: usize = 36;
+
+/// `[autocorrelation]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct AutocorrelationTable {
+    pub lags: Option<Spanned<Whole>>,
+    pub length: Option<Spanned<Whole>>,
+}
+
+/// `[trace]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TraceTable {
+    pub phases: Spanned<Vec<Spanned<PhaseTable>>>,
+    pub rate: Option<Spanned<Number>>,
+    pub sigma: Option<Spanned<Number>>,
+    pub unit: Option<Spanned<String>>,
+    pub vibration: Option<Spanned<Number>>,
+    pub whitened: Option<Spanned<bool>>,
+    pub drawn_from: Option<Spanned<Whole>>,
+}
+
+/// One of `trace.phases`, its length in samples.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum PhaseTable {
+    Rest(Whole),
+    Acceleration(Whole),
+    Inertial(Whole),
+    Braking(Whole),
+}
+
+/// `[layout]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LayoutTable {}
+
+/// `[region]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RegionTable {
+    pub rules: Spanned<Vec<Spanned<RuleKind>>>,
+}
+
+/// `[independence]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct IndependenceTable {
+    pub sizes: Spanned<Vec<Spanned<[Whole; 3]>>>,
+}
+
+/// `[impulse_law]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ImpulseLawTable {
+    pub nu: Spanned<Vec<Spanned<Number>>>,
+    pub length: Option<Spanned<Whole>>,
+}
+
+pub(super) fn autocorrelation(table: &AutocorrelationTable) -> Result<ExhibitKind, Refused> {
+    const KIND: &str = "autocorrelation";
+    let length = whole(KIND, "length", &table.length, 4096, 2..=LONGEST)?;
+    let lags = whole(KIND, "lags", &table.lags, 40, 1..=length.min(10_000) - 1)?;
+    Ok(ExhibitKind::Autocorrelation { lags, length })
+}
+
+pub(super) fn trace(table: &TraceTable) -> Result<Trace, Refused> {
+    const KIND: &str = "trace";
+    let phases: Vec<Phase> = table
+        .phases
+        .get_ref()
+        .iter()
+        .map(phase)
+        .collect::<Result<_, _>>()?;
+    let length = phases
+        .iter()
+        .fold(0usize, |sum, phase| sum.saturating_add(phase.length));
+    if !(1..=LONGEST).contains(&length) {
+        let rule = format!("hold 1 to {LONGEST} samples");
+        let problem = out_of_range(KIND, "phases", rule, length.to_string());
+        return Err((Some(table.phases.span()), problem));
+    }
+    let unit = table.unit.as_ref().map(|unit| unit.get_ref().trim());
+    if let Some("") = unit {
+        let problem = out_of_range(KIND, "unit", "have a name".to_owned(), "\"\"".to_owned());
+        return Err((table.unit.as_ref().map(Spanned::span), problem));
+    }
+    Ok(Trace {
+        rate: positive(KIND, "rate", &table.rate, 1.0)?,
+        sigma: positive(KIND, "sigma", &table.sigma, 1.0)?,
+        unit: unit.unwrap_or("σ_ξ").to_owned(),
+        vibration: vibration(&table.vibration)?,
+        whitened: table
+            .whitened
+            .as_ref()
+            .is_some_and(|whitened| *whitened.get_ref()),
+        drawn_from: whole(KIND, "drawn_from", &table.drawn_from, 0, 0..=length - 1)?,
+        phases,
+    })
+}
+
+fn phase(given: &Spanned<PhaseTable>) -> Result<Phase, Refused> {
+    let (kind, length) = match *given.get_ref() {
+        PhaseTable::Rest(length) => (PhaseKind::Rest, length),
+        PhaseTable::Acceleration(length) => (PhaseKind::Acceleration, length),
+        PhaseTable::Inertial(length) => (PhaseKind::Inertial, length),
+        PhaseTable::Braking(length) => (PhaseKind::Braking, length),
+    };
+    let length = length.size();
+    if length == 0 {
+        let rule = format!("give {} at least 1 sample", kind.name());
+        let problem = out_of_range("trace", "phases", rule, "0".to_owned());
+        return Err((Some(given.span()), problem));
+    }
+    Ok(Phase { kind, length })
+}
+
+fn vibration(given: &Option<Spanned<Number>>) -> Result<f64, Refused> {
+    let value = given.as_ref().map_or(0.0, |value| value.get_ref().0);
+    match value >= 0.0 {
+        true => Ok(value),
+        false => {
+            let rule = "be zero or positive".to_owned();
+            let problem = out_of_range("trace", "vibration", rule, value.to_string());
+            Err((given.as_ref().map(Spanned::span), problem))
+        }
+    }
+}
+
+/// The rules, read by the same code as a detector's.
+pub(super) fn rules(table: &RegionTable, sections: &Sections) -> Result<ExhibitKind, Refused> {
+    let given = table.rules.get_ref();
+    if given.is_empty() {
+        let problem = out_of_range(
+            "region",
+            "rules",
+            "name a rule".to_owned(),
+            "none".to_owned(),
+        );
+        return Err((Some(table.rules.span()), problem));
+    }
+    let rule = |kind: &Spanned<_>| {
+        let mut sections = sections.clone();
+        sections.detector.rule = Some(kind.clone());
+        match sections.resolve() {
+            Ok(scenario) => match scenario.detector.method {
+                Method::Rule(rule) => Ok(rule),
+                other => {
+                    let rule = "have an exact boundary".to_owned();
+                    let problem = out_of_range("region", "rules", rule, other.to_string());
+                    Err((Some(kind.span()), problem))
+                }
+            },
+            Err((problem, keys)) => Err((sections.first_span(keys), problem)),
+        }
+    };
+    let rules: Vec<Rule> = given.iter().map(rule).collect::<Result<_, _>>()?;
+    let repeated = (1..rules.len()).find(|&index| rules[..index].contains(&rules[index]));
+    if let Some(index) = repeated {
+        let (rule, got) = ("differ from each other", format!("{} twice", rules[index]));
+        let problem = out_of_range("region", "rules", rule.to_owned(), got);
+        return Err((Some(given[index].span()), problem));
+    }
+    Ok(ExhibitKind::Region { rules })
+}
+
+pub(super) fn sizes(table: &IndependenceTable) -> Result<ExhibitKind, Refused> {
+    let refuse = |span, rule: String, got: String| {
+        Err((Some(span), out_of_range("independence", "sizes", rule, got)))
+    };
+    let given = table.sizes.get_ref();
+    if given.is_empty() {
+        let rule = "list at least one [N, M1, M2]".to_owned();
+        return refuse(table.sizes.span(), rule, "none".to_owned());
+    }
+    let mut sizes = Vec::new();
+    for spanned in given {
+        let triple = spanned.get_ref().map(Whole::size);
+        if triple.contains(&0) {
+            let rule = "be at least 1 each".to_owned();
+            return refuse(spanned.span(), rule, format!("{triple:?}"));
+        }
+        if assignments(triple).is_none_or(|number| number > MOST_ASSIGNMENTS) {
+            let rule = format!("have at most {MOST_ASSIGNMENTS} assignments of ranks");
+            return refuse(spanned.span(), rule, format!("{triple:?}"));
+        }
+        if sizes.contains(&triple) {
+            let rule = "differ from each other".to_owned();
+            return refuse(spanned.span(), rule, format!("{triple:?} twice"));
+        }
+        sizes.push(triple);
+    }
+    Ok(ExhibitKind::Independence { sizes })
+}
+
+/// (N + M₁ + M₂)!/(N! M₁! M₂!), unless it is very large.
+fn assignments([n, m1, m2]: [usize; 3]) -> Option<u128> {
+    let mut number = 1u128;
+    for (before, more) in [(n, m1), (n.checked_add(m1)?, m2)] {
+        for i in 1..=more {
+            number = number.checked_mul(before.checked_add(i)? as u128)? / i as u128;
+            if number > MOST_ASSIGNMENTS {
+                return None;
+            }
+        }
+    }
+    Some(number)
+}
+
+pub(super) fn impulse_law(table: &ImpulseLawTable) -> Result<ExhibitKind, Refused> {
+    const KIND: &str = "impulse_law";
+    let refuse = |span, rule: &str, got: String| {
+        let problem = out_of_range(KIND, "nu", rule.to_owned(), got);
+        Err((Some(span), problem))
+    };
+    let mut nu: Vec<f64> = Vec::new();
+    for given in table.nu.get_ref() {
+        let value = given.get_ref().0;
+        if !(value > 0.0 && value < 1.0) {
+            let rule = "lie strictly between 0 and 1";
+            return refuse(given.span(), rule, value.to_string());
+        }
+        if nu.contains(&value) {
+            return refuse(given.span(), "differ from the others", value.to_string());
+        }
+        nu.push(value);
+    }
+    if nu.len() > MOST_CURVES {
+        let rule = format!("list at most {MOST_CURVES} probabilities");
+        return refuse(table.nu.span(), &rule, nu.len().to_string());
+    }
+    if nu.is_empty() {
+        return refuse(
+            table.nu.span(),
+            "list at least one probability",
+            "none".to_owned(),
+        );
+    }
+    let length = whole(KIND, "length", &table.length, 200, 1..=10_000)?;
+    Ok(ExhibitKind::ImpulseLaw { nu, length })
+}
+
+/// The band of an autocorrelation is that of a mean of squares, which a heavy tail does not have.
+pub(super) fn check_law(sections: &Sections) -> Result<(), Refused> {
+    let law = sections.noise.law.as_ref();
+    let is_heavy = |law: &Spanned<LawKind>| match *law.get_ref() {
+        LawKind::Cauchy => true,
+        LawKind::StudentT(freedom) => freedom.0 <= 4.0,
+        _ => false,
+    };
+    match law.filter(|law| is_heavy(law)) {
+        Some(law) => Err((Some(law.span()), Problem::NoFourthMoment)),
+        None => Ok(()),
+    }
+}
+
+/// A layout must have an end that can be drawn.
+pub(super) fn check_length(scenario: &Scenario) -> Result<(), Refused> {
+    let length = (scenario.samples.span()).saturating_add(scenario.whitening.training());
+    match length <= LONGEST {
+        true => Ok(()),
+        false => {
+            let rule = format!("span at most {LONGEST} observations");
+            let problem = out_of_range("layout", "samples", rule, length.to_string());
+            Err((None, problem))
+        }
+    }
+}
+
+/// Training, X, Y₁ and Y₂ must lie inside the ride.
+pub(super) fn check_fit(trace: &Trace, scenario: &Scenario, file: &File) -> Result<(), Refused> {
+    let refuse = |rule: String, got: usize, remedy| {
+        let span = file
+            .trace
+            .as_ref()
+            .map(|table| table.get_ref().phases.span());
+        let problem = Problem::DrawingValue {
+            kind: "trace",
+            key: "phases",
+            rule,
+            got: got.to_string(),
+            remedy,
+        };
+        Err((span, problem))
+    };
+    const LENGTHEN: &str = " (lengthen them, or leave whitened out)";
+    let samples = &scenario.samples;
+    let before = scenario.whitening.lead() + samples.reference();
+    let Some(start) = trace.acceleration_start() else {
+        let remedy = " (add one, or leave whitened out)";
+        return refuse("hold an acceleration".to_owned(), 0, remedy);
+    };
+    if start < before {
+        let rule = format!("hold {before} samples for training and X before the acceleration");
+        return refuse(rule, start, LENGTHEN);
+    }
+    let (needed, after) = (samples.span() - samples.reference(), trace.length() - start);
+    if after < needed {
+        let rule = format!("hold {needed} samples for Y1 and Y2 from the acceleration on");
+        return refuse(rule, after, LENGTHEN);
+    }
+    Ok(())
+}
+
+fn whole(
+    kind: &'static str,
+    key: &'static str,
+    given: &Option<Spanned<Whole>>,
+    default: usize,
+    allowed: RangeInclusive<usize>,
+) -> Result<usize, Refused> {
+    let value = given
+        .as_ref()
+        .map_or(default, |value| value.get_ref().size());
+    match allowed.contains(&value) {
+        true => Ok(value),
+        false => {
+            let rule = format!("lie in {} to {}", allowed.start(), allowed.end());
+            let problem = out_of_range(kind, key, rule, value.to_string());
+            Err((given.as_ref().map(Spanned::span), problem))
+        }
+    }
+}
+
+fn positive(
+    kind: &'static str,
+    key: &'static str,
+    given: &Option<Spanned<Number>>,
+    default: f64,
+) -> Result<f64, Refused> {
+    let value = given.as_ref().map_or(default, |value| value.get_ref().0);
+    match value > 0.0 {
+        true => Ok(value),
+        false => {
+            let problem = out_of_range(kind, key, "be positive".to_owned(), value.to_string());
+            Err((given.as_ref().map(Spanned::span), problem))
+        }
+    }
+}
+
+fn out_of_range(kind: &'static str, key: &'static str, rule: String, got: String) -> Problem {
+    Problem::DrawingValue {
+        kind,
+        key,
+        rule,
+        got,
+        remedy: "",
+    }
+}

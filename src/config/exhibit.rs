@@ -1,0 +1,447 @@
+//! Experiments that are no sweep: one table says what to draw, the usual sections say of what.
+
+use super::drawing::{self, Refused};
+use super::error::{ConfigError, Problem, Source};
+use super::file::{File, Sections};
+use super::value::Whole;
+use super::{Config, Narrative};
+use crate::chain::Scenario;
+use crate::detect::{RegionError, Rule, Samples};
+use std::ops::Range;
+use std::path::Path;
+use toml::Spanned;
+
+/// What a config is for.
+#[derive(Clone, Debug)]
+pub enum Experiment {
+    /// Rates along an axis.
+    Sweep(Config),
+    /// A picture of something else.
+    Exhibit(Box<ExhibitConfig>),
+}
+
+/// An experiment that is no sweep.
+#[derive(Clone, Debug)]
+pub struct ExhibitConfig {
+    /// What the experiment is for.
+    pub question: String,
+    /// Where every draw starts from.
+    pub seed: u64,
+    /// Trials, where the exhibit counts any; else 1.
+    pub trials: u64,
+    /// Of the intervals.
+    pub confidence: f64,
+    /// What the sections say, defaults filled in.
+    pub scenario: Scenario,
+    /// What is drawn.
+    pub kind: ExhibitKind,
+    /// What the report says of it, and the claims it tests.
+    pub narrative: Narrative,
+    source: Source,
+    table: Range<usize>,
+}
+
+/// What is drawn, with its own parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ExhibitKind {
+    /// The autocorrelation of the sensor's noise.
+    Autocorrelation {
+        /// The largest lag.
+        lags: usize,
+        /// Samples in one record.
+        length: usize,
+    },
+    /// One realisation of a ride.
+    Trace(Trace),
+    /// Where X, Y₁ and Y₂ lie.
+    Layout,
+    /// The plane of W and T with the regions of several rules.
+    Region {
+        /// At least one.
+        rules: Vec<Rule>,
+    },
+    /// Whether W and T are independent, by enumeration.
+    Independence {
+        /// N, M₁ and M₂, at least once.
+        sizes: Vec<[usize; 3]>,
+    },
+    /// The laws of λ and of S.
+    ImpulseLaw {
+        /// At least one.
+        nu: Vec<f64>,
+        /// Samples of one realisation.
+        length: usize,
+    },
+}
+
+/// A ride and how it is shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trace {
+    /// In the order of time.
+    pub phases: Vec<Phase>,
+    /// Samples per second.
+    pub rate: f64,
+    /// σ_ξ in `unit`.
+    pub sigma: f64,
+    /// Of the record.
+    pub unit: String,
+    /// Deviation of the vibration, white noise added in motion, in σ_ξ.
+    pub vibration: f64,
+    /// Whether the record is also shown after whitening, with X, Y₁ and Y₂ marked.
+    pub whitened: bool,
+    /// The first sample in the picture.
+    pub drawn_from: usize,
+}
+
+/// A part of a ride.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Phase {
+    /// What the cage does.
+    pub kind: PhaseKind,
+    /// For how many samples.
+    pub length: usize,
+}
+
+/// What the cage does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PhaseKind {
+    /// It stands.
+    Rest,
+    /// It gains speed: Δ acts.
+    Acceleration,
+    /// It moves by itself.
+    Inertial,
+    /// It loses speed: −Δ acts.
+    Braking,
+}
+
+impl Experiment {
+    /// Reads and checks a file.
+    ///
+    /// # Errors
+    /// As [`Config::load`], where a sweep and a drawing are asked for at once, or neither.
+    pub fn load(path: &Path) -> Result<Self, ConfigError> {
+        let name = path.display().to_string();
+        match std::fs::read_to_string(path) {
+            Ok(text) => Self::parse(&name, &text),
+            Err(error) => Err(Source::new(&name, "").at(None, Problem::Unreadable(error))),
+        }
+    }
+
+    /// Checks a file's text; `name` is what messages call it.
+    ///
+    /// # Errors
+    /// As [`Experiment::load`].
+    pub fn parse(name: &str, text: &str) -> Result<Self, ConfigError> {
+        let source = Source::new(name, text);
+        let file = File::parse(&source)?;
+        let tables = file.tables();
+        if let [(first, _), (second, span), ..] = &tables[..] {
+            let (first, second) = (*first, *second);
+            let problem = Problem::TwoThingsToDo { first, second };
+            return Err(source.at(Some(span.clone()), problem));
+        }
+        match (&file.axis, tables.first()) {
+            (Some(axis), _) => Config::new(source, &file, axis).map(Self::Sweep),
+            (None, Some((_, span))) => ExhibitConfig::new(source, &file, span.clone())
+                .map(|config| Self::Exhibit(Box::new(config))),
+            (None, None) => {
+                let known = ExhibitKind::NAMES.map(|name| format!("[{name}]"));
+                Err(source.at(Some(0..1), Problem::NothingToDo(known.join(", "))))
+            }
+        }
+    }
+
+    /// The same with another number of trials.
+    ///
+    /// # Errors
+    /// Where they are too few for what it draws.
+    pub fn with_trials(self, trials: u64) -> Result<Self, ConfigError> {
+        Ok(match self {
+            Self::Sweep(config) => Self::Sweep(Config { trials, ..config }),
+            Self::Exhibit(exhibit) => Self::Exhibit(Box::new(exhibit.with_trials(trials)?)),
+        })
+    }
+
+    /// The sweep.
+    ///
+    /// # Errors
+    /// Where it is none.
+    pub fn sweep(self) -> Result<Config, ConfigError> {
+        match self {
+            Self::Sweep(config) => Ok(config),
+            Self::Exhibit(exhibit) => {
+                let span = Some(exhibit.table.clone());
+                Err((exhibit.source).at(span, Problem::NoSweep(exhibit.kind.name())))
+            }
+        }
+    }
+}
+
+impl File {
+    /// The axis and the drawing tables that are there, each with its place.
+    fn tables(&self) -> Vec<(&'static str, Range<usize>)> {
+        let all = [
+            ("axis", self.axis.as_ref().map(Spanned::span)),
+            (
+                "autocorrelation",
+                self.autocorrelation.as_ref().map(Spanned::span),
+            ),
+            ("trace", self.trace.as_ref().map(Spanned::span)),
+            ("layout", self.layout.as_ref().map(Spanned::span)),
+            ("region", self.region.as_ref().map(Spanned::span)),
+            (
+                "independence",
+                self.independence.as_ref().map(Spanned::span),
+            ),
+            ("impulse_law", self.impulse_law.as_ref().map(Spanned::span)),
+        ];
+        let there = all.into_iter();
+        there
+            .filter_map(|(name, span)| Some((name, span?)))
+            .collect()
+    }
+
+    /// What is drawn, of a file that says so.
+    fn kind(&self) -> Result<ExhibitKind, Refused> {
+        if let Some(table) = &self.autocorrelation {
+            return drawing::autocorrelation(table.get_ref());
+        }
+        if let Some(table) = &self.trace {
+            return drawing::trace(table.get_ref()).map(ExhibitKind::Trace);
+        }
+        if let Some(table) = &self.region {
+            return drawing::rules(table.get_ref(), &self.sections());
+        }
+        if let Some(table) = &self.independence {
+            return drawing::sizes(table.get_ref());
+        }
+        match &self.impulse_law {
+            Some(table) => drawing::impulse_law(table.get_ref()),
+            None => Ok(ExhibitKind::Layout),
+        }
+    }
+
+    /// What stands in the file and means nothing to this kind of drawing.
+    fn check_heeded(&self, kind: &ExhibitKind) -> Result<(), Refused> {
+        let curve = (!self.curve.is_empty()).then(|| ("curve".to_owned(), None));
+        let shared = (self.common_random_numbers.as_ref())
+            .map(|value| ("common_random_numbers".to_owned(), Some(value.span())));
+        let trials = [
+            ("pilot", self.pilot.as_ref().map(Spanned::span)),
+            ("trials", self.trials.as_ref().map(Spanned::span)),
+            ("half_width", self.half_width.as_ref().map(Spanned::span)),
+            ("confidence", self.confidence.as_ref().map(Spanned::span)),
+        ];
+        let trials = trials
+            .into_iter()
+            .find_map(|(key, span)| Some((key.to_owned(), Some(span?))))
+            .filter(|_| !kind.has_trials());
+        let sections = self.sections().written();
+        let section = sections
+            .into_iter()
+            .find(|(section, key, _)| !kind.heeds(section, key))
+            .map(|(section, key, span)| (format!("{section}.{key}"), Some(span)));
+        match curve.or(shared).or(trials).or(section) {
+            Some((key, span)) => {
+                let kind = kind.name();
+                Err((span, Problem::Unheeded { key, kind }))
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+impl ExhibitConfig {
+    fn new(source: Source, file: &File, table: Range<usize>) -> Result<Self, ConfigError> {
+        let refuse = |(span, problem): Refused| source.at(span.or(Some(table.clone())), problem);
+        let kind = file.kind().map_err(refuse)?;
+        file.check_heeded(&kind).map_err(refuse)?;
+        let sections = kind.laid_over(file.sections(), &table);
+        let scenario = sections
+            .resolve()
+            .map_err(|(problem, keys)| refuse((sections.first_span(keys), problem)))?;
+        kind.check(&scenario, file).map_err(refuse)?;
+        let narrative = (file.story().check(&[], None))
+            .map_err(|(span, problem)| source.at(Some(span), problem.into()))?;
+        let confidence = file.confidence(&source)?;
+        let trials = match kind.has_trials() {
+            true => file.trials(&source, confidence)?,
+            false => 1,
+        };
+        let config = Self {
+            question: file.question.clone(),
+            seed: file.seed.0,
+            trials: 1,
+            confidence,
+            scenario,
+            kind,
+            narrative,
+            source,
+            table,
+        };
+        config.with_trials(trials)
+    }
+
+    /// The same with another number of trials, where it has any.
+    ///
+    /// # Errors
+    /// Where they are too few.
+    pub fn with_trials(self, trials: u64) -> Result<Self, ConfigError> {
+        let kind = self.kind.name();
+        if matches!(self.kind, ExhibitKind::Autocorrelation { .. }) && trials < 2 {
+            let problem = Problem::DrawingValue {
+                kind,
+                key: "trials",
+                rule: "be at least 2".to_owned(),
+                got: trials.to_string(),
+                remedy: " (one record has no deviation)",
+            };
+            return Err(self.refuse(problem));
+        }
+        let trials = if self.kind.has_trials() { trials } else { 1 };
+        Ok(Self { trials, ..self })
+    }
+
+    /// A problem that only shows when the drawing is made.
+    pub fn refuse(&self, problem: Problem) -> ConfigError {
+        self.source.at(Some(self.table.clone()), problem)
+    }
+
+    /// A region that cannot be designed.
+    pub fn refuse_region(&self, error: RegionError) -> ConfigError {
+        self.refuse(error.into())
+    }
+
+    /// The file's text.
+    pub fn text(&self) -> &str {
+        self.source.text()
+    }
+
+    /// What messages call the file.
+    pub fn name(&self) -> &str {
+        self.source.name()
+    }
+}
+
+impl ExhibitKind {
+    /// The names of the tables.
+    pub const NAMES: [&'static str; 6] = [
+        "autocorrelation",
+        "trace",
+        "layout",
+        "region",
+        "independence",
+        "impulse_law",
+    ];
+
+    /// The name of its table.
+    pub fn name(&self) -> &'static str {
+        let index = match self {
+            Self::Autocorrelation { .. } => 0,
+            Self::Trace(_) => 1,
+            Self::Layout => 2,
+            Self::Region { .. } => 3,
+            Self::Independence { .. } => 4,
+            Self::ImpulseLaw { .. } => 5,
+        };
+        Self::NAMES[index]
+    }
+
+    /// Whether it repeats anything.
+    pub fn has_trials(&self) -> bool {
+        matches!(self, Self::Autocorrelation { .. } | Self::ImpulseLaw { .. })
+    }
+
+    /// Whether a key of the usual sections changes anything in it.
+    fn heeds(&self, section: &str, key: &str) -> bool {
+        match self {
+            Self::Autocorrelation { .. } => section == "sensor" || key == "law",
+            Self::Trace(trace) => match section {
+                "sensor" | "noise" | "impulses" => true,
+                "motion" => !matches!(key, "duration" | "offset"),
+                "whitening" | "samples" => trace.whitened && key != "decimation",
+                _ => false,
+            },
+            Self::Layout => match section {
+                "motion" => !matches!(key, "delta" | "delta_at"),
+                "whitening" => true,
+                "samples" => key != "decimation",
+                _ => false,
+            },
+            Self::Region { .. } => match section {
+                "samples" => !matches!(key, "gap" | "decimation"),
+                "detector" => key != "rule",
+                _ => false,
+            },
+            Self::Independence { .. } | Self::ImpulseLaw { .. } => false,
+        }
+    }
+
+    /// The sections with what the drawing's own table says put into them: the acceleration of a trace
+    /// lasts as long as its phase.
+    fn laid_over(&self, mut sections: Sections, table: &Range<usize>) -> Sections {
+        if let Self::Trace(trace) = self {
+            let accelerated = trace.phases.iter().filter(|phase| phase.kind.sign() != 0.0);
+            let shortest = accelerated.map(|phase| phase.length as u64).min();
+            let duration = Whole(shortest.unwrap_or(1));
+            sections.motion.duration = Some(Spanned::new(table.clone(), duration));
+        }
+        sections
+    }
+
+    /// What cannot be seen from the table alone.
+    fn check(&self, scenario: &Scenario, file: &File) -> Result<(), Refused> {
+        match self {
+            Self::Autocorrelation { .. } => drawing::check_law(&file.sections()),
+            Self::Trace(trace) if trace.whitened => drawing::check_fit(trace, scenario, file),
+            Self::Layout => drawing::check_length(scenario),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl PhaseKind {
+    /// Whether the cage moves.
+    pub fn moves(self) -> bool {
+        self != Self::Rest
+    }
+
+    /// Of Δ: 1, 0 or −1.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Acceleration => 1.0,
+            Self::Braking => -1.0,
+            Self::Rest | Self::Inertial => 0.0,
+        }
+    }
+
+    /// As in a config and in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rest => "rest",
+            Self::Acceleration => "acceleration",
+            Self::Inertial => "inertial",
+            Self::Braking => "braking",
+        }
+    }
+}
+
+impl Trace {
+    /// Samples of the whole ride.
+    pub fn length(&self) -> usize {
+        self.phases.iter().map(|phase| phase.length).sum()
+    }
+
+    /// Where the first of X lies: X ends where the first acceleration starts. `None` where there is
+    /// no acceleration, or not enough of a record before it.
+    pub fn reference_start(&self, samples: &Samples) -> Option<usize> {
+        self.acceleration_start()?.checked_sub(samples.reference())
+    }
+
+    pub(super) fn acceleration_start(&self) -> Option<usize> {
+        let mut phases = self.phases.iter();
+        let first = phases.position(|phase| phase.kind == PhaseKind::Acceleration)?;
+        Some(self.phases[..first].iter().map(|phase| phase.length).sum())
+    }
+}
