@@ -175,6 +175,14 @@ impl Decision {
         }
     }
 
+    /// The smallest level that its rule can reach, where the exact laws say.
+    pub fn reachable(&self) -> Option<f64> {
+        match self {
+            Self::Region { region, .. } => region.reachable(),
+            Self::Threshold { .. } => None,
+        }
+    }
+
     /// What a score must exceed.
     pub fn threshold(&self) -> Option<f64> {
         match self {

@@ -118,7 +118,7 @@ fn worst(rests: &[Rest], axis: Option<&Axis>) -> String {
     let held = rests.iter().filter(|rest| rest.is_held()).count();
     let rejected = rests.iter().filter(|rest| rest.is_rejected).count();
     format!(
-        "{held} of {} held, {rejected} rejected; the largest for its α: {} at α = {}, p = {}, {}, {}",
+        "{held} of {} held, {rejected} rejected; the largest for its α: {} at α = {}, p {}, {}, {}",
         rests.len(),
         interval(row.rate, row.low, row.high),
         row.alpha,
@@ -131,8 +131,8 @@ fn worst(rests: &[Rest], axis: Option<&Axis>) -> String {
 /// Two digits, as a power of ten where they are small.
 fn in_short(p_value: f64) -> String {
     match p_value {
-        p if p < 1e-300 => "0".to_owned(),
-        p if p < 1e-3 => format!("{p:.1e}").replace('-', "−"),
-        p => exact(format!("{p:.1e}").parse().unwrap_or(p)),
+        p if p < 1e-300 => "< 1e−300".to_owned(),
+        p if p < 1e-3 => format!("= {p:.1e}").replace('-', "−"),
+        p => format!("= {}", exact(format!("{p:.1e}").parse().unwrap_or(p))),
     }
 }

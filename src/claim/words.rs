@@ -13,10 +13,13 @@ pub fn interval(value: f64, low: f64, high: f64) -> String {
     format!("{value} [{low}, {high}]")
 }
 
-/// Six significant digits, without noughts at the end.
+/// Six significant digits, without noughts at the end; what is tiny as a power of ten.
 pub fn exact(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
-    minus(&rounded.to_string())
+    match rounded != 0.0 && rounded.abs() < 1e-4 {
+        true => minus(&format!("{rounded:e}")),
+        false => minus(&rounded.to_string()),
+    }
 }
 
 /// Decimals that show two digits of half the distance from `low` to `high`.

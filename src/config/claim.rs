@@ -32,8 +32,8 @@ pub struct Narrative {
 pub struct Claim {
     /// In words.
     pub claim: String,
-    /// Where the paper makes it.
-    pub source: String,
+    /// Where the paper makes it; none for a comparison that is this project's own.
+    pub source: Option<String>,
     /// The probability of a wrong verdict, over all comparisons of this claim.
     pub level: f64,
     /// Differences up to this size do not count.
@@ -187,7 +187,7 @@ pub(super) struct Story {
 #[serde(deny_unknown_fields)]
 pub(super) struct ClaimTable {
     claim: Spanned<String>,
-    source: Spanned<String>,
+    source: Option<Spanned<String>>,
     level: Option<Spanned<Number>>,
     margin: Option<Spanned<Number>>,
     test: Spanned<TestKind>,
@@ -349,7 +349,9 @@ impl ClaimTable {
         let is_margin = |margin| (0.0..1.0).contains(&margin);
         Ok(Claim {
             claim: said("claim", &self.claim)?,
-            source: said("source", &self.source)?,
+            source: (self.source.as_ref())
+                .map(|source| said("source", source))
+                .transpose()?,
             level: number(&self.level, LEVEL, is_probability, ClaimProblem::Level)?,
             margin: number(&self.margin, MARGIN, is_margin, ClaimProblem::Margin)?,
             test: self.test.get_ref().0.check(self.test.span(), scope)?,

@@ -2,7 +2,7 @@
 //! takes the place of `[axis]` and `[[curve]]`.
 
 use super::error::Problem;
-use super::exhibit::{ExhibitKind, Phase, PhaseKind, Trace};
+use super::exhibit::{ExhibitKind, Phase, PhaseKind, Search, Trace};
 use super::file::{File, LawKind, RuleKind, Sections};
 use super::value::{Number, Whole};
 use crate::chain::Scenario;
@@ -77,6 +77,65 @@ pub(super) struct IndependenceTable {
 pub(super) struct ImpulseLawTable {
     pub nu: Spanned<Vec<Spanned<Number>>>,
     pub length: Option<Spanned<Whole>>,
+}
+
+/// `[operating_point]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct OperatingPointTable {
+    pub sizes: Spanned<Vec<Spanned<Whole>>>,
+    pub power: Spanned<Vec<Spanned<Number>>>,
+    pub delta: Spanned<DeltaRange>,
+}
+
+/// `operating_point.delta`
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DeltaRange {
+    pub from: Number,
+    pub to: Number,
+}
+
+pub(super) fn search(table: &OperatingPointTable) -> Result<ExhibitKind, Refused> {
+    const KIND: &str = "operating_point";
+    let refuse = |span, key, rule: &str, got: String| {
+        Err((Some(span), out_of_range(KIND, key, rule.to_owned(), got)))
+    };
+    let (sizes, power) = (table.sizes.get_ref(), table.power.get_ref());
+    if sizes.is_empty() {
+        return refuse(
+            table.sizes.span(),
+            "sizes",
+            "list at least one",
+            "none".to_owned(),
+        );
+    }
+    if power.is_empty() {
+        return refuse(
+            table.power.span(),
+            "power",
+            "list at least one",
+            "none".to_owned(),
+        );
+    }
+    if let Some(bad) = sizes.iter().find(|size| size.get_ref().0 == 0) {
+        return refuse(bad.span(), "sizes", "be at least 1", "0".to_owned());
+    }
+    let is_level = |power: &Spanned<Number>| (f64::EPSILON..1.0).contains(&power.get_ref().0);
+    if let Some(bad) = power.iter().find(|power| !is_level(power)) {
+        let got = bad.get_ref().0.to_string();
+        return refuse(bad.span(), "power", "lie strictly between 0 and 1", got);
+    }
+    let DeltaRange { from, to } = *table.delta.get_ref();
+    if from.0 >= to.0 {
+        let got = format!("{} to {}", from.0, to.0);
+        return refuse(table.delta.span(), "delta", "rise from `from` to `to`", got);
+    }
+    Ok(ExhibitKind::OperatingPoint(Search {
+        sizes: sizes.iter().map(|size| size.get_ref().size()).collect(),
+        power: power.iter().map(|power| power.get_ref().0).collect(),
+        delta: [from.0, to.0],
+    }))
 }
 
 pub(super) fn autocorrelation(table: &AutocorrelationTable) -> Result<ExhibitKind, Refused> {

@@ -176,6 +176,11 @@ pub enum Problem {
          threshold, or calibrate = true)"
     )]
     NotCalibrated(&'static str),
+    /// A search for what only a pilot could decide.
+    #[error(
+        "detector.rule: {0} has no exact region (name wilcoxon, product, disjunction or conjunction)"
+    )]
+    NoExactRegion(&'static str),
     /// A table is what it is.
     #[error(
         "detector.calibrate: a table's entries are given (leave calibrate out, or name a rule)"

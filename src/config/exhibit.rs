@@ -72,6 +72,19 @@ pub enum ExhibitKind {
         /// Samples of one realisation.
         length: usize,
     },
+    /// The Δ/σ_ξ at which the power reaches a value.
+    OperatingPoint(Search),
+}
+
+/// The powers looked for, and where.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Search {
+    /// N = M₁ = M₂, at least one.
+    pub sizes: Vec<usize>,
+    /// At least one.
+    pub power: Vec<f64>,
+    /// The smallest and the largest Δ/σ_ξ.
+    pub delta: [f64; 2],
 }
 
 /// A ride and how it is shown.
@@ -195,6 +208,10 @@ impl File {
                 self.independence.as_ref().map(Spanned::span),
             ),
             ("impulse_law", self.impulse_law.as_ref().map(Spanned::span)),
+            (
+                "operating_point",
+                self.operating_point.as_ref().map(Spanned::span),
+            ),
         ];
         let there = all.into_iter();
         there
@@ -215,6 +232,9 @@ impl File {
         }
         if let Some(table) = &self.independence {
             return drawing::sizes(table.get_ref());
+        }
+        if let Some(table) = &self.operating_point {
+            return drawing::search(table.get_ref());
         }
         match &self.impulse_law {
             Some(table) => drawing::impulse_law(table.get_ref()),
@@ -326,13 +346,14 @@ impl ExhibitConfig {
 
 impl ExhibitKind {
     /// The names of the tables.
-    pub const NAMES: [&'static str; 6] = [
+    pub const NAMES: [&'static str; 7] = [
         "autocorrelation",
         "trace",
         "layout",
         "region",
         "independence",
         "impulse_law",
+        "operating_point",
     ];
 
     /// The name of its table.
@@ -344,13 +365,17 @@ impl ExhibitKind {
             Self::Region { .. } => 3,
             Self::Independence { .. } => 4,
             Self::ImpulseLaw { .. } => 5,
+            Self::OperatingPoint(_) => 6,
         };
         Self::NAMES[index]
     }
 
     /// Whether it repeats anything.
     pub fn has_trials(&self) -> bool {
-        matches!(self, Self::Autocorrelation { .. } | Self::ImpulseLaw { .. })
+        matches!(
+            self,
+            Self::Autocorrelation { .. } | Self::ImpulseLaw { .. } | Self::OperatingPoint(_)
+        )
     }
 
     /// Whether a key of the usual sections changes anything in it.
@@ -373,6 +398,12 @@ impl ExhibitKind {
                 "samples" => !matches!(key, "gap" | "decimation"),
                 "detector" => key != "rule",
                 _ => false,
+            },
+            Self::OperatingPoint(_) => match section {
+                "motion" => key != "delta",
+                "samples" => matches!(key, "gap" | "decimation"),
+                "detector" => key != "calibrate",
+                _ => true,
             },
             Self::Independence { .. } | Self::ImpulseLaw { .. } => false,
         }

@@ -3,7 +3,8 @@
 
 use super::claim::{ClaimTable, Story};
 use super::drawing::{
-    AutocorrelationTable, ImpulseLawTable, IndependenceTable, LayoutTable, RegionTable, TraceTable,
+    AutocorrelationTable, ImpulseLawTable, IndependenceTable, LayoutTable, OperatingPointTable,
+    RegionTable, TraceTable,
 };
 use super::error::{ConfigError, Source};
 use super::value::{Critical, Number, Whole};
@@ -261,6 +262,7 @@ with_sections! {
         region: Option<Spanned<RegionTable>>,
         independence: Option<Spanned<IndependenceTable>>,
         impulse_law: Option<Spanned<ImpulseLawTable>>,
+        operating_point: Option<Spanned<OperatingPointTable>>,
         #[serde(default)]
         curve: Vec<CurveTable>,
         title: Option<Spanned<String>>,

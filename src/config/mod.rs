@@ -19,7 +19,7 @@ mod value;
 pub use axis::{Axis, AxisValue, Parameter};
 pub use claim::{Claim, ClaimProblem, Narrative, Test};
 pub use error::{ConfigError, Problem};
-pub use exhibit::{ExhibitConfig, ExhibitKind, Experiment, Phase, PhaseKind, Trace};
+pub use exhibit::{ExhibitConfig, ExhibitKind, Experiment, Phase, PhaseKind, Search, Trace};
 
 use crate::tally;
 use error::Source;

@@ -246,7 +246,7 @@ fn claims_say_what_they_say() {
         |labels: &[&str]| -> Vec<String> { labels.iter().map(|&label| label.to_owned()).collect() };
     let default = Claim {
         claim: "c".to_owned(),
-        source: "s".to_owned(),
+        source: Some("s".to_owned()),
         level: 0.001,
         margin: 0.005,
         test: Test::Grows {

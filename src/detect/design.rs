@@ -78,15 +78,22 @@ impl NullLaws {
             Rule::Table(entries) => self.table(entries, alpha)?,
         };
         let region = self.with_critical(critical);
-        if region.size == 0.0 && !matches!(rule, Rule::Table(_)) {
-            return Err(RegionError::Unreachable {
+        if matches!(rule, Rule::Table(_)) {
+            return Ok(region);
+        }
+        let reachable = self.reachable(rule);
+        match region.size > 0.0 {
+            true => Ok(Region {
+                reachable: Some(reachable),
+                ..region
+            }),
+            false => Err(RegionError::Unreachable {
                 rule: rule.clone(),
                 sizes: self.sizes(),
                 alpha,
-                reachable: self.reachable(rule),
-            });
+                reachable,
+            }),
         }
-        Ok(region)
     }
 
     /// The most powerful region of size at most `alpha` for what the order was made for; empty where
@@ -107,6 +114,7 @@ impl NullLaws {
             alternative: self.alternative,
             twice_mean: self.twice_mean(),
             size: self.size(&critical),
+            reachable: None,
             critical,
         }
     }
@@ -173,7 +181,7 @@ impl NullLaws {
     }
 
     /// The smallest level at which `rule` is not empty.
-    pub fn reachable(&self, rule: &Rule) -> f64 {
+    fn reachable(&self, rule: &Rule) -> f64 {
         let (w, t) = (&self.score, &self.exceedances);
         let (last_w, last_t) = (w.tail(w.last()), t.tail(t.last()));
         match rule {

@@ -30,6 +30,7 @@ pub struct Region {
     /// The smallest score that decides H₁, for each T; `u64::MAX` where none does.
     pub(super) critical: Vec<u64>,
     pub(super) size: f64,
+    pub(super) reachable: Option<f64>,
 }
 
 /// A critical score that nothing reaches.
@@ -46,6 +47,11 @@ impl Region {
     /// P(ϑ | H₀), eq. (15), correctly rounded.
     pub fn size(&self) -> f64 {
         self.size
+    }
+
+    /// The smallest level at which the rule that filled it is not empty; none where no rule did.
+    pub fn reachable(&self) -> Option<f64> {
+        self.reachable
     }
 
     /// C_W(T) for T = 0 … M₂: (lower, upper) such that W ≤ lower or W ≥ upper decides H₁.

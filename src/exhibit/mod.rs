@@ -9,6 +9,7 @@ pub mod impulse_law;
 pub mod independence;
 pub mod layout;
 mod normal;
+pub mod operating_point;
 pub mod region;
 pub mod trace;
 
@@ -40,6 +41,8 @@ pub enum Rows {
     Independence(Vec<independence::Row>),
     /// One per ν and sample.
     ImpulseLaw(Vec<impulse_law::Row>),
+    /// One per size and power.
+    OperatingPoint(Vec<operating_point::Row>),
 }
 
 /// Computes an exhibit on the current thread pool.
@@ -73,6 +76,12 @@ pub fn compute(config: &ExhibitConfig) -> Result<Exhibit, ConfigError> {
             let quantities = impulse_law::quantities(&rows, config.confidence);
             (Rows::ImpulseLaw(rows), quantities)
         }
+        ExhibitKind::OperatingPoint(search) => {
+            let rows = operating_point::rows(config, search);
+            let rows = rows.map_err(|problem| config.refuse(problem))?;
+            let quantities = operating_point::quantities(&rows);
+            (Rows::OperatingPoint(rows), quantities)
+        }
     };
     Ok(Exhibit { rows, quantities })
 }
@@ -87,6 +96,7 @@ impl Rows {
             Self::Region(rows) => csv_bytes(rows),
             Self::Independence(rows) => csv_bytes(rows),
             Self::ImpulseLaw(rows) => csv_bytes(rows),
+            Self::OperatingPoint(rows) => csv_bytes(rows),
         }
     }
 
@@ -105,6 +115,7 @@ impl Rows {
             ExhibitKind::Region { .. } => read(bytes).map(Self::Region),
             ExhibitKind::Independence { .. } => read(bytes).map(Self::Independence),
             ExhibitKind::ImpulseLaw { .. } => read(bytes).map(Self::ImpulseLaw),
+            ExhibitKind::OperatingPoint(_) => read(bytes).map(Self::OperatingPoint),
         }
     }
 
@@ -117,6 +128,7 @@ impl Rows {
             Self::Region(rows) => rows.len(),
             Self::Independence(rows) => rows.len(),
             Self::ImpulseLaw(rows) => rows.len(),
+            Self::OperatingPoint(rows) => rows.len(),
         }
     }
 

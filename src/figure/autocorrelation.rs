@@ -120,13 +120,11 @@ impl<'a> Lags<'a> {
             look: Look::of(index),
             key,
         };
-        Legend {
-            entries: vec![
-                entry(THEORY, Key::Line, "theory, coefficients of the simulation"),
-                entry(EXACT, Key::Line, "theory, exact transfer of (1)"),
-                entry(SIMULATION, Key::Marker, "simulation"),
-            ],
-        }
+        Legend::new(vec![
+            entry(THEORY, Key::Line, "theory, coefficients of the simulation"),
+            entry(EXACT, Key::Line, "theory, exact transfer of (1)"),
+            entry(SIMULATION, Key::Marker, "simulation"),
+        ])
     }
 }
 

@@ -6,7 +6,7 @@ use super::frame::{CAPTION_LEFT, CAPTION_STEP, Frame, NORMAL, Scale, WIDTH, draw
 use super::legend::{Entry, Key, Legend};
 use super::panel::{Curve, Manner, Panel, Point, rate_scale};
 use super::ruler::{LONG_RANGE, Ruler};
-use super::sheet::{Align, Look, Picture, Sheet, Style, literal};
+use super::sheet::{Align, Look, Picture, Sheet, Style};
 use super::words::{axis_label, caption, common_facts, is_held_against_alpha, legend};
 use crate::config::{Config, Parameter};
 use crate::results::{Manifest, Row};
@@ -20,6 +20,8 @@ const LEFT: f64 = 54.0;
 const RIGHT: f64 = WIDTH - 16.0;
 /// For tick labels and the axis label under the lowest panel.
 const BELOW: f64 = 40.0;
+/// Between panels.
+const APART: f64 = 22.0;
 
 /// The picture of a sweep.
 pub(super) struct Curves {
@@ -59,7 +61,7 @@ impl Curves {
                 continue;
             }
             let words = match &curve.series {
-                Some(series) => literal(series),
+                Some(series) => series.clone(),
                 None => legend(rows, &common, axis),
             };
             let known = entries.iter().find(|entry| entry.text == words);
@@ -75,7 +77,7 @@ impl Curves {
                 .map(|i| point(ruler.place(rows, i), rows[i]))
                 .collect();
             points.sort_by(|a, b| a.x.total_cmp(&b.x));
-            let title = curve.panel.as_deref().map_or(String::new(), literal);
+            let title = curve.panel.clone().unwrap_or_default();
             let known = panels.iter().position(|panel| panel.title == title);
             let panel = known.unwrap_or_else(|| {
                 panels.push(Panel {
@@ -109,14 +111,27 @@ impl Curves {
             x: ruler.scale(&places),
             y: rate_scale(&panels, is_false_alarm, manner),
             is_whitened: all.iter().all(|row| row.delta_at == "whitened"),
-            whitened_unit: whitened_unit(config, &all).filter(|_| panels.len() == 1),
-            legend: Legend { entries },
+            whitened_unit: whitened_unit(config, &all)
+                .filter(|_| panels.len() == 1 && !ruler.is_logarithmic()),
+            legend: Legend::new(entries),
             is_false_alarm,
             manner,
             caption,
             panels,
             axis,
-        })
+        }
+        .with_legend_in_place())
+    }
+
+    /// Where there is no better place for it, the legend lies above the panels, as low as it can be.
+    fn with_legend_in_place(self) -> Self {
+        match self.place() {
+            Some(_) => self,
+            None => Self {
+                legend: self.legend.spread(RIGHT - LEFT),
+                ..self
+            },
+        }
     }
 
     /// Several panels stand two in a row.
@@ -142,8 +157,8 @@ impl Curves {
                 y,
             };
         }
-        let width = (RIGHT - LEFT - 14.0) / 2.0;
-        let left = LEFT + (index % 2) as f64 * (width + 14.0);
+        let width = (RIGHT - LEFT - APART) / 2.0;
+        let left = LEFT + (index % 2) as f64 * (width + APART);
         let top = above + 22.0 + (index / 2) as f64 * SMALL_HEIGHT;
         Frame {
             left,

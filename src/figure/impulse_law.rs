@@ -85,9 +85,7 @@ impl<'a> Laws<'a> {
             look: Look::of(index),
             key: Key::MarkedLine,
         };
-        let legend = Legend {
-            entries: self.curves.iter().enumerate().map(entry).collect(),
-        };
+        let legend = Legend::new(self.curves.iter().enumerate().map(entry).collect());
         let rows = self.curves.iter().copied().flatten();
         let covered: Vec<_> = rows
             .map(|row| frame.at(row.sample as f64, row.zero_sum))

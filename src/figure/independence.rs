@@ -53,9 +53,7 @@ impl<'a> Diagonal<'a> {
             key: Key::Marker,
         };
         let entries = self.sizes.iter().enumerate().take(NAMED).map(entry);
-        Legend {
-            entries: entries.collect(),
-        }
+        Legend::new(entries.collect())
     }
 }
 

@@ -13,6 +13,7 @@ const LINE: f64 = 1.1;
 /// The entries of a legend.
 pub(super) struct Legend {
     pub entries: Vec<Entry>,
+    columns: usize,
 }
 
 /// What a look stands for.
@@ -31,15 +32,41 @@ pub(super) enum Key {
 }
 
 impl Legend {
+    /// In one column.
+    pub fn new(entries: Vec<Entry>) -> Self {
+        Self {
+            entries,
+            columns: 1,
+        }
+    }
+
     /// What it takes from left to right.
     pub fn width(&self) -> f64 {
+        self.columns as f64 * self.column_width()
+    }
+
+    fn column_width(&self) -> f64 {
         let widths = (self.entries.iter()).map(|entry| text_width(&entry.text, SMALL));
         widths.fold(0.0, f64::max) + 32.0
     }
 
     /// What it takes from the top to bottom.
     pub fn height(&self) -> f64 {
-        STEP * self.entries.len() as f64 + 6.0
+        STEP * self.rows() as f64 + 6.0
+    }
+
+    fn rows(&self) -> usize {
+        self.entries.len().div_ceil(self.columns)
+    }
+
+    /// The same in as many columns as `width` has room for, filled evenly.
+    pub fn spread(self, width: f64) -> Self {
+        let most = ((width / self.column_width()) as usize).clamp(1, self.entries.len().max(1));
+        let rows = self.entries.len().div_ceil(most);
+        Self {
+            columns: self.entries.len().div_ceil(rows.max(1)).max(1),
+            ..self
+        }
     }
 
     /// The corner of `frame` where it covers nothing of `data`, points on the sheet.
@@ -68,7 +95,9 @@ impl Legend {
         sheet.rectangle((x, y), opposite, WHITE.to_rgba())?;
         sheet.outline((x, y), opposite, 0.4, BLACK.mix(0.3))?;
         for (index, Entry { text, look, key }) in self.entries.iter().enumerate() {
-            let middle = y + 3.0 + STEP * (index as f64 + 0.5);
+            let (column, row) = (index / self.rows(), index % self.rows());
+            let x = x + column as f64 * self.column_width();
+            let middle = y + 3.0 + STEP * (row as f64 + 0.5);
             let ends = [(x + 4.0, middle), (x + 22.0, middle)];
             let colour = look.colour.to_rgba();
             match key {

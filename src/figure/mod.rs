@@ -10,6 +10,7 @@ mod impulse_law;
 mod independence;
 mod layout;
 mod legend;
+mod operating_point;
 mod panel;
 mod region;
 mod ruler;
@@ -104,6 +105,10 @@ pub fn exhibit(
             sheet::render(&region::Plane::new(&laws, rows, title), &from)
         }
         (_, Rows::Independence(rows)) => sheet::render(&independence::Diagonal::new(rows), &from),
+        (_, Rows::OperatingPoint(rows)) => sheet::render(
+            &operating_point::Points::new(config, rows, manifest),
+            &provenance(manifest),
+        ),
         (_, Rows::ImpulseLaw(rows)) => sheet::render(
             &impulse_law::Laws::new(rows, manifest, config.confidence),
             &from,

@@ -170,7 +170,11 @@ pub(super) fn rate_scale(panels: &[Panel], is_false_alarm: bool, manner: Manner)
         (true, true) => {
             let rates = || points().map(|p| p.rate).chain(nominal);
             let (bottom, top) = (lowest(&mut rates()), highest(&mut rates()));
-            Scale::powers_of_ten(bottom - 0.25, (top + 0.15).min(0.0), 6)
+            let (from, to) = (bottom - 0.25, (top + 0.15).min(0.08));
+            match to - from < 2.5 {
+                true => Scale::logarithms(from, to),
+                false => Scale::powers_of_ten(from, to, 6),
+            }
         }
         (true, false) => {
             let bottom = lowest(&mut points().map(|p| p.low).chain(nominal));

@@ -77,9 +77,7 @@ impl<'a> Plane<'a> {
             look: Look::of(LOOKS[index % LOOKS.len()]),
             key: Key::Line,
         };
-        Legend {
-            entries: self.regions.iter().enumerate().map(entry).collect(),
-        }
+        Legend::new(self.regions.iter().enumerate().map(entry).collect())
     }
 
     fn frame(&self) -> Frame {

@@ -36,6 +36,11 @@ impl<'a> Ruler<'a> {
         }
     }
 
+    /// Whether places are logarithms.
+    pub fn is_logarithmic(&self) -> bool {
+        self.is_logarithmic
+    }
+
     /// Whether the axis holds names.
     pub fn is_named(&self) -> bool {
         !self.rules.is_empty()

@@ -177,9 +177,7 @@ impl<'a> Ride<'a> {
             },
             key: Key::Line,
         };
-        let legend = Legend {
-            entries: vec![entry(0, "record"), entry(1, "acceleration in it")],
-        };
+        let legend = Legend::new(vec![entry(0, "record"), entry(1, "acceleration in it")]);
         let covered: Vec<_> = (self.rows.iter())
             .map(|row| frame.at(self.x(row), row.record))
             .collect();

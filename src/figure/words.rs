@@ -78,7 +78,11 @@ fn facts(row: &Row) -> Vec<Fact> {
             format!("offset {}", row.offset),
         ),
         unless(rest, &[P::Nu], format!("ν = {}", row.nu)),
-        unless(rest, &[P::Theta], format!("θ/σ_ξ = {}", row.theta)),
+        unless(
+            rest || row.nu == 0.0,
+            &[P::Theta],
+            format!("θ/σ_ξ = {}", row.theta),
+        ),
         unless(
             rest || row.during == "motion",
             &[],

@@ -119,7 +119,7 @@ pub fn markdown(mut sections: Vec<Section>, configs: &str) -> Result<Vec<u8>, Re
          again from the [configs]({configs}):\n\n    liftsim figures\n\n{}",
         contents(&sections),
     );
-    text += &claims_table(&sections, &judged, configs);
+    text += &claims_tables(&sections, &judged, configs);
     for (section, (_, paragraph)) in sections.iter().zip(&judged) {
         text += &chapter(section, paragraph, configs);
     }
@@ -136,27 +136,57 @@ fn contents(sections: &[Section]) -> String {
     text + "\n"
 }
 
-fn claims_table(
+/// The paper's claims with a count of the verdicts, then the comparisons that are this project's own.
+fn claims_tables(
     sections: &[Section],
     judged: &[(Vec<Judgement>, String)],
     configs: &str,
 ) -> String {
-    let mut rows = String::new();
+    let (mut of_paper, mut own) = (String::new(), String::new());
+    let mut verdicts = Vec::new();
     for (section, (judgements, _)) in sections.iter().zip(judged) {
         for (claim, judgement) in section.narrative.claims.iter().zip(judgements) {
-            rows += &claim_row(section, claim, judgement, configs);
+            let row = claim_row(section, claim, judgement, configs);
+            match &claim.source {
+                Some(_) => {
+                    of_paper += &row;
+                    verdicts.push(&judgement.verdict);
+                }
+                None => own += &row,
+            }
         }
     }
-    if rows.is_empty() {
-        return String::new();
+    let mut text = String::new();
+    if !of_paper.is_empty() {
+        text += &format!(
+            "## What the paper claims\n\n{} The rule behind a verdict stands in the config. *Holds* takes a \
+             test of superiority, non-inferiority or equivalence at the family-wise level; *undecided* \
+             means that the trials were too few to tell. Two points of one run share their noise \
+             and are compared trial by trial; the bands in the pictures are pointwise and no test.\n\n\
+             | claim | where the paper makes it | how it was tested | numbers | verdict |\n\
+             |---|---|---|---|---|\n{of_paper}\n",
+            summary(&verdicts),
+        );
     }
+    if !own.is_empty() {
+        text += &format!(
+            "## Beyond the paper\n\n| comparison | how it was tested | numbers | verdict |\n\
+             |---|---|---|---|\n{own}\n"
+        );
+    }
+    text
+}
+
+/// How many of the paper's claims came to which verdict.
+fn summary(verdicts: &[&Verdict]) -> String {
+    let count = |is_it: fn(&Verdict) -> bool| verdicts.iter().filter(|v| is_it(v)).count();
     format!(
-        "## Claims\n\n\
-         The rule behind a verdict stood in the config before the run. *Holds* takes a test of \
-         superiority, non-inferiority or equivalence at the family-wise level; *undecided* means that \
-         the trials were too few to tell.\n\n\
-         | claim | where the paper makes it | how it was tested | numbers | verdict |\n\
-         |---|---|---|---|---|\n{rows}\n"
+        "Of {} claims {} hold, {} hold in part, {} do not hold and {} are undecided.",
+        verdicts.len(),
+        count(|verdict| matches!(verdict, Verdict::Holds)),
+        count(|verdict| matches!(verdict, Verdict::HoldsWhere(_))),
+        count(|verdict| matches!(verdict, Verdict::DoesNotHold)),
+        count(|verdict| matches!(verdict, Verdict::Undecided)),
     )
 }
 
@@ -176,10 +206,11 @@ fn claim_row(section: &Section, claim: &Claim, judgement: &Judgement, configs: &
         "{}{trials} ([{config}]({configs}/{config}))",
         cell(&judgement.how)
     );
+    let source = claim.source.as_deref().map(cell);
     format!(
-        "| [{}](#{name}) | {} | {how} | {} | {} |\n",
+        "| [{}](#{name}) | {}{how} | {} | {} |\n",
         cell(&claim.claim),
-        cell(&claim.source),
+        source.map_or(String::new(), |source| format!("{source} | ")),
         cell(&judgement.evidence),
         cell(&verdict(&judgement.verdict)),
     )
@@ -206,12 +237,11 @@ fn chapter(section: &Section, paragraph: &str, configs: &str) -> String {
         question,
         quantities,
         comparisons,
-        rows,
         ..
     } = section;
     let mut files = Vec::new();
     for (file, is_there) in [
-        ("points.csv", !rows.is_empty()),
+        ("points.csv", true),
         ("comparisons.csv", !comparisons.is_empty()),
         ("quantities.csv", !quantities.is_empty()),
     ] {

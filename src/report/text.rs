@@ -18,7 +18,7 @@ pub enum PlaceholderError {
     #[error("`{0}` does not end (close the brace)")]
     Open(String),
     /// Not one of the four.
-    #[error("unknown placeholder {{{0}}} (one of rate, false_alarm, size, quantity)")]
+    #[error("unknown placeholder {{{0}}} (one of rate, false_alarm, size, reachable, quantity)")]
     Unknown(String),
     /// No such curve, or no row of it under this hypothesis.
     #[error("{{{placeholder}}}: no such curve (one of {known})")]
@@ -70,13 +70,14 @@ fn value(placeholder: &str, evidence: &Evidence) -> Result<String, PlaceholderEr
     if kind == "quantity" {
         return quantity(placeholder, name, evidence);
     }
-    if !["rate", "false_alarm", "size"].contains(&kind) {
+    if !["rate", "false_alarm", "size", "reachable"].contains(&kind) {
         return Err(unknown());
     }
     let is_at_rest = kind == "false_alarm" || !moves(evidence, name);
     let rows = find(placeholder, name, evidence, is_at_rest)?;
     let show = |row: &Row| match kind {
         "size" => row.size.map_or("no exact size".to_owned(), exact),
+        "reachable" => row.reachable.map_or("no smallest level".to_owned(), exact),
         _ => interval(row.rate, row.low, row.high),
     };
     // Many points may share one size; a rate is one point's.

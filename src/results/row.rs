@@ -54,6 +54,7 @@ pub struct Row {
     pub stated: String,
     pub pilot: u64,
     pub threshold: Option<f64>,
+    pub reachable: Option<f64>,
 }
 
 impl Row {
@@ -110,6 +111,7 @@ impl Row {
             stated: detector.stated.map(stated).unwrap_or_default(),
             pilot: detector.pilot,
             threshold: decision.and_then(Decision::threshold).map(eight_digits),
+            reachable: decision.and_then(Decision::reachable).map(eight_digits),
         }
     }
 
@@ -118,6 +120,7 @@ impl Row {
         Self {
             size: self.size,
             threshold: self.threshold,
+            reachable: self.reachable,
             ..Self::new(point, None, self.tally(), confidence)
         }
     }
@@ -167,7 +170,7 @@ impl Row {
 
     /// The parameters alone, by column.
     pub(super) fn parameters(&self) -> Vec<(String, String)> {
-        const DERIVED: [&str; 9] = [
+        const DERIVED: [&str; 10] = [
             "label",
             "trials",
             "detections",
@@ -177,6 +180,7 @@ impl Row {
             "confidence",
             "size",
             "threshold",
+            "reachable",
         ];
         let columns = match serde_json::to_value(self) {
             Ok(serde_json::Value::Object(columns)) => columns,
