@@ -9,17 +9,16 @@
 //!
 //! # A promise
 //! `calibrate = true` promises a false-alarm rate of at most α under each of [`PROMISED_LAWS`], with
-//! 99.9 % confidence. A rule's regions of growing nominal level contain each other, so their true
-//! false-alarm rates grow along the ladder α·0.95^j, j = … 1, 0. They are tested from the smallest up: each
-//! must be shown, under every law, to lie at or below α by an exact one-sided test at 0.001, and
-//! the first that is not ends the ladder. To end with a region above α, the first region above α
-//! must have passed, under the law that puts it there: probability at most 0.001. So neither the number of
-//! rungs nor the number of laws needs a further correction. No level above α is tried: what the exact law
-//! refuses stays refused. A score has one threshold for every level, and the order statistic that
-//! passes the same test under the worst of the laws.
+//! 99.9 % confidence. The regions of a rule at the nominal levels α·0.95^j are tested in the order
+//! j = …, 1, 0, fixed before the run: each must be shown, under every law, to have a rate of at most α by an
+//! exact one-sided test at 0.001, and the first that is not ends the ladder. To end with a region whose rate is
+//! above α under some law, the first such region on the ladder must have passed under that law: probability
+//! at most 0.001. So neither the number of rungs nor the number of laws needs a further correction. No
+//! level above α is tried: what the exact law refuses stays refused. For a score the rungs are its
+//! thresholds, and the order statistic that passes the same test under the worst of the laws is the last.
 //!
 //! # A measurement
-//! `calibrate = { noise, sensor }` makes the false-alarm rate measured with that noise equal to α, as
+//! `calibrate = { law, sensor }` makes the false-alarm rate measured with that noise equal to α, as
 //! nearly as can be from below. It promises nothing; it makes detectors comparable.
 
 use crate::binomial;
@@ -50,10 +49,12 @@ pub enum PilotError {
     Record(#[from] RecordTooLong),
     /// Nothing keeps the level.
     #[error(
-        "detector.calibrate: no region of rule {rule} can be shown to keep alpha = {alpha} in {pilot} \
-         trials (raise alpha, training, or pilot)"
+        "curve {curve}: detector.calibrate: nothing of rule {rule} can be shown to keep alpha = {alpha} in \
+         {pilot} pilot trials (raise alpha, training or pilot)"
     )]
     Nothing {
+        /// The label of the first curve that needs it.
+        curve: String,
         /// The rule.
         rule: String,
         /// Its level.
@@ -77,8 +78,16 @@ pub struct Pilots<'a> {
 /// A decision to be found.
 #[derive(Debug)]
 struct Need {
+    /// The label of the first curve that needs it.
+    curve: String,
     /// At rest, in the noise that its pilots start from.
     scenario: Scenario,
+    /// What decides, where it is no region.
+    score: Option<Arc<Score>>,
+    /// False alarms that a pilot at rest may count.
+    allowed: u64,
+    /// Trials of a pilot.
+    pilot: u64,
     /// Its place among the pilots in motion.
     motion: Option<usize>,
     /// Its places among the pilots at rest.
@@ -97,21 +106,29 @@ struct Stage {
 #[derive(Clone, Debug)]
 enum Gauge {
     Statistics(Ties),
-    Score(Arc<Score>),
+    /// A score, and how many of its largest values matter.
+    Score(Arc<Score>, usize),
 }
 
 /// What it has seen.
 #[derive(Clone, Debug)]
 enum Gathered {
     Statistics(Histogram),
-    Scores(Vec<f64>),
+    Scores(Largest),
+}
+
+/// The largest so many of the values that have come by.
+#[derive(Clone, Debug)]
+struct Largest {
+    keep: usize,
+    values: Vec<f64>,
 }
 
 impl<'a> Pilots<'a> {
     /// What has to be run before the plan's points can decide.
     ///
     /// # Errors
-    /// Where a pilot's record does not fit in memory.
+    /// Where a pilot's record does not fit in memory, or a pilot is too short to show anything.
     pub fn new(plan: &'a Plan) -> Result<Self, PilotError> {
         let mut needs: Vec<Need> = Vec::new();
         let (mut motion, mut rest) = (Stage::new(), Stage::new());
@@ -122,15 +139,24 @@ impl<'a> Pilots<'a> {
                 Design::Pilot => {
                     let scenario = believed(&point.scenario);
                     let known = needs.iter().position(|need| need.scenario == scenario);
-                    Some(known.unwrap_or_else(|| {
-                        needs.push(Need::new(scenario, &mut motion, &mut rest));
-                        needs.len() - 1
-                    }))
+                    Some(match known {
+                        Some(known) => known,
+                        None => {
+                            needs.push(Need::new(
+                                point,
+                                scenario,
+                                plan.pilot,
+                                &mut motion,
+                                &mut rest,
+                            )?);
+                            needs.len() - 1
+                        }
+                    })
                 }
             });
         }
-        motion.arrange(plan)?;
-        rest.arrange(plan)?;
+        motion.arrange(plan, Purpose::Ordering)?;
+        rest.arrange(plan, Purpose::Calibration)?;
         Ok(Self {
             plan,
             needs,
@@ -173,7 +199,7 @@ impl<'a> Pilots<'a> {
         let found: Vec<Decision> = self
             .needs
             .iter()
-            .map(|need| need.decide(&motion, &rest, self.plan.pilot))
+            .map(|need| need.decide(&motion, &rest))
             .collect::<Result<_, _>>()?;
         let points = self.plan.points.iter().zip(&self.need_of);
         Ok(points
@@ -223,10 +249,10 @@ impl Stage {
         self.gauges.len() - 1
     }
 
-    fn arrange(&mut self, plan: &Plan) -> Result<(), RecordTooLong> {
+    fn arrange(&mut self, plan: &Plan, purpose: Purpose) -> Result<(), RecordTooLong> {
         if !self.scenarios.is_empty() {
             let (trials, seed) = (plan.pilot, plan.seed);
-            let ensemble = Ensemble::new(&self.scenarios, trials, seed, Purpose::Pilot, true);
+            let ensemble = Ensemble::new(&self.scenarios, trials, seed, purpose, true);
             self.ensemble = Some(ensemble.map_err(|(_, refusal)| refusal)?);
         }
         Ok(())
@@ -243,10 +269,21 @@ impl Stage {
 }
 
 impl Need {
-    fn new(scenario: Scenario, motion: &mut Stage, rest: &mut Stage) -> Self {
+    fn new(
+        point: &Point,
+        scenario: Scenario,
+        pilot: u64,
+        motion: &mut Stage,
+        rest: &mut Stage,
+    ) -> Result<Self, PilotError> {
         let detector = &scenario.detector;
-        let gauge = match Score::new(&scenario) {
-            Some(score) => Gauge::Score(Arc::new(score)),
+        let curve = point.label.clone();
+        let Some(allowed) = allowed(detector, pilot) else {
+            return Err(nothing(curve, detector, pilot));
+        };
+        let score = Score::new(&scenario).map(Arc::new);
+        let gauge = match &score {
+            Some(score) => Gauge::Score(score.clone(), allowed as usize + 1),
             None => Gauge::Statistics(detector.ties),
         };
         let stated = detector
@@ -257,52 +294,34 @@ impl Need {
             impulses,
             ..scenario.clone()
         });
-        let resting: Vec<Scenario> = match detector.calibration {
-            Calibration::None => Vec::new(),
-            Calibration::Measured { .. } => vec![scenario.clone()],
-            Calibration::Promise => {
-                let under = |of| Scenario {
-                    noise: law(of),
-                    ..scenario.clone()
-                };
-                PROMISED_LAWS.map(under).to_vec()
-            }
-        };
-        Self {
+        Ok(Self {
             motion: moving.map(|moving| motion.add(moving, gauge.clone())),
-            rest: resting
+            rest: resting(&scenario)
                 .into_iter()
                 .map(|resting| rest.add(resting, gauge.clone()))
                 .collect(),
+            curve,
             scenario,
-        }
+            score,
+            allowed,
+            pilot,
+        })
     }
 
-    fn decide(
-        &self,
-        motion: &[Gathered],
-        rest: &[Gathered],
-        pilot: u64,
-    ) -> Result<Decision, PilotError> {
+    fn decide(&self, motion: &[Gathered], rest: &[Gathered]) -> Result<Decision, PilotError> {
         let detector = &self.scenario.detector;
-        let nothing = || PilotError::Nothing {
-            rule: detector.method.to_string(),
-            alpha: detector.alpha,
-            pilot,
-        };
         let rest: Vec<&Gathered> = self.rest.iter().map(|&place| &rest[place]).collect();
-        let allowed = allowed(detector, pilot).ok_or_else(nothing)?;
-        if let Some(score) = Score::new(&self.scenario) {
-            let thresholds = rest.iter().map(|gathered| gathered.threshold(allowed));
+        if let Some(score) = &self.score {
+            let thresholds = rest.iter().map(|gathered| gathered.threshold());
             return Ok(Decision::Threshold {
-                score: Arc::new(score),
+                score: score.clone(),
                 threshold: thresholds.fold(f64::NEG_INFINITY, f64::max),
             });
         }
         let ladder = Ladder::new(&self.scenario, self.motion.map(|place| &motion[place]));
         let keeps = |region: &Region| {
             let mut counts = rest.iter().map(|gathered| gathered.count(region));
-            counts.all(|count| count <= allowed)
+            counts.all(|count| count <= self.allowed)
         };
         let region = match detector.calibration {
             Calibration::None => ladder.region(detector.alpha),
@@ -314,8 +333,32 @@ impl Need {
                 region: Arc::new(region),
                 ties: detector.ties,
             }),
-            false => Err(nothing()),
+            false => Err(nothing(self.curve.clone(), detector, self.pilot)),
         }
+    }
+}
+
+/// The rests on which its level is to be measured.
+fn resting(scenario: &Scenario) -> Vec<Scenario> {
+    match scenario.detector.calibration {
+        Calibration::None => Vec::new(),
+        Calibration::Measured { .. } => vec![scenario.clone()],
+        Calibration::Promise => {
+            let under = |of| Scenario {
+                noise: law(of),
+                ..scenario.clone()
+            };
+            PROMISED_LAWS.map(under).to_vec()
+        }
+    }
+}
+
+fn nothing(curve: String, detector: &Detector, pilot: u64) -> PilotError {
+    PilotError::Nothing {
+        curve,
+        rule: detector.method.to_string(),
+        alpha: detector.alpha,
+        pilot,
     }
 }
 
@@ -400,7 +443,10 @@ impl Gauge {
     fn nothing(&self) -> Gathered {
         match self {
             Self::Statistics(_) => Gathered::Statistics(Histogram::default()),
-            Self::Score(_) => Gathered::Scores(Vec::new()),
+            Self::Score(_, keep) => Gathered::Scores(Largest {
+                keep: *keep,
+                values: Vec::new(),
+            }),
         }
     }
 }
@@ -416,16 +462,34 @@ impl Gathered {
         }
     }
 
-    /// What exactly `allowed` of the scores exceed, or fewer where some are equal.
-    fn threshold(&self, allowed: u64) -> f64 {
+    /// The smallest of the largest that were kept: what as many as are allowed exceed, or fewer where
+    /// some are equal.
+    fn threshold(&self) -> f64 {
         match self {
             Self::Statistics(_) => unreachable!("a threshold of a score"),
-            Self::Scores(scores) => {
-                let mut scores = scores.clone();
-                scores.sort_by(|a, b| b.total_cmp(a));
-                scores[(allowed as usize).min(scores.len() - 1)]
-            }
+            Self::Scores(largest) => largest.smallest(),
         }
+    }
+}
+
+impl Largest {
+    fn add(&mut self, value: f64) {
+        self.values.push(value);
+        // Sorted out now and then, so that the cost of a value stays small and so does the memory.
+        if self.values.len() > 2 * self.keep + 1024 {
+            self.sort_out();
+        }
+    }
+
+    fn sort_out(&mut self) {
+        self.values.sort_unstable_by(|a, b| b.total_cmp(a));
+        self.values.truncate(self.keep);
+    }
+
+    fn smallest(&self) -> f64 {
+        let mut sorted = self.clone();
+        sorted.sort_out();
+        sorted.values.last().copied().unwrap_or(f64::NEG_INFINITY)
     }
 }
 
@@ -441,7 +505,9 @@ impl Sink for Gatherer<'_> {
             (Gauge::Statistics(ties), Gathered::Statistics(histogram)) => {
                 histogram.add(observation.statistics(*ties));
             }
-            (Gauge::Score(score), Gathered::Scores(scores)) => scores.push(score.of(observation)),
+            (Gauge::Score(score, _), Gathered::Scores(largest)) => {
+                largest.add(score.of(observation))
+            }
             _ => unreachable!("what is gathered is what the gauge shows"),
         }
     }
@@ -450,7 +516,9 @@ impl Sink for Gatherer<'_> {
         for (sum, more) in self.gathered.iter_mut().zip(other.gathered) {
             match (sum, more) {
                 (Gathered::Statistics(sum), Gathered::Statistics(more)) => sum.merge(&more),
-                (Gathered::Scores(sum), Gathered::Scores(more)) => sum.extend(more),
+                (Gathered::Scores(sum), Gathered::Scores(more)) => {
+                    more.values.into_iter().for_each(|value| sum.add(value));
+                }
                 _ => unreachable!("both come from the same gauges"),
             }
         }

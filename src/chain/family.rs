@@ -65,8 +65,11 @@ pub(super) struct Stage {
 pub enum Purpose {
     /// What is reported.
     Results,
-    /// Finding a region or a threshold, which must not be tuned on the trials that measure it.
-    Pilot,
+    /// Ordering the cells of the plane of W and T against an alternative.
+    Ordering,
+    /// Finding the region or threshold that keeps a level. Neither may be tuned on the trials that
+    /// measure it, nor the level be tested on those that gave the order.
+    Calibration,
 }
 
 /// A record that does not fit in memory.
@@ -126,7 +129,8 @@ impl Family {
         let stream = |draws: &str| {
             let purpose = match purpose {
                 Purpose::Results => draws.to_owned(),
-                Purpose::Pilot => format!("pilot {draws}"),
+                Purpose::Ordering => format!("ordering {draws}"),
+                Purpose::Calibration => format!("calibration {draws}"),
             };
             Stream::new(seed, &purpose, subject)
         };

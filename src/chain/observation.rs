@@ -1,10 +1,10 @@
 //! What one trial gives at one point, and the decision on it.
 
-use super::scenario::{Detector, Scenario};
+use super::scenario::Scenario;
 use super::trial::Keys;
 use crate::detect::{
-    Baseline, Clairvoyant, Forward, Method, Pooled, Region, Samples, Statistics, Ties, block_means,
-    student_t, variance_ratio,
+    Alternative, Baseline, Clairvoyant, Forward, Method, Pooled, Region, Samples, Statistics, Ties,
+    block_means, student_t, variance_ratio,
 };
 use crate::signal::During;
 use crate::whiten::{step, whiten};
@@ -43,6 +43,7 @@ impl Observation<'_, '_> {
                     .statistics
                     .get_or_insert_with(|| pooled.statistics(|| keys.random()))
             }
+            // Studies of ties ask once a stage, so that these need not be remembered.
             Ties::ByPosition => self.pooled.statistics(|| self.keys.positions()),
             Ties::Strict => self.pooled.statistics_strictly(),
         }
@@ -51,61 +52,78 @@ impl Observation<'_, '_> {
 
 /// A statistic that replaces W and T, ready for one scenario: large values speak for H₁.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Score {
-    detector: Detector,
-    baseline: Baseline,
-    ar: Vec<f64>,
-    clairvoyant: Option<Clairvoyant>,
+pub enum Score {
+    /// Of the whitened samples.
+    StudentT(Alternative),
+    /// Of the whitened samples.
+    VarianceRatio,
+    /// Of the record.
+    BlockMeans(Alternative),
+    /// Of the record, whitened with the filter `ar`.
+    Clairvoyant {
+        /// The sensor's autoregression.
+        ar: Vec<f64>,
+        /// The statistic of its innovations.
+        statistic: Clairvoyant,
+    },
 }
 
 impl Score {
     /// That of the scenario's method, if it is one.
     pub fn new(scenario: &Scenario) -> Option<Self> {
-        let Method::Baseline(baseline) = scenario.detector.method else {
-            return None;
-        };
-        Some(Self {
-            detector: scenario.detector.clone(),
-            baseline,
-            ar: scenario.sensor.ar().to_vec(),
-            clairvoyant: clairvoyant(scenario),
-        })
+        let detector = &scenario.detector;
+        match detector.method {
+            Method::Baseline(Baseline::StudentT) => Some(Self::StudentT(detector.alternative)),
+            Method::Baseline(Baseline::VarianceRatio) => Some(Self::VarianceRatio),
+            Method::Baseline(Baseline::BlockMeans) => Some(Self::BlockMeans(detector.alternative)),
+            Method::Baseline(Baseline::Clairvoyant) => Some(Self::Clairvoyant {
+                ar: scenario.sensor.ar().to_vec(),
+                statistic: clairvoyant(scenario)?,
+            }),
+            Method::Rule(_) | Method::LikelihoodRatio => None,
+        }
     }
 
-    /// Its value.
+    /// Its value; negative infinity where it has none, as in a record of one value.
     pub fn of(&self, observation: &mut Observation) -> f64 {
         let Pooled {
             reference,
             shift,
             scale,
         } = observation.pooled;
-        let directed = |statistic| self.detector.alternative.directed(statistic);
-        match (&self.clairvoyant, self.baseline) {
-            (Some(clairvoyant), _) => {
+        let value = match self {
+            Self::StudentT(alternative) => {
+                alternative.directed(student_t(shift, [reference, scale]))
+            }
+            Self::VarianceRatio => variance_ratio(reference, scale),
+            Self::BlockMeans(alternative) => {
+                let (samples, rest) = (observation.samples, observation.rest);
+                let (shifted, from) = (samples.shift_range(), samples.reference());
+                let shifted = &observation.motion[shifted.start - from..shifted.end - from];
+                let reference = &rest[rest.len() - from..];
+                alternative.directed(block_means(rest, reference, shifted))
+            }
+            Self::Clairvoyant { ar, statistic } => {
                 let Scratch {
                     innovations,
                     forward,
                 } = &mut *observation.scratch;
-                innovate(&self.ar, observation.rest, observation.motion, innovations);
-                clairvoyant.log_likelihood_ratio(innovations, forward)
+                innovate(ar, observation.rest, observation.motion, innovations);
+                statistic.log_likelihood_ratio(innovations, forward)
             }
-            (None, Baseline::VarianceRatio) => variance_ratio(reference, scale),
-            (None, Baseline::BlockMeans) => {
-                let (samples, rest) = (observation.samples, observation.rest);
-                let shifted = samples.shift_range();
-                let from = samples.reference();
-                let shifted = &observation.motion[shifted.start - from..shifted.end - from];
-                directed(block_means(rest, &rest[rest.len() - from..], shifted))
-            }
-            (None, _) => directed(student_t(shift, [reference, scale])),
+        };
+        // The sign of a NaN is the machine's own, so it must not be sorted.
+        if value.is_nan() {
+            f64::NEG_INFINITY
+        } else {
+            value
         }
     }
 }
 
-/// The clairvoyant of the scenario's stated motion, where that is its method.
+/// The clairvoyant of the scenario's stated motion.
 fn clairvoyant(scenario: &Scenario) -> Option<Clairvoyant> {
-    let is_clairvoyant = scenario.detector.method == Method::Baseline(Baseline::Clairvoyant);
-    let (motion, impulses) = scenario.detector.stated.filter(|_| is_clairvoyant)?;
+    let (motion, impulses) = scenario.detector.stated?;
     let stated = Scenario {
         motion,
         impulses,

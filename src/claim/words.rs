@@ -85,6 +85,7 @@ pub fn symbol(axis: Option<&Axis>) -> &'static str {
         Some(Parameter::Theta) => "θ/σ_ξ",
         Some(Parameter::Order) => "m",
         Some(Parameter::AllSamples) => "N = M₁ = M₂",
+        Some(Parameter::ReferenceAndScale) => "N = M₂",
         Some(Parameter::Reference) => "N",
         Some(Parameter::Shift) => "M₁",
         Some(Parameter::Scale) => "M₂",

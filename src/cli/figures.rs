@@ -9,7 +9,7 @@ use liftsim::claim;
 use liftsim::config::{Config, ExhibitConfig, Experiment};
 use liftsim::plan::Plan;
 use liftsim::report::{self, Section};
-use liftsim::results::{Comparison, Directory, Manifest};
+use liftsim::results::{Comparison, Directory, Manifest, RESULTS};
 use liftsim::tally::MOST_TRIALS;
 use std::ffi::OsStr;
 use std::fs;
@@ -20,7 +20,7 @@ use std::time::Instant;
 /// Run every config and write the reproduction report.
 ///
 /// Each config in configs/ gets its directory in results/. What is complete there for the same config,
-/// seed, trials and version is skipped; what differs from it in words alone is drawn again from the
+/// seed and trials is skipped; what differs from it in words alone is drawn again from the
 /// stored counts. Then results/README.md says what became of each claim.
 #[derive(Debug, Args)]
 pub struct Figures {
@@ -68,7 +68,7 @@ impl Figures {
         let chosen = (chosen.into_iter())
             .map(|(name, path)| self.entry(name, path))
             .collect::<Result<Vec<_>, _>>()?;
-        // Everything that can be refused is refused before the first trial.
+        // What a sweep can be refused for is refused before the first trial.
         let tasks = chosen.iter().map(|entry| self.task(entry));
         let tasks = tasks.collect::<Result<Vec<_>, _>>()?;
         let work = tasks.iter().flatten().count();
@@ -230,7 +230,7 @@ impl Entry {
     /// Counts of the same plan, if the directory has them with every comparison that is wanted.
     fn held(&self, config: &Config, plan: &Plan) -> Option<(Counts, Manifest)> {
         let manifest = self.directory.manifest().ok()?;
-        if manifest.version != env!("CARGO_PKG_VERSION") {
+        if manifest.results != RESULTS {
             return None;
         }
         let rows = self.directory.rows_of(plan, &manifest)?;

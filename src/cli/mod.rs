@@ -15,7 +15,7 @@ mod threshold;
 
 use anyhow::Context;
 use clap::{Args, Parser, Subcommand};
-use liftsim::config::{Config, ConfigError, ExhibitConfig};
+use liftsim::config::{Config, ConfigError, ExhibitConfig, MOST_PILOT_TRIALS};
 use liftsim::plan::Plan;
 use liftsim::tally::MOST_TRIALS;
 use std::io::{self, Write};
@@ -96,6 +96,9 @@ struct Simulation {
     /// Trials per point, instead of the config's.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_TRIALS))]
     trials: Option<u64>,
+    /// Trials of each pilot run, instead of the config's.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_PILOT_TRIALS))]
+    pilot: Option<u64>,
     /// Where every draw starts from, instead of the config's.
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
@@ -121,6 +124,7 @@ impl Simulation {
     ) -> Result<(Config, Plan), Failure> {
         config.trials = self.trials.unwrap_or(config.trials);
         config.seed = self.seed.unwrap_or(config.seed);
+        config.pilot = self.pilot.unwrap_or(config.pilot);
         let plan = plan(&config).map_err(Failure::input)?;
         self.start_threads()?;
         Ok((config, plan))

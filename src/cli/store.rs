@@ -1,8 +1,8 @@
 //! From results to files: what every verb that writes a result directory shares.
 
 use super::Failure;
-use liftsim::config::{Config, ExhibitConfig};
-use liftsim::results::{self, Directory, Manifest};
+use liftsim::config::{Config, DEFAULT_PILOT_TRIALS, ExhibitConfig};
+use liftsim::results::{self, Directory, Manifest, RESULTS};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -12,6 +12,7 @@ pub struct Origin<'a> {
     pub text: &'a str,
     pub seed: u64,
     pub trials: u64,
+    pub pilot: u64,
     pub common_random_numbers: bool,
 }
 
@@ -22,6 +23,7 @@ impl<'a> From<&'a Config> for Origin<'a> {
             text: config.text(),
             seed: config.seed,
             trials: config.trials,
+            pilot: config.pilot,
             common_random_numbers: config.common_random_numbers,
         }
     }
@@ -34,28 +36,37 @@ impl<'a> From<&'a ExhibitConfig> for Origin<'a> {
             text: config.text(),
             seed: config.seed,
             trials: config.trials,
+            pilot: DEFAULT_PILOT_TRIALS,
             common_random_numbers: true,
         }
     }
 }
 
 impl Origin<'_> {
-    /// Whether results with this manifest are those of this experiment by this version.
+    /// Whether results with this manifest are those of this experiment, by a version that gives the same bytes.
     pub fn made(&self, manifest: &Manifest) -> bool {
         manifest.config == self.text
             && manifest.config_name == file_name(self.name)
             && manifest.seed == self.seed
             && manifest.trials == self.trials
-            && manifest.version == env!("CARGO_PKG_VERSION")
+            && manifest.pilot == self.pilot
+            && manifest.results == RESULTS
     }
 
     /// The command that makes the same results, wherever the files are.
     fn command_line(&self) -> String {
-        let Self { seed, trials, .. } = self;
-        format!(
-            "liftsim sweep {} --seed {seed} --trials {trials}",
-            file_name(self.name)
-        )
+        let Self {
+            seed,
+            trials,
+            pilot,
+            ..
+        } = self;
+        let name = file_name(self.name);
+        let command = format!("liftsim sweep {name} --seed {seed} --trials {trials}");
+        match *pilot {
+            DEFAULT_PILOT_TRIALS => command,
+            pilot => format!("{command} --pilot {pilot}"),
+        }
     }
 }
 
@@ -66,10 +77,12 @@ pub fn manifest(origin: &Origin, seconds: f64) -> Manifest {
         config: origin.text.to_owned(),
         config_sha256: results::sha256(origin.text.as_bytes()),
         version: env!("CARGO_PKG_VERSION").to_owned(),
+        results: RESULTS,
         revision: env!("LIFTSIM_REVISION").to_owned(),
         command: origin.command_line(),
         seed: origin.seed,
         trials: origin.trials,
+        pilot: origin.pilot,
         common_random_numbers: origin.common_random_numbers,
         seconds,
         threads: rayon::current_num_threads(),

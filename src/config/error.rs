@@ -1,5 +1,6 @@
 //! Errors that point: file, line and column, what is wrong, what was got, what to do.
 
+use super::MOST_PILOT_TRIALS;
 use super::claim::ClaimProblem;
 use crate::chain::RecordTooLong;
 use crate::detect::{RegionError, SamplesError};
@@ -168,7 +169,7 @@ pub enum Problem {
     #[error("trials must be at least 1, got 0")]
     NoTrials,
     /// A pilot of no trials, or of too many.
-    #[error("pilot must lie between 1 and 10000000 trials, got {0}")]
+    #[error("pilot must lie between 1 and {MOST_PILOT_TRIALS} trials, got {0}")]
     Pilot(u64),
     /// A statistic whose law depends on the noise's.
     #[error(
@@ -198,6 +199,15 @@ pub enum Problem {
          (set decimation to 1)"
     )]
     ClairvoyantDecimated(usize),
+    /// A sensor that remembers too much.
+    #[error(
+        "detector.rule: clairvoyant takes sensors of at most order 6, and no longer than the rest, got \
+         order {0} (give another sensor)"
+    )]
+    ClairvoyantOrder(usize),
+    /// A sample of one value.
+    #[error("detector.rule: variance-ratio needs at least 2 samples in reference and in scale")]
+    NoVariance,
     /// Too little rest for block means.
     #[error(
         "detector.rule: block-means needs {needed} samples of rest, 8 times shift, got {got} \

@@ -245,10 +245,18 @@ impl File {
     /// What stands in the file and means nothing to this kind of drawing.
     fn check_heeded(&self, kind: &ExhibitKind) -> Result<(), Refused> {
         let curve = (!self.curve.is_empty()).then(|| ("curve".to_owned(), None));
-        let shared = (self.common_random_numbers.as_ref())
-            .map(|value| ("common_random_numbers".to_owned(), Some(value.span())));
-        let trials = [
+        let of_sweeps = [
+            (
+                "common_random_numbers",
+                self.common_random_numbers.as_ref().map(Spanned::span),
+            ),
+            ("at_rest", self.at_rest.as_ref().map(Spanned::span)),
             ("pilot", self.pilot.as_ref().map(Spanned::span)),
+        ];
+        let shared = of_sweeps
+            .into_iter()
+            .find_map(|(key, span)| Some((key.to_owned(), Some(span?))));
+        let trials = [
             ("trials", self.trials.as_ref().map(Spanned::span)),
             ("half_width", self.half_width.as_ref().map(Spanned::span)),
             ("confidence", self.confidence.as_ref().map(Spanned::span)),
@@ -400,7 +408,7 @@ impl ExhibitKind {
                 _ => false,
             },
             Self::OperatingPoint(_) => match section {
-                "motion" => key != "delta",
+                "motion" => !matches!(key, "delta" | "duration"),
                 "samples" => matches!(key, "gap" | "decimation"),
                 "detector" => key != "calibrate",
                 _ => true,

@@ -254,7 +254,7 @@ with_sections! {
         confidence: Option<Spanned<Number>>,
         common_random_numbers: Option<Spanned<bool>>,
         pilot: Option<Spanned<Whole>>,
-        at_rest: Option<bool>,
+        at_rest: Option<Spanned<bool>>,
         axis: Option<AxisTable>,
         autocorrelation: Option<Spanned<AutocorrelationTable>>,
         trace: Option<Spanned<TraceTable>>,

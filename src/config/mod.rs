@@ -118,7 +118,7 @@ impl Config {
             confidence,
             common_random_numbers: (file.common_random_numbers.as_ref())
                 .is_none_or(|shared| *shared.get_ref()),
-            at_rest: file.at_rest.unwrap_or(false),
+            at_rest: (file.at_rest.as_ref()).is_some_and(|at_rest| *at_rest.get_ref()),
             pilot: file.pilot(&source)?,
             axis,
             curves,
@@ -152,7 +152,7 @@ impl File {
 
     fn pilot(&self, source: &Source) -> Result<u64, ConfigError> {
         let Some(given) = &self.pilot else {
-            return Ok(DEFAULT_TRIALS);
+            return Ok(DEFAULT_PILOT_TRIALS);
         };
         match given.get_ref().0 {
             value @ 1..=MOST_PILOT_TRIALS => Ok(value),
@@ -186,5 +186,8 @@ impl File {
 /// Trials per point where the file says nothing.
 const DEFAULT_TRIALS: u64 = 200_000;
 
+/// Trials of a pilot run where neither the file nor the command line says anything.
+pub const DEFAULT_PILOT_TRIALS: u64 = 200_000;
+
 /// A pilot keeps what it has seen in memory.
-const MOST_PILOT_TRIALS: u64 = 10_000_000;
+pub const MOST_PILOT_TRIALS: u64 = 10_000_000;

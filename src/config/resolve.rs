@@ -328,6 +328,10 @@ fn check_method(scenario: &Scenario) -> Result<(), Blamed> {
     let (detector, samples) = (&scenario.detector, &scenario.samples);
     let is_calibrated = detector.calibration != Calibration::None;
     let name = detector.method.name();
+    if !(detector.alpha > 0.0 && detector.alpha < 1.0) {
+        let problem = RegionError::Alpha(detector.alpha).into();
+        return Err((problem, &[("detector", "alpha")]));
+    }
     if detector.method.states_its_alternative() && !scenario.moves() {
         return Err((Problem::NothingStated(name), RULE_KEYS));
     }
@@ -340,6 +344,24 @@ fn check_method(scenario: &Scenario) -> Result<(), Blamed> {
             Problem::ClairvoyantDecimated(samples.decimation()),
             &[("samples", "decimation")],
         )),
+        Method::Baseline(Baseline::Clairvoyant) => {
+            let (order, rest) = (
+                scenario.sensor.ar().len(),
+                scenario.whitening.lead() + samples.reference(),
+            );
+            match order > MOST_CLAIRVOYANT_ORDER || order > rest {
+                true => Err((Problem::ClairvoyantOrder(order), SENSOR_KEYS)),
+                false => Ok(()),
+            }
+        }
+        Method::Baseline(Baseline::VarianceRatio)
+            if samples.reference() < 2 || samples.scale() < 2 =>
+        {
+            Err((
+                Problem::NoVariance,
+                &[("samples", "reference"), ("samples", "scale")],
+            ))
+        }
         Method::Baseline(Baseline::BlockMeans) => {
             let got = scenario.whitening.lead() + samples.reference();
             let needed = samples.shift().saturating_mul(8);
@@ -389,6 +411,9 @@ fn noise(law: LawKind) -> Result<Noise, Problem> {
     };
     Ok(Noise::new(law)?)
 }
+
+/// The clairvoyant's states are counted by 2.4 to the power of the sensor's order.
+const MOST_CLAIRVOYANT_ORDER: usize = 6;
 
 const LAW_KEYS: &[(&str, &str)] = &[("noise", "law")];
 const RULE_KEYS: &[(&str, &str)] = &[("detector", "rule")];

@@ -81,19 +81,20 @@ impl Clairvoyant {
                 logarithm += shift * (z - shift / 2.0);
                 continue;
             }
-            next[..self.states].fill(0.0);
-            for step in &self.steps {
-                let weight = now[step.from] * step.probability;
-                if weight > 0.0 {
-                    let mean = shift + step.mean;
-                    next[step.to] += weight * libm::exp(mean * (z - mean / 2.0));
-                }
+            next.fill(0.0);
+            let exponent = |step: &Step| {
+                let mean = shift + step.mean;
+                mean * (z - mean / 2.0)
+            };
+            let possible = || self.steps.iter().filter(|step| now[step.from] > 0.0);
+            // The largest goes in front of the sum, so that nothing overflows.
+            let largest = possible().map(exponent).fold(f64::NEG_INFINITY, f64::max);
+            for step in possible() {
+                let likelihood = libm::exp(exponent(step) - largest);
+                next[step.to] += now[step.from] * step.probability * likelihood;
             }
             let sum: f64 = next.iter().sum();
-            // A likelihood out of floating point's range decides by its sign alone.
-            if !(sum > 0.0 && sum.is_finite()) {
-                return if sum > 0.0 { f64::MAX } else { f64::MIN };
-            }
+            logarithm += largest;
             logarithm += libm::log(sum);
             next.iter_mut().for_each(|weight| *weight /= sum);
             std::mem::swap(now, next);

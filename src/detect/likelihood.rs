@@ -12,6 +12,7 @@
 //! [^1]: R. E. Barlow et al., "Statistical inference under order restrictions", Wiley, 1972.
 
 use super::design::NullLaws;
+use super::law::NullLaw;
 use super::region::NEVER;
 use super::statistics::Statistics;
 use std::collections::BTreeMap;
@@ -70,6 +71,9 @@ impl Pool {
 pub struct LikelihoodOrder {
     /// From the largest ratio down.
     pools: Vec<Pool>,
+    /// P(score) from the smallest on, and P(T), at rest.
+    scores: Vec<f64>,
+    exceedances: Vec<f64>,
 }
 
 impl LikelihoodOrder {
@@ -81,12 +85,27 @@ impl LikelihoodOrder {
                 .entry((exceedances, laws.score_of(rank_sum)))
                 .or_default() += count as f64;
         }
-        let mut pools: Vec<Pool> = (0..laws.columns())
-            .flat_map(|t| monotone(laws, t, &counts))
-            .filter(|pool| pool.count > 0.0)
-            .collect();
+        let masses = |law: &NullLaw| (law.first()..=law.last()).map(|v| law.mass(v)).collect();
+        let scores: Vec<f64> = masses(&laws.score);
+        let exceedances: Vec<f64> = masses(&laws.exceedances);
+        let mut pools: Vec<Pool> = Vec::new();
+        for (t, mass) in exceedances.iter().enumerate() {
+            let cells = (laws.score.first()..)
+                .zip(&scores)
+                .map(|(score, null)| Pool {
+                    exceedances: t,
+                    score,
+                    count: counts.get(&(t, score)).copied().unwrap_or(0.0),
+                    null: null * mass,
+                });
+            pools.extend(monotone(cells).into_iter().filter(|pool| pool.count > 0.0));
+        }
         pools.sort_by(|a, b| b.ratio().total_cmp(&a.ratio()));
-        Self { pools }
+        Self {
+            pools,
+            scores,
+            exceedances,
+        }
     }
 
     /// The critical scores of the region of size at most `alpha`: pools from the top, the last one
@@ -98,7 +117,8 @@ impl LikelihoodOrder {
             let t = pool.exceedances;
             let top = critical[t].min(laws.score.last() + 1);
             for score in (pool.score..top).rev() {
-                let mass = laws.score.mass(score) * laws.exceedances.mass(t as u64);
+                let index = (score - laws.score.first()) as usize;
+                let mass = self.scores[index] * self.exceedances[t];
                 // Rounding must not let in a cell that the exact size would refuse.
                 if size + mass > alpha * (1.0 - 1e-12) {
                     return critical;
@@ -111,22 +131,10 @@ impl LikelihoodOrder {
     }
 }
 
-/// The pools of one t, from the lowest score up, their ratios strictly growing.
-fn monotone(laws: &NullLaws, t: usize, counts: &BTreeMap<(usize, u64), f64>) -> Vec<Pool> {
-    let mass = laws.exceedances.mass(t as u64);
+/// The cells of one t, from the lowest score up, pooled until their ratios strictly grow.
+fn monotone(cells: impl Iterator<Item = Pool>) -> Vec<Pool> {
     let mut pools: Vec<Pool> = Vec::new();
-    for score in laws.score.first()..=laws.score.last() {
-        let null = laws.score.mass(score) * mass;
-        if null == 0.0 {
-            continue;
-        }
-        let count = counts.get(&(t, score)).copied().unwrap_or(0.0);
-        let mut pool = Pool {
-            exceedances: t,
-            score,
-            count,
-            null,
-        };
+    for mut pool in cells.filter(|cell| cell.null > 0.0) {
         while let Some(below) = pools.last().filter(|below| below.ratio() >= pool.ratio()) {
             pool = Pool {
                 score: below.score,
@@ -139,4 +147,46 @@ fn monotone(laws: &NullLaws, t: usize, counts: &BTreeMap<(usize, u64), f64>) -> 
         pools.push(pool);
     }
     pools
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The pooled ratios against a definition that shares nothing with the pooling: at each cell the
+    /// isotonic fit is max over starts at or before it of min over ends at or after it of the mean.
+    #[test]
+    fn pools_are_the_isotonic_fit() {
+        let counts = [3.0, 1.0, 4.0, 1.0, 5.0, 9.0, 2.0, 6.0, 5.0, 3.0, 0.0, 8.0];
+        let nulls = [2.0, 1.0, 3.0, 1.0, 1.0, 2.0, 2.0, 1.0, 4.0, 1.0, 1.0, 0.5];
+        let cells = (0..).zip(counts.into_iter().zip(nulls));
+        let pools = monotone(cells.map(|(score, (count, null))| Pool {
+            exceedances: 0,
+            score,
+            count,
+            null,
+        }));
+        let mean = |from: usize, to: usize| {
+            counts[from..=to].iter().sum::<f64>() / nulls[from..=to].iter().sum::<f64>()
+        };
+        for cell in 0..counts.len() {
+            let least = |from: usize| {
+                (cell..12)
+                    .map(move |to| mean(from, to))
+                    .fold(f64::MAX, f64::min)
+            };
+            let fit = (0..=cell).map(least).fold(0.0, f64::max);
+            let pool = pools
+                .iter()
+                .rev()
+                .find(|pool| pool.score <= cell as u64)
+                .unwrap();
+            assert!((pool.ratio() - fit).abs() < 1e-12, "{cell}");
+        }
+        assert!(
+            pools
+                .windows(2)
+                .all(|pair| pair[0].ratio() < pair[1].ratio())
+        );
+    }
 }

@@ -2,10 +2,11 @@
 //! sizes, by a search with an interval.
 //!
 //! At every Δ of a grid all trials are run on the same noise, then again on a grid thirty-two times
-//! finer around the crossing. The interval inverts the exact intervals of the rates: it ends where the
-//! upper limit first reaches the wanted power and where the lower limit does, rounded outwards to the
-//! grid. Where the power grows with Δ it covers the true point with at least the stated confidence; where
-//! it does not, everything here speaks of the first crossing.
+//! finer wherever something happens. The operating point is where the rate first reaches the wanted power.
+//! Its interval inverts the exact intervals of the rates: from the last Δ before the upper limit first
+//! reaches the power, to the first Δ after the lower limit was last below it. Where the power grows with
+//! Δ, either end is missed only if the interval at one of the two neighbours of the true point misses,
+//! so it covers that point with the stated confidence.
 
 use crate::chain::{Observation, Purpose, RecordTooLong, Scenario};
 use crate::config::{ExhibitConfig, Problem, Search};
@@ -15,6 +16,8 @@ use crate::results::{Quantity, eight_digits};
 use crate::signal::Motion;
 use crate::tally::Tally;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// One row of `points.csv`: the operating point of one size and power.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,32 +48,37 @@ const STEPS: usize = 32;
 /// The operating points of the config's scenario at every size, in the order of sizes and powers.
 ///
 /// # Errors
-/// Where a size has no region, or a record that does not fit in memory.
+/// Where a size has no region, a motion that does not fit, or a record that does not fit in memory;
+/// before the first trial.
 pub fn rows(config: &ExhibitConfig, search: &Search) -> Result<Vec<Row>, Problem> {
+    let [from, to] = search.delta;
+    let sized = search.sizes.iter().map(|&size| Sized::new(config, size));
+    let sized: Vec<Sized> = sized.collect::<Result<_, _>>()?;
+    for point in &sized {
+        point.ensemble(from, to)?;
+    }
     let mut rows = Vec::new();
-    for &size in &search.sizes {
-        let point = Sized::new(config, size)?;
-        let [from, to] = search.delta;
-        let coarse = point.curve(from, to)?;
+    for point in sized {
+        let mut grids = Grids::new(&point, from, to)?;
         for &power in &search.power {
-            rows.push(point.row(&coarse, power)?);
+            rows.push(grids.row(power)?);
         }
     }
     Ok(rows)
 }
 
-/// Δ/σ_ξ of every row that reaches its power, by name.
+/// Δ/σ_ξ of every row by name; infinite where the power is not reached.
 pub fn quantities(rows: &[Row]) -> Vec<Quantity> {
-    let reached = rows.iter().filter_map(|row| {
+    let quantity = |row: &Row| {
         let power = row.power.to_string().replace('.', "_");
-        Some(Quantity {
+        Quantity {
             name: format!("delta_for_{power}_at_{}", row.all_samples),
-            value: row.delta?,
-            low: row.low?,
-            high: row.high?,
-        })
-    });
-    reached.collect()
+            value: row.delta.unwrap_or(f64::INFINITY),
+            low: row.low.unwrap_or(f64::INFINITY),
+            high: row.high.unwrap_or(f64::INFINITY),
+        }
+    };
+    rows.iter().map(quantity).collect()
 }
 
 /// A scenario at one size.
@@ -103,11 +111,14 @@ impl Sized {
         };
         let laws = NullLaws::new(detector.alternative, &samples).map_err(RegionError::from)?;
         let region = laws.region(rule, detector.alpha)?;
-        let duration = samples.acceleration();
+        // As long as Y₁ lasts, wherever it starts: the duration follows the size.
         let motion = Motion {
-            duration,
+            duration: samples
+                .acceleration()
+                .saturating_sub(scenario.motion.offset),
             ..scenario.motion
         };
+        let motion = motion.checked().map_err(Problem::Motion)?;
         Ok(Self {
             scenario: Scenario {
                 samples,
@@ -121,26 +132,29 @@ impl Sized {
         })
     }
 
-    /// The power at `from`, `to` and the steps between them, all on the same noise.
-    fn curve(&self, from: f64, to: f64) -> Result<Vec<Level>, RecordTooLong> {
-        let delta = |step: usize| from + (to - from) * step as f64 / STEPS as f64;
-        let scenarios: Vec<Scenario> = (0..=STEPS)
-            .map(|step| {
-                let mut scenario = self.scenario.clone();
-                scenario.motion.delta = delta(step);
-                scenario
-            })
-            .collect();
+    /// The same scenario at `from`, `to` and the steps between them, all on the same noise.
+    fn ensemble(&self, from: f64, to: f64) -> Result<Ensemble, RecordTooLong> {
+        let at = |step| {
+            let mut scenario = self.scenario.clone();
+            scenario.motion.delta = delta(from, to, step);
+            scenario
+        };
+        let scenarios: Vec<Scenario> = (0..=STEPS).map(at).collect();
         let ensemble = Ensemble::new(&scenarios, self.trials, self.seed, Purpose::Results, true);
-        let ensemble = ensemble.map_err(|(_, refusal)| refusal)?;
+        ensemble.map_err(|(_, refusal)| refusal)
+    }
+
+    /// The power there.
+    fn curve(&self, from: f64, to: f64) -> Result<Vec<Level>, RecordTooLong> {
         let ties = self.scenario.detector.ties;
-        let counts = ensemble.run(|| Counts::new(&self.region, ties, STEPS + 1), |_| {});
+        let new = || Counts::new(&self.region, ties, STEPS + 1);
+        let counts = self.ensemble(from, to)?.run(new, |_| {});
         let level = |(step, &hits): (usize, &u64)| {
             let trials = self.trials;
             let tally = Tally { hits, trials };
             let (low, high) = tally.interval(self.confidence);
             Level {
-                delta: delta(step),
+                delta: delta(from, to, step),
                 rate: tally.rate(),
                 low,
                 high,
@@ -148,36 +162,89 @@ impl Sized {
         };
         Ok(counts.hits.iter().enumerate().map(level).collect())
     }
+}
 
-    fn row(&self, coarse: &[Level], power: f64) -> Result<Row, RecordTooLong> {
-        let crossing = |level: &dyn Fn(&Level) -> f64| -> Result<Option<[f64; 2]>, RecordTooLong> {
-            let Some(bracket) = bracket(coarse, power, level) else {
-                return Ok(None);
-            };
-            let fine = self.curve(bracket[0], bracket[1])?;
-            Ok(self::bracket(&fine, power, level))
+fn delta(from: f64, to: f64, step: usize) -> f64 {
+    from + (to - from) * step as f64 / STEPS as f64
+}
+
+/// The coarse grid of one size, and the fine grids that have been asked for, by the coarse step they
+/// divide.
+struct Grids<'a> {
+    point: &'a Sized,
+    coarse: Vec<Level>,
+    fine: BTreeMap<usize, Vec<Level>>,
+}
+
+impl<'a> Grids<'a> {
+    fn new(point: &'a Sized, from: f64, to: f64) -> Result<Self, RecordTooLong> {
+        Ok(Self {
+            point,
+            coarse: point.curve(from, to)?,
+            fine: BTreeMap::new(),
+        })
+    }
+
+    /// The fine grid from coarse step `above` − 1 to `above`.
+    fn fine(&mut self, above: usize) -> Result<&[Level], RecordTooLong> {
+        let ends = [self.coarse[above - 1].delta, self.coarse[above].delta];
+        Ok(match self.fine.entry(above) {
+            Entry::Occupied(entry) => entry.into_mut(),
+            Entry::Vacant(entry) => entry.insert(self.point.curve(ends[0], ends[1])?),
+        })
+    }
+
+    /// The neighbours on the fine grid between which `is_reached` first holds; twice the start of the
+    /// grid where it holds there, none where it never does.
+    fn first(
+        &mut self,
+        is_reached: impl Fn(&Level) -> bool,
+    ) -> Result<Option<[f64; 2]>, RecordTooLong> {
+        let Some(above) = self.coarse.iter().position(&is_reached) else {
+            return Ok(None);
         };
-        let delta = crossing(&|level| level.rate)?;
-        let low = crossing(&|level| level.high)?;
-        let high = crossing(&|level| level.low)?;
+        if above == 0 {
+            return Ok(Some([self.coarse[0].delta; 2]));
+        }
+        let fine = self.fine(above)?;
+        let above = fine.iter().position(is_reached).unwrap_or(STEPS).max(1);
+        Ok(Some([fine[above - 1].delta, fine[above].delta]))
+    }
+
+    /// The same for the place after which `is_reached` holds to the end.
+    fn last(
+        &mut self,
+        is_reached: impl Fn(&Level) -> bool,
+    ) -> Result<Option<[f64; 2]>, RecordTooLong> {
+        let fails = |at: &Level| !is_reached(at);
+        let Some(below) = self.coarse.iter().rposition(fails) else {
+            return Ok(Some([self.coarse[0].delta; 2]));
+        };
+        if below == STEPS {
+            return Ok(None);
+        }
+        let fine = self.fine(below + 1)?;
+        let below = fine.iter().rposition(fails).unwrap_or(0).min(STEPS - 1);
+        Ok(Some([fine[below].delta, fine[below + 1].delta]))
+    }
+
+    fn row(&mut self, power: f64) -> Result<Row, RecordTooLong> {
+        let delta = self.first(|level| level.rate >= power)?;
+        let low = self.first(|level| level.high >= power)?;
+        let high = self.last(|level| level.low >= power)?;
+        let point = self.point;
         Ok(Row {
-            all_samples: self.scenario.samples.shift(),
-            alpha: self.scenario.detector.alpha,
-            size: self.region.size(),
+            all_samples: point.scenario.samples.shift(),
+            alpha: point.scenario.detector.alpha,
+            size: point.region.size(),
             power,
             delta: delta.map(|[_, above]| eight_digits(above)),
             low: low.map(|[below, _]| eight_digits(below)),
             high: high.map(|[_, above]| eight_digits(above)),
-            trials: self.trials,
-            confidence: self.confidence,
+            trials: point.trials,
+            confidence: point.confidence,
         })
     }
-}
-
-/// The neighbours between which `level` first reaches `power`; at the start of the grid, that alone.
-fn bracket(levels: &[Level], power: f64, level: &dyn Fn(&Level) -> f64) -> Option<[f64; 2]> {
-    let above = levels.iter().position(|at| level(at) >= power)?;
-    Some([levels[above.saturating_sub(1)].delta, levels[above].delta])
 }
 
 /// Detections at each Δ.
@@ -255,6 +322,12 @@ mod tests {
                 at.map(|index| [along[index - 1].0, along[index].0])
                     .unwrap()
             };
+            let last_below = |level: &dyn Fn(Tally) -> f64| {
+                let at = along
+                    .iter()
+                    .rposition(|(_, tally)| level(*tally) < row.power);
+                along[at.unwrap() + 1].0
+            };
             let close = |a: Option<f64>, b: f64| (a.unwrap() - b).abs() < 1e-9;
             assert!(close(row.delta, first(&|tally| tally.rate())[1]), "{row:?}");
             assert!(
@@ -262,7 +335,7 @@ mod tests {
                 "{row:?}"
             );
             assert!(
-                close(row.high, first(&|tally| tally.interval(0.95).0)[1]),
+                close(row.high, last_below(&|tally| tally.interval(0.95).0)),
                 "{row:?}"
             );
         }
@@ -280,6 +353,10 @@ mod tests {
         };
         let rows = rows(&config, search).unwrap();
         assert!(rows.iter().all(|row| row.delta.is_none()));
-        assert!(quantities(&rows).is_empty());
+        assert!(
+            quantities(&rows)
+                .iter()
+                .all(|quantity| quantity.value == f64::INFINITY)
+        );
     }
 }

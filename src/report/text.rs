@@ -5,6 +5,7 @@
 //! | `{rate:LABEL@VALUE}` | the rate of a curve at a value of the axis, with its interval |
 //! | `{false_alarm:LABEL}`, `{false_alarm:LABEL@VALUE}` | the same at rest |
 //! | `{size:LABEL}`, `{size:LABEL@VALUE}` | the exact size of its region |
+//! | `{reachable:LABEL}`, `{reachable:LABEL@VALUE}` | the smallest level that its rule can be held to |
 //! | `{quantity:NAME}` | a single number |
 
 use crate::claim::words::{exact, interval};
@@ -81,8 +82,9 @@ fn value(placeholder: &str, evidence: &Evidence) -> Result<String, PlaceholderEr
         _ => interval(row.rate, row.low, row.high),
     };
     // Many points may share one size; a rate is one point's.
+    let is_shared = ["size", "reachable"].contains(&kind);
     let is_one =
-        rows.len() == 1 || kind == "size" && rows.iter().all(|(_, r)| r.size == rows[0].1.size);
+        rows.len() == 1 || is_shared && rows.iter().all(|(_, r)| show(r) == show(rows[0].1));
     match is_one {
         true => Ok(show(rows[0].1)),
         false => Err(PlaceholderError::Value {

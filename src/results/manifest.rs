@@ -4,6 +4,10 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
+/// Raised whenever the same config and seed come to give other bytes than before, so that results of
+/// before are not taken for complete.
+pub const RESULTS: u32 = 1;
+
 /// How a run came about: `run.json`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Manifest {
@@ -15,6 +19,8 @@ pub struct Manifest {
     pub config_sha256: String,
     /// Of liftsim.
     pub version: String,
+    /// Of the bytes that a config and a seed give: [`RESULTS`] at the time.
+    pub results: u32,
     /// Of its source, where it was known when liftsim was built.
     pub revision: String,
     /// What makes the same results again.
@@ -23,6 +29,8 @@ pub struct Manifest {
     pub seed: u64,
     /// Trials per point.
     pub trials: u64,
+    /// Trials of each pilot run, where there was any.
+    pub pilot: u64,
     /// Whether points shared their noise.
     pub common_random_numbers: bool,
     /// Wall clock of the simulation.

@@ -13,6 +13,6 @@ mod row;
 
 pub use comparison::{Comparison, Place};
 pub use directory::{Directory, ResultsError};
-pub use manifest::{Manifest, sha256};
+pub use manifest::{Manifest, RESULTS, sha256};
 pub use quantity::Quantity;
 pub use row::{Row, csv_bytes, eight_digits};

@@ -229,9 +229,42 @@ const CONFIGS: &[(&str, &str)] = &[
         "confidence of 1",
         "confidence = 1.0\n[axis]\ndelta = [1.0]\n",
     ),
+    ("a pilot of no trials", "pilot = 0\n[axis]\ndelta = [1.0]\n"),
     (
-        "a claim without a source",
-        "[axis]\ndelta = [0.0, 1.0]\n[[claim]]\nclaim = \"?\"\ntest = \"grows\"\n",
+        "a baseline without a threshold",
+        "[detector]\nrule = \"student-t\"\n[axis]\ndelta = [1.0]\n",
+    ),
+    (
+        "a table to be calibrated",
+        "[detector]\ncalibrate = true\n[axis]\nrule = [{ table = [1] }]\n",
+    ),
+    (
+        "a likelihood ratio against rest",
+        "[impulses]\nnu = 0.0\n[detector]\nrule = \"likelihood-ratio\"\n[axis]\ndelta = [0.0, 1.0]\n",
+    ),
+    (
+        "calibration on an unknown law",
+        "[detector]\ncalibrate = { law = \"gauss\" }\n[axis]\ndelta = [1.0]\n",
+    ),
+    (
+        "calibration on a number",
+        "[detector]\ncalibrate = 3\n[axis]\ndelta = [1.0]\n",
+    ),
+    (
+        "a clairvoyant of block means",
+        "[sensor]\nar = []\n[samples]\ndecimation = 2\n[detector]\nrule = \"clairvoyant\"\ncalibrate = {}\n[axis]\ndelta = [1.0]\n",
+    ),
+    (
+        "block means without a rest",
+        "[whitening]\ntraining = 20\n[detector]\nrule = \"block-means\"\ncalibrate = {}\n[axis]\ndelta = [1.0]\n",
+    ),
+    (
+        "a swell of nothing",
+        "[rest]\nswell = 0.0\n[axis]\ndelta = [1.0]\n",
+    ),
+    (
+        "unknown ties",
+        "[detector]\nties = \"midranks\"\n[axis]\ndelta = [1.0]\n",
     ),
     (
         "a blank claim",

@@ -96,11 +96,12 @@ fn every_config_runs() {
         let path = entry.unwrap().path();
         let directory = tempfile::tempdir().unwrap();
         let (path, out) = (path.to_str().unwrap(), directory.path().to_str().unwrap());
-        run(&["sweep", path, "--trials", "20", "--out", out]);
+        let short = ["--trials", "20", "--pilot", "2000"];
+        run(&[&["sweep", path, "--out", out], &short[..]].concat());
         let rows = fs::read_to_string(directory.path().join("points.csv")).unwrap();
         assert!(rows.lines().count() > 1, "{path}");
         if let Experiment::Sweep(_) = Experiment::load(path.as_ref()).unwrap() {
-            run(&["plan", path, "--trials", "20"]);
+            run(&[&["plan", path], &short[..]].concat());
             assert!(rows.contains(",H0,"), "{path}");
         }
     }

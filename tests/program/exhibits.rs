@@ -159,7 +159,7 @@ fn verbs_that_need_a_sweep() {
         assert_eq!((code, out.as_str()), (2, ""), "{err}");
         let words = "[layout] says what to draw, but nothing is swept here";
         assert!(
-            err.contains("configs/fig5.toml:11:1") && err.contains(words),
+            err.contains("configs/fig5.toml:16:1") && err.contains(words),
             "{err}"
         );
     }
