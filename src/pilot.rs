@@ -37,6 +37,12 @@ pub const PROMISED_LAWS: [Law; 4] = [Law::Normal, Law::Laplace, Law::Uniform, La
 /// The probability that a promise is not kept, at most.
 pub const PROMISE_LEVEL: f64 = 1e-3;
 
+/// A rate measured by fewer false alarms is none.
+const FEWEST_FALSE_ALARMS: u64 = 20;
+
+/// An order found in fewer trials is none.
+const FEWEST_TRIALS: u64 = 1000;
+
 /// The rungs of the ladder: nominal levels down to a millionth of α.
 const RUNGS: i32 = 270;
 const RUNG: f64 = 0.95;
@@ -49,8 +55,8 @@ pub enum PilotError {
     Record(#[from] RecordTooLong),
     /// Nothing keeps the level.
     #[error(
-        "curve {curve}: detector.calibrate: nothing of rule {rule} can be shown to keep alpha = {alpha} in \
-         {pilot} pilot trials (raise alpha, training or pilot)"
+        "curve {curve}: detector: {pilot} pilot trials show no region or threshold of rule {rule} that keeps \
+         alpha = {alpha} (raise pilot, training or alpha)"
     )]
     Nothing {
         /// The label of the first curve that needs it.
@@ -278,7 +284,9 @@ impl Need {
     ) -> Result<Self, PilotError> {
         let detector = &scenario.detector;
         let curve = point.label.clone();
-        let Some(allowed) = allowed(detector, pilot) else {
+        let is_too_short = detector.method == Method::LikelihoodRatio && pilot < FEWEST_TRIALS;
+        let allowed = allowed(detector, pilot).filter(|_| !is_too_short);
+        let Some(allowed) = allowed else {
             return Err(nothing(curve, detector, pilot));
         };
         let score = Score::new(&scenario).map(Arc::new);
@@ -362,11 +370,15 @@ fn nothing(curve: String, detector: &Detector, pilot: u64) -> PilotError {
     }
 }
 
-/// How many false alarms a pilot at rest may count; none where even none would show nothing.
+/// How many false alarms a pilot at rest may count; none where it is too short to show anything.
 fn allowed(detector: &Detector, pilot: u64) -> Option<u64> {
     let expected = (detector.alpha * pilot as f64).floor() as u64;
-    if detector.calibration != Calibration::Promise {
-        return Some(expected);
+    match detector.calibration {
+        Calibration::None => return Some(0),
+        Calibration::Measured { .. } => {
+            return (expected >= FEWEST_FALSE_ALARMS).then_some(expected);
+        }
+        Calibration::Promise => {}
     }
     // Counts that a rate of α would reach or undercut with probability 0.001 at most.
     let is_shown = |count: u64| binomial::lower_tail(count, pilot, detector.alpha) <= PROMISE_LEVEL;

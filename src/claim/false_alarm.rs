@@ -102,9 +102,10 @@ fn place(rests: &[Rest], label: &str, axis: Option<&Axis>) -> Option<String> {
     }
 }
 
-/// The row nearest to breaking its promise.
+/// The row that is worst for its level.
 fn worst(rests: &[Rest], axis: Option<&Axis>) -> String {
-    let worst = rests.iter().min_by(|a, b| a.p_value.total_cmp(&b.p_value));
+    let excess = |rest: &Rest| rest.row.rate / rest.row.alpha;
+    let worst = rests.iter().max_by(|a, b| excess(a).total_cmp(&excess(b)));
     let Some(Rest {
         label,
         value,

@@ -1,7 +1,8 @@
 //! How many decibels of Δ does one curve save over another at the same power?
 //!
-//! Δ at which a curve crosses the power is bracketed by inverting its pointwise intervals: from where the upper limits first reach the power to where the lower limits last leave it, both limits
-//! joined by straight lines. The gain is 20 log₁₀(Δ_second/Δ_first).
+//! Δ at which a curve crosses the power is bracketed by inverting its pointwise intervals: from where the
+//! upper limits first reach the power to where the lower limits last leave it, both limits joined by
+//! straight lines. The gain is 20 log₁₀(Δ_second/Δ_first).
 //!
 //! Assumptions: the true power does not fall along the axis and is straight between neighbouring
 //! values. Then a bracket misses only if a limit fails at one of the two values around the crossing:
@@ -12,8 +13,8 @@
 use super::place::placed;
 use super::words::{curve as named, decimals, exact, fixed};
 use super::{ClaimError, Evidence, Judgement, Verdict};
-use crate::config::Claim;
-use crate::results::Row;
+use crate::config::{Claim, Test};
+use crate::results::{Quantity, Row, eight_digits};
 
 pub(super) fn judge(
     claim: &Claim,
@@ -22,11 +23,8 @@ pub(super) fn judge(
     from: f64,
     evidence: &Evidence,
 ) -> Result<Judgement, ClaimError> {
-    let bracket = |label| crossing(label, power, 1.0 - claim.level / 4.0, evidence);
-    let (a, b) = (bracket(first)?, bracket(second)?);
-    let low = decibels(b.low, a.high).unwrap_or(f64::NEG_INFINITY);
-    let high = decibels(b.high, a.low).unwrap_or(f64::INFINITY);
-    let best = decibels(b.best, a.best);
+    let Gain { a, b, decibels } = measure(claim, [first, second], power, evidence)?;
+    let [best, low, high] = decibels;
     let verdict = match () {
         () if low > from => Verdict::Holds,
         () if high <= from => Verdict::DoesNotHold,
@@ -37,7 +35,10 @@ pub(super) fn judge(
         verdict,
         evidence: format!(
             "gain {} [{}, {}] dB; {} reaches {power} at {}, {} at {}",
-            best.map_or("unknown".to_owned(), |best| fixed(best, places)),
+            match best.is_nan() {
+                true => "unknown".to_owned(),
+                false => fixed(best, places),
+            },
             fixed(low, places),
             fixed(high, places),
             named(first),
@@ -54,6 +55,60 @@ pub(super) fn judge(
             claim.level,
         ),
     })
+}
+
+/// Both crossings, and the decibels between them with their interval.
+struct Gain {
+    a: Crossing,
+    b: Crossing,
+    decibels: [f64; 3],
+}
+
+fn measure(
+    claim: &Claim,
+    [first, second]: [&String; 2],
+    power: f64,
+    evidence: &Evidence,
+) -> Result<Gain, ClaimError> {
+    let bracket = |label| crossing(label, power, 1.0 - claim.level / 4.0, evidence);
+    let (a, b) = (bracket(first)?, bracket(second)?);
+    let low = decibels(b.low, a.high).unwrap_or(f64::NEG_INFINITY);
+    let high = decibels(b.high, a.low).unwrap_or(f64::INFINITY);
+    let best = decibels(b.best, a.best).unwrap_or(f64::NAN);
+    Ok(Gain {
+        a,
+        b,
+        decibels: [best, low, high],
+    })
+}
+
+/// The gains that claims ask for: `gain_3_db` for the third claim.
+///
+/// # Errors
+/// Where a curve has no row for each value of the axis.
+pub fn gains(claims: &[Claim], evidence: &Evidence) -> Result<Vec<Quantity>, ClaimError> {
+    let mut quantities = Vec::new();
+    for (number, claim) in (1..).zip(claims) {
+        let Test::Gain {
+            first,
+            second,
+            power,
+            ..
+        } = &claim.test
+        else {
+            continue;
+        };
+        let [value, low, high] = measure(claim, [first, second], *power, evidence)?
+            .decibels
+            .map(eight_digits);
+        quantities.push(Quantity {
+            name: format!("gain_{number}_db"),
+            value,
+            low,
+            high,
+        });
+    }
+    Ok(quantities)
 }
 
 /// 20 log₁₀(second/first); none where both are nought or beyond the axis.

@@ -1,6 +1,6 @@
 //! Does each curve grow along the axis?
 
-use super::words::{at, count, curve as named, interval, range};
+use super::words::{at, compared, curve as named, interval, range};
 use super::{ClaimError, Judgement, Verdict};
 use crate::config::{Axis, Claim};
 use crate::results::Comparison;
@@ -37,7 +37,7 @@ pub(super) fn judge(
     Ok(Judgement {
         verdict: verdict(&climbs, axis),
         evidence: evidence(&climbs, axis),
-        how: how(claim, comparisons.len(), axis),
+        how: how(claim, comparisons, axis),
     })
 }
 
@@ -155,12 +155,12 @@ fn lowest<'a>(comparisons: impl Iterator<Item = &'a Comparison>) -> &'a Comparis
     comparisons.min_by(order).expect("a climb has a step")
 }
 
-fn how(claim: &Claim, comparisons: usize, axis: Option<&Axis>) -> String {
+fn how(claim: &Claim, comparisons: &[&Comparison], axis: Option<&Axis>) -> String {
     let Claim { level, margin, .. } = claim;
     format!(
         "growth along {}: no step below −{margin} and every curve's last above its first by more than \
          {margin}; {}, family-wise level {level}",
         super::words::symbol(axis),
-        count(comparisons, "comparison"),
+        compared(comparisons),
     )
 }

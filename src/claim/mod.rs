@@ -9,7 +9,7 @@
 //! |---|---|---|---|
 //! | `grows` | every step's interval starts at −margin or above, every curve's last − first above margin | every curve falls or is flat, or some does and none grows from first to last | one falls or is flat, and others grow: these, and the ranges in which the one grows |
 //! | `exceeds` | every point's interval starts at −margin or above, one above margin | none is greater, and one is smaller or all are at most margin | some are greater, some smaller: where greater |
-//! | `equals` | every point's interval lies inside ± margin | one lies outside, and none inside | some inside, some outside: where inside |
+//! | `equals` | every point's interval lies inside ± margin | one lies outside, and no two neighbours inside (curves that cross are equal where they cross) | one lies outside, neighbours inside: these |
 //! | `alpha_held` | no row is rejected and every upper limit is at most excess · α | some are rejected, and no other is held | some are rejected: where held |
 //! | `quantity` | its interval lies in [from, to] | its interval misses [from, to] | |
 //! | `gain` | its interval lies above `from` | its interval ends at `from` or below | |
@@ -38,6 +38,7 @@ mod quantity;
 mod tests;
 pub mod words;
 
+pub use gain::gains;
 pub use pairs::{Pair, comparisons, confidence, pairs};
 pub use place::placed;
 pub use quantity::named_quantity;
@@ -113,12 +114,10 @@ pub fn judge(claim: &Claim, number: usize, evidence: &Evidence) -> Result<Judgem
     let comparisons: Vec<&Comparison> = evidence.comparisons.iter().filter(of_claim).collect();
     match &claim.test {
         Test::Grows { curves } => growth::judge(claim, curves, &comparisons, evidence.axis),
-        Test::Exceeds { first, second } => {
-            contrast::exceeds(claim, [first, second], &comparisons, evidence.axis)
+        Test::Exceeds(contrasts) => {
+            contrast::exceeds(claim, contrasts, &comparisons, evidence.axis)
         }
-        Test::Equals { first, second } => {
-            contrast::equals(claim, [first, second], &comparisons, evidence.axis)
-        }
+        Test::Equals(contrasts) => contrast::equals(claim, contrasts, &comparisons, evidence.axis),
         Test::AlphaHeld { curves, excess } => false_alarm::judge(claim, curves, *excess, evidence),
         Test::Quantity { name, from, to } => {
             quantity::judge(name, [*from, *to], evidence.quantities)

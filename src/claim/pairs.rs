@@ -1,7 +1,7 @@
 //! The pairs of points that claims compare.
 
 use super::place::point_at;
-use crate::config::{Claim, Config, Test};
+use crate::config::{Claim, Config, Contrast, Test};
 use crate::plan::Point;
 use crate::results::{Comparison, Place};
 use crate::tally::Tally;
@@ -40,8 +40,10 @@ pub fn pairs(config: &Config, points: &[Point]) -> Vec<Pair> {
                     }
                 }
             }
-            Test::Exceeds { first, second } | Test::Equals { first, second } => {
-                (0..=last).for_each(|value| add((first, value), (second, value)));
+            Test::Exceeds(contrasts) | Test::Equals(contrasts) => {
+                for Contrast { first, second, .. } in &contrasts.each {
+                    (0..=last).for_each(|value| add((first, value), (second, value)));
+                }
             }
             Test::AlphaHeld { .. } | Test::Quantity { .. } | Test::Gain { .. } => {}
         }

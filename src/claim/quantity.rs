@@ -31,10 +31,10 @@ pub(super) fn judge(
     };
     Ok(Judgement {
         verdict,
-        evidence: format!("{} {}", in_words(name), interval(value, low, high)),
+        evidence: interval(value, low, high),
         how: match low == high {
-            true => format!("{} {range}, exactly", in_words(name)),
-            false => format!("the interval of {} {range}", in_words(name)),
+            true => format!("`{name}` {range}, exactly"),
+            false => format!("the interval of `{name}` {range}"),
         },
     })
 }
@@ -57,8 +57,4 @@ pub fn named_quantity<'a>(
         let name = name.to_owned();
         ClaimError::NoQuantity { name, known }
     })
-}
-
-fn in_words(name: &str) -> String {
-    name.replace('_', " ")
 }

@@ -1,6 +1,7 @@
 //! Numbers and places in words.
 
 use crate::config::{Axis, Parameter};
+use crate::results::Comparison;
 
 /// A number and its interval, `0.8231 [0.8214, 0.8248]`, with two digits of the half-width; an exact
 /// number stands alone.
@@ -65,6 +66,22 @@ pub fn count(number: usize, noun: &str) -> String {
     match number {
         1 => format!("1 {noun}"),
         _ => format!("{} {noun}s", thousands(number as u64)),
+    }
+}
+
+/// How many comparisons, and whether trial by trial: `7 paired comparisons`.
+pub fn compared(comparisons: &[&Comparison]) -> String {
+    let paired = comparisons
+        .iter()
+        .filter(|c| c.first_only.is_some())
+        .count();
+    match paired {
+        0 => count(comparisons.len(), "unpaired comparison"),
+        all if all == comparisons.len() => count(all, "paired comparison"),
+        some => format!(
+            "{}, {some} of them paired",
+            count(comparisons.len(), "comparison")
+        ),
     }
 }
 

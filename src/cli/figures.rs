@@ -21,7 +21,8 @@ use std::time::Instant;
 ///
 /// Each config in configs/ gets its directory in results/. What is complete there for the same config,
 /// seed and trials is skipped; what differs from it in words alone is drawn again from the
-/// stored counts. Then results/README.md says what became of each claim.
+/// stored counts. Then results/README.md says what became of each claim, after the text of
+/// configs/preface.md, if there is one.
 #[derive(Debug, Args)]
 pub struct Figures {
     /// Only this config, by the name of its file; may be given again.
@@ -153,11 +154,11 @@ impl Figures {
         Ok(Some(Task::Sweep { config, plan, held }))
     }
 
-    /// A quick look must not cost a long run.
+    /// A quick look, or a config cut short, must not cost a long run.
     fn check_trials(&self, entry: &Entry) -> Result<(), Failure> {
-        let held = entry.directory.manifest();
-        match (self.trials, held) {
-            (Some(asked), Ok(held)) if held.trials > asked => Err(Failure::Input(anyhow!(
+        let asked = entry.origin().trials;
+        match entry.directory.manifest() {
+            Ok(held) if held.trials > asked => Err(Failure::Input(anyhow!(
                 "{}: holds {} trials per point, more than the {asked} asked for \
                  (give another --results, or --fresh to replace them)",
                 entry.directory.path().display(),
@@ -181,16 +182,19 @@ impl Figures {
         let path = directory.path().join("README.md");
         if !missing.is_empty() {
             eprintln!(
-                "{}: not written: no complete results of {} (run liftsim figures without --only)",
+                "{}: not written: {} of {} configs have no complete results (run liftsim figures without --only)",
                 path.display(),
-                missing.join(", ")
+                missing.len(),
+                missing.len() + entries.len()
             );
             return Ok(());
         }
         let sections = entries.iter().map(Entry::section);
         let sections = sections.collect::<Result<_, _>>()?;
         let configs = self.way_to_configs().map_err(Failure::run)?;
-        let text = report::markdown(sections, &configs).map_err(Failure::input)?;
+        // A config directory may say what the report is about.
+        let preface = fs::read_to_string(self.configs.join("preface.md")).unwrap_or_default();
+        let text = report::markdown(sections, &configs, &preface).map_err(Failure::input)?;
         let is_new = directory.write("README.md", &text).map_err(Failure::run)?;
         print(&store::line(&directory, "README.md", is_new))
     }
@@ -216,14 +220,17 @@ impl Figures {
 }
 
 impl Entry {
+    fn origin(&self) -> Origin<'_> {
+        match &self.experiment {
+            Experiment::Sweep(config) => Origin::from(config),
+            Experiment::Exhibit(config) => Origin::from(&**config),
+        }
+    }
+
     /// What made the results here, if they are those of this config, whole.
     fn complete(&self) -> Option<Manifest> {
         let manifest = self.directory.manifest().ok()?;
-        let origin = match &self.experiment {
-            Experiment::Sweep(config) => Origin::from(config),
-            Experiment::Exhibit(config) => Origin::from(&**config),
-        };
-        let is_complete = origin.made(&manifest) && self.directory.is_intact(&manifest);
+        let is_complete = self.origin().made(&manifest) && self.directory.is_intact(&manifest);
         is_complete.then_some(manifest)
     }
 

@@ -3,12 +3,12 @@
 use super::store::{Origin, Written, file_name, manifest, write_all};
 use super::{Failure, Outcome, Simulation, exhibit, print, progress};
 use clap::Args;
-use liftsim::claim::{self, Pair};
+use liftsim::claim::{self, Evidence, Pair};
 use liftsim::config::{Config, Experiment};
 use liftsim::figure;
 use liftsim::plan::Plan;
 use liftsim::report::Section;
-use liftsim::results::{self, Comparison, Directory, Manifest, Row};
+use liftsim::results::{self, Comparison, Directory, Manifest, Quantity, Row};
 use liftsim::tally::Tally;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -125,12 +125,23 @@ impl Counts {
         let tallies: Vec<Tally> = self.rows.iter().map(Row::tally).collect();
         claim::comparisons(claims, &self.pairs, &tallies, &self.discordant)
     }
+
+    fn quantities(&self, config: &Config) -> Result<Vec<Quantity>, Failure> {
+        let evidence = Evidence {
+            axis: Some(&config.axis),
+            rows: &self.rows,
+            comparisons: &[],
+            quantities: &[],
+        };
+        claim::gains(&config.narrative.claims, &evidence).map_err(Failure::input)
+    }
 }
 
 /// Judges the claims and fills the text once on empty counts, so that what they name is known to be
 /// there before anything is simulated.
 pub(super) fn rehearse(config: &Config, plan: &Plan) -> Result<(), Failure> {
     let empty = Counts::empty(config, plan);
+    let quantities = empty.quantities(config)?;
     let section = Section {
         name: String::new(),
         config: file_name(config.name()),
@@ -140,7 +151,7 @@ pub(super) fn rehearse(config: &Config, plan: &Plan) -> Result<(), Failure> {
         trials: 1,
         comparisons: empty.comparisons(config),
         rows: empty.rows,
-        quantities: Vec::new(),
+        quantities,
     };
     section.judge().map(drop).map_err(Failure::input)
 }
@@ -162,6 +173,10 @@ pub(super) fn write(
     if !counts.pairs.is_empty() {
         let comparisons = results::csv_bytes(&counts.comparisons(config));
         files.push(("comparisons.csv", comparisons));
+    }
+    let quantities = counts.quantities(config)?;
+    if !quantities.is_empty() {
+        files.push(("quantities.csv", results::csv_bytes(&quantities)));
     }
     files.extend(drawing.files().map(|(name, bytes)| (name, bytes.to_vec())));
     write_all(directory, manifest, &files)

@@ -50,20 +50,10 @@ pub enum Test {
         /// At least one.
         curves: Vec<String>,
     },
-    /// One curve lies above another.
-    Exceeds {
-        /// The upper.
-        first: String,
-        /// The lower.
-        second: String,
-    },
-    /// Two curves are equivalent within ± the margin.
-    Equals {
-        /// The one.
-        first: String,
-        /// The other.
-        second: String,
-    },
+    /// The first curve of each contrast lies above the second.
+    Exceeds(Contrasts),
+    /// Both curves of each contrast are equivalent within ± the margin.
+    Equals(Contrasts),
     /// The false-alarm rates of these curves stay at or below α.
     AlphaHeld {
         /// At least one.
@@ -91,6 +81,29 @@ pub enum Test {
         /// The gain, in decibels, that is to be surpassed.
         from: f64,
     },
+}
+
+/// What is held against what.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contrasts {
+    /// As the claim has it: a curve's label, a series or a panel.
+    pub first: String,
+    /// Likewise.
+    pub second: String,
+    /// One for two curves; for two series one in each panel that has both, for two panels one of each
+    /// series that is in both.
+    pub each: Vec<Contrast>,
+}
+
+/// Two curves, by their labels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contrast {
+    /// The one.
+    pub first: String,
+    /// The other.
+    pub second: String,
+    /// The panel or the series they share; blank for two curves.
+    pub place: String,
 }
 
 /// What is wrong with a claim.
@@ -288,6 +301,7 @@ impl<'de> Deserialize<'de> for TestKind {
 /// What a test may refer to.
 struct Scope<'a> {
     labels: Vec<&'a str>,
+    curves: &'a [Curve],
     axis: Option<&'a Axis>,
 }
 
@@ -295,7 +309,11 @@ impl Story {
     /// Checks the claims against the curves and the axis, if there are any.
     pub fn check(self, curves: &[Curve], axis: Option<&Axis>) -> Result<Narrative, Placed> {
         let labels = curves.iter().map(|curve| curve.label.as_str()).collect();
-        let scope = Scope { labels, axis };
+        let scope = Scope {
+            labels,
+            curves,
+            axis,
+        };
         let claims = self.claims.iter().map(|table| table.check(&scope));
         Ok(Narrative {
             claims: claims.collect::<Result<_, _>>()?,
@@ -364,12 +382,12 @@ impl TestTable {
         let given = [
             self.grows.as_ref().map(|table| scope.grows(&span, table)),
             self.exceeds.as_ref().map(|table| {
-                let (first, second) = scope.pair(&span, &table.first, &table.second)?;
-                Ok(Test::Exceeds { first, second })
+                let contrasts = scope.contrasts(&span, &table.first, &table.second);
+                contrasts.map(Test::Exceeds)
             }),
             self.equals.as_ref().map(|table| {
-                let (first, second) = scope.pair(&span, &table.first, &table.second)?;
-                Ok(Test::Equals { first, second })
+                let contrasts = scope.contrasts(&span, &table.first, &table.second);
+                contrasts.map(Test::Equals)
             }),
             self.alpha_held
                 .as_ref()
@@ -464,6 +482,61 @@ impl Scope<'_> {
             true => Err((second.span(), ClaimProblem::Same(labels.0))),
             false => Ok(labels),
         }
+    }
+
+    /// Two curves, or, where neither name is a label, two series or two panels.
+    fn contrasts(
+        &self,
+        span: &Range<usize>,
+        first: &Spanned<String>,
+        second: &Spanned<String>,
+    ) -> Result<Contrasts, Placed> {
+        let (a, b) = (first.get_ref(), second.get_ref());
+        let by_series = self.matched(a, b, |curve| (&curve.series, &curve.panel));
+        let by_panel = self.matched(a, b, |curve| (&curve.panel, &curve.series));
+        let mut each = [by_series, by_panel].concat();
+        if each.is_empty() || a == b {
+            let (first, second) = self.pair(span, first, second)?;
+            let place = String::new();
+            each = vec![Contrast {
+                first,
+                second,
+                place,
+            }];
+        }
+        Ok(Contrasts {
+            first: a.clone(),
+            second: b.clone(),
+            each,
+        })
+    }
+
+    /// The curves called `first` that have a counterpart called `second`, by the two names that `of`
+    /// gives a curve: that which is held against another, and that which both share.
+    fn matched(
+        &self,
+        first: &str,
+        second: &str,
+        of: impl Fn(&Curve) -> (&Option<String>, &Option<String>),
+    ) -> Vec<Contrast> {
+        let called = |name: &str| {
+            let named = self.curves.iter().filter_map(|curve| {
+                let (own, shared) = of(curve);
+                Some((curve, shared.clone()?)).filter(|_| own.as_deref() == Some(name))
+            });
+            named.collect::<Vec<_>>()
+        };
+        let others = called(second);
+        let ones = called(first).into_iter();
+        ones.filter_map(|(one, place)| {
+            let (other, _) = others.iter().find(|(_, shared)| *shared == place)?;
+            Some(Contrast {
+                first: one.label.clone(),
+                second: other.label.clone(),
+                place,
+            })
+        })
+        .collect()
     }
 
     fn curve(&self, given: &Spanned<String>) -> Result<String, Placed> {

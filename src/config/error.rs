@@ -153,6 +153,14 @@ pub enum Problem {
     /// A label that tells no curve from another.
     #[error("curve.label must be there and differ from every other, got \"{0}\"")]
     Label(String),
+    /// Panels for some curves only.
+    #[error(
+        "curve.panel: either every curve names its panel or none does (add it, or take it out)"
+    )]
+    PanelMissing,
+    /// Two curves that look the same.
+    #[error("curve.series: {0} is already in this panel (name another series)")]
+    SeriesTwice(String),
     /// A confidence that is none.
     #[error("confidence must lie strictly between 0 and 1, got {0}")]
     Confidence(f64),
@@ -190,7 +198,7 @@ pub enum Problem {
     /// A rule made for a motion, where nothing moves.
     #[error(
         "detector.rule: {0} is made for one motion, and nothing moves here \
-         (give motion.delta or impulses.nu and theta)"
+         (give motion.delta or impulses.nu and theta, or take the value that moves nothing out of the axis)"
     )]
     NothingStated(&'static str),
     /// The clairvoyant's filter is that of single samples.

@@ -17,7 +17,7 @@ mod tests;
 mod value;
 
 pub use axis::{Axis, AxisValue, Parameter};
-pub use claim::{Claim, ClaimProblem, Narrative, Test};
+pub use claim::{Claim, ClaimProblem, Contrast, Contrasts, Narrative, Test};
 pub use error::{ConfigError, Problem};
 pub use exhibit::{ExhibitConfig, ExhibitKind, Experiment, Phase, PhaseKind, Search, Trace};
 
@@ -109,6 +109,7 @@ impl Config {
                 sections: curve.sections().over(&base),
             });
         }
+        check_panels(&file, &curves, &source)?;
         let narrative = (file.story().check(&curves, Some(&axis)))
             .map_err(|(span, problem)| source.at(Some(span), problem.into()))?;
         Ok(Self {
@@ -136,6 +137,25 @@ impl Config {
     pub fn name(&self) -> &str {
         self.source.name()
     }
+}
+
+/// Panels are for all curves or for none, and a series is drawn once in each.
+fn check_panels(file: &File, curves: &[Curve], source: &Source) -> Result<(), ConfigError> {
+    for (index, curve) in curves.iter().enumerate() {
+        let before = &curves[..index];
+        let is_same = |other: &Curve| other.panel == curve.panel && other.series == curve.series;
+        let problem = if curve.panel.is_some() != curves[0].panel.is_some() {
+            Problem::PanelMissing
+        } else if curve.series.is_some() && before.iter().any(is_same) {
+            Problem::SeriesTwice(curve.series.clone().unwrap_or_default())
+        } else {
+            continue;
+        };
+        let tables = file.curves();
+        let span = tables[index].label.as_ref().map(toml::Spanned::span);
+        return Err(source.at(span, problem));
+    }
+    Ok(())
 }
 
 impl File {

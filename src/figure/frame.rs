@@ -70,11 +70,17 @@ impl Scale {
         }
     }
 
-    /// Decimal logarithms, `from` to `to`, with ticks at 1, 2 and 5 times the powers of ten.
+    /// Decimal logarithms, `from` to `to`, with ticks at the powers of ten, and at 2 and 5 times them
+    /// where there is room.
     pub fn logarithms(from: f64, to: f64) -> Self {
         let powers = (from.floor() as i32)..=(to.ceil() as i32);
-        let values =
-            powers.flat_map(|power| [1.0, 2.0, 5.0].map(|factor| factor * 10f64.powi(power)));
+        let factors: &[f64] = if to - from > 2.9 {
+            &[1.0]
+        } else {
+            &[1.0, 2.0, 5.0]
+        };
+        let at = |power: i32| factors.iter().map(move |factor| factor * 10f64.powi(power));
+        let values = powers.flat_map(at);
         let ticks = values.map(|value| {
             (
                 libm::log10(value),

@@ -142,14 +142,19 @@ fn facts(row: &Row) -> Vec<Fact> {
     ]
 }
 
-/// What more than two thirds of the rows say, fact by fact.
+/// What more than two thirds of the rows say, fact by fact; all of them, where a curve has a name, which
+/// need not say in what it differs.
 pub(super) fn common_facts(rows: &[&Row]) -> Vec<Option<Fact>> {
+    let is_named = rows.iter().any(|row| row.label.parse::<f64>().is_err());
     let table: Vec<Vec<Fact>> = rows.iter().map(|row| facts(row)).collect();
     let common = |index: usize| {
         let column = || table.iter().map(move |facts| &facts[index]);
         let is_common = |fact: &&Fact| {
             let agreeing = column().filter(|other| other.text == fact.text).count();
-            3 * agreeing > 2 * table.len()
+            match is_named {
+                true => agreeing == table.len(),
+                false => 3 * agreeing > 2 * table.len(),
+            }
         };
         column().find(is_common).cloned()
     };
@@ -205,7 +210,7 @@ pub(super) fn caption(
     parts.push(format!("{} trials per point", thousands(row.trials)));
     parts.push(format!("seed {}", manifest.seed));
     parts.push(format!(
-        "{band}: pointwise exact {} % intervals",
+        "{band}: pointwise exact {} % intervals, at times narrower than a line",
         100.0 * row.confidence
     ));
     if is_held_against_alpha(rows) {

@@ -102,11 +102,16 @@ impl Section {
     }
 }
 
-/// The report of all experiments; `configs` is the way from the report to their configs.
+/// The report of all experiments; `configs` is the way from the report to their configs, `preface` what
+/// comes before everything, in Markdown.
 ///
 /// # Errors
 /// Where a claim or a text is about something that is not among the results.
-pub fn markdown(mut sections: Vec<Section>, configs: &str) -> Result<Vec<u8>, ReportError> {
+pub fn markdown(
+    mut sections: Vec<Section>,
+    configs: &str,
+    preface: &str,
+) -> Result<Vec<u8>, ReportError> {
     sections.sort_by(|a, b| {
         let key = |section: &Section| (section.narrative.order, section.name.clone());
         key(a).cmp(&key(b))
@@ -115,11 +120,14 @@ pub fn markdown(mut sections: Vec<Section>, configs: &str) -> Result<Vec<u8>, Re
     let judged: Vec<(Vec<Judgement>, String)> = judged.collect::<Result<_, _>>()?;
     let mut text = format!(
         "# Reproduction report\n\n\
-         Every picture, number and verdict here comes from the result files beside it. This makes them \
-         again from the [configs]({configs}):\n\n    liftsim figures\n\n{}",
-        contents(&sections),
+         Every picture, number and verdict here comes from the result files beside it. `liftsim figures` \
+         makes them again from the [configs]({configs}).\n\n",
     );
+    if !preface.trim().is_empty() {
+        text += &format!("{}\n\n", preface.trim());
+    }
     text += &claims_tables(&sections, &judged, configs);
+    text += &contents(&sections);
     for (section, (_, paragraph)) in sections.iter().zip(&judged) {
         text += &chapter(section, paragraph, configs);
     }
@@ -128,7 +136,7 @@ pub fn markdown(mut sections: Vec<Section>, configs: &str) -> Result<Vec<u8>, Re
 
 /// A line per experiment, so that a reader can jump.
 fn contents(sections: &[Section]) -> String {
-    let mut text = String::new();
+    let mut text = "## Experiments\n\n".to_owned();
     for section in sections {
         let Section { name, .. } = section;
         writeln!(text, "- [{}](#{name})", section.title()).expect("a string takes every line");
