@@ -17,9 +17,13 @@
 //! level above α is tried: what the exact law refuses stays refused. For a score the rungs are its
 //! thresholds, and the order statistic that passes the same test under the worst of the laws is the last.
 //!
+//! The promise is about these laws and no other: heavier contamination than theirs breaks it, and
+//! `configs/alpha_training.toml` shows how.
+//!
 //! # A measurement
-//! `calibrate = { law, sensor }` makes the false-alarm rate measured with that noise equal to α, as
-//! nearly as can be from below. It promises nothing; it makes detectors comparable.
+//! `calibrate = { law, sensor }` makes the false-alarm rate that a pilot measures with that noise equal to α,
+//! as nearly as can be. It promises nothing; it makes detectors comparable, but for the error of the
+//! pilot itself, which is in no interval of the results.
 
 use crate::binomial;
 use crate::chain::{
@@ -31,7 +35,7 @@ use crate::plan::{Design, Plan, Point};
 use crate::signal::{Law, Noise};
 use std::sync::Arc;
 
-/// The laws of noise under which a calibrated design promises its level: light tails to none.
+/// The laws of noise under which a calibrated design promises its level, and under no other.
 pub const PROMISED_LAWS: [Law; 4] = [Law::Normal, Law::Laplace, Law::Uniform, Law::Cauchy];
 
 /// The probability that a promise is not kept, at most.
@@ -428,13 +432,16 @@ impl Ladder {
 
     /// The last rung below the first that does not keep the level; the empty region below the ladder.
     fn climb(&self, alpha: f64, keeps: impl Fn(&Region) -> bool) -> Region {
-        let rungs = (0..=RUNGS).rev().map(|rung| alpha * RUNG.powi(rung));
+        let rungs = (0..=RUNGS)
+            .rev()
+            .map(|rung| alpha * libm::pow(RUNG, rung.into()));
         let regions = rungs.map(|level| self.region(level));
-        let kept = regions.take_while(|region| keeps(region)).last();
-        kept.unwrap_or_else(|| self.laws.empty_region())
+        last_kept(regions, keeps).unwrap_or_else(|| self.laws.empty_region())
     }
 
-    /// The largest region that keeps the level, whatever its nominal one.
+    /// The largest region that keeps the level, whatever its nominal one. The halving takes for granted that
+    /// false alarms grow with the nominal level; where a rule's regions are not quite nested it ends at one
+    /// of the boundaries.
     fn search(&self, keeps: impl Fn(&Region) -> bool) -> Region {
         let (mut low, mut high) = (0.0, 1.0);
         let mut kept = self.laws.empty_region();
@@ -449,6 +456,11 @@ impl Ladder {
         }
         kept
     }
+}
+
+/// The last of the ladder's rungs before the first that is not kept.
+fn last_kept<R>(rungs: impl Iterator<Item = R>, keeps: impl Fn(&R) -> bool) -> Option<R> {
+    rungs.take_while(|rung| keeps(rung)).last()
 }
 
 impl Gauge {
@@ -534,5 +546,60 @@ impl Sink for Gatherer<'_> {
                 _ => unreachable!("both come from the same gauges"),
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Config;
+
+    /// One rung that fails ends the ladder, whatever comes after it: that is what keeps the promise.
+    #[test]
+    fn the_first_failure_ends_the_ladder() {
+        let counts = [3, 5, 9, 4, 2, 8];
+        let kept = |limit| last_kept(counts.into_iter(), |&count| count <= limit);
+        assert_eq!(kept(5), Some(5));
+        assert_eq!(kept(9), Some(8));
+        assert_eq!(kept(2), None);
+    }
+
+    /// Against the definition by sums of exact masses: the largest count that a rate of α would reach or
+    /// undercut with probability 0.001 at most; none where no count would do.
+    #[test]
+    fn allowed_counts_are_exact() {
+        let detector = |calibrate: &str| {
+            let text = format!(
+                "question = \"?\"\nseed = 1\n[detector]\ncalibrate = {calibrate}\n[axis]\ndelta = [1.0]\n"
+            );
+            let config = Config::parse("test", &text).unwrap();
+            config.scenario(0, &config.axis.values[0]).unwrap().detector
+        };
+        let promise = detector("true");
+        for pilot in [700u64, 1000, 5000, 20_000] {
+            let cumulative = |count: u64| {
+                (0..=count)
+                    .map(|k| binomial::mass(k, pilot, 0.01))
+                    .sum::<f64>()
+            };
+            let expected = (0..pilot)
+                .take_while(|&count| cumulative(count) <= 1e-3)
+                .last();
+            assert_eq!(allowed(&promise, pilot), expected, "{pilot}");
+        }
+        assert_eq!(allowed(&promise, 500), None);
+        assert_eq!(allowed(&detector("{}"), 5000), Some(50));
+        assert_eq!(allowed(&detector("{}"), 1000), None);
+    }
+
+    /// What is kept of many values are the largest, whatever their order.
+    #[test]
+    fn largest_are_kept() {
+        let mut largest = Largest {
+            keep: 5,
+            values: Vec::new(),
+        };
+        (0..9000u64).for_each(|i| largest.add((i * 7919 % 9000) as f64));
+        assert_eq!(largest.smallest(), 8995.0);
     }
 }

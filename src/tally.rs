@@ -146,6 +146,32 @@ mod tests {
         }
     }
 
+    /// The coverage of the difference of two discordant rates, summed over every outcome of 14 trials
+    /// that go one way, the other or neither, is never below the confidence.
+    #[test]
+    fn difference_interval_covers() {
+        let n = 14u64;
+        let alone = |hits| Tally { hits, trials: n };
+        let choose = |n: u64, k: u64| (0..k).fold(1.0, |c, i| c * (n - i) as f64 / (i + 1) as f64);
+        for (p, q) in [(0.1, 0.1), (0.3, 0.2), (0.5, 0.4), (0.05, 0.6), (0.02, 0.0)] {
+            let mut coverage = 0.0;
+            for a in 0..=n {
+                for b in 0..=n - a {
+                    let (low, high) = difference_interval(alone(a), alone(b), 0.8);
+                    let probability = choose(n, a)
+                        * choose(n - a, b)
+                        * libm::pow(p, a as f64)
+                        * libm::pow(q, b as f64)
+                        * libm::pow(1.0 - p - q, (n - a - b) as f64);
+                    if low <= p - q && p - q <= high {
+                        coverage += probability;
+                    }
+                }
+            }
+            assert!(coverage >= 0.8, "{p} {q}: {coverage}");
+        }
+    }
+
     /// Closed forms at the ends, and published limits (k = 10, n = 100: 0.0490, 0.1762).
     #[test]
     fn interval_values() {

@@ -100,8 +100,7 @@ impl Score {
                 let (samples, rest) = (observation.samples, observation.rest);
                 let (shifted, from) = (samples.shift_range(), samples.reference());
                 let shifted = &observation.motion[shifted.start - from..shifted.end - from];
-                let reference = &rest[rest.len() - from..];
-                alternative.directed(block_means(rest, reference, shifted))
+                alternative.directed(block_means(rest, shifted))
             }
             Self::Clairvoyant { ar, statistic } => {
                 let Scratch {

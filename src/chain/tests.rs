@@ -2,8 +2,11 @@
 //! no linearity, nothing shared between points, ranks by sorting.
 
 use super::scenario::{Calibration, Detector, Scenario};
-use super::{Decision, Family, Purpose, Trial};
-use crate::detect::{Alternative, Method, NullLaws, Region, Rule, Samples, Statistics, Ties};
+use super::{Decision, Family, Purpose, Score, Trial};
+use crate::detect::{
+    Alternative, Baseline, Clairvoyant, Forward, Method, NullLaws, Region, Rule, Samples,
+    Statistics, Ties,
+};
 use crate::rng::Stream;
 use crate::signal::{
     DeltaAt, Digitiser, Disturbance, During, ImpulseMemory, Impulses, Law, Motion, Noise, Profile,
@@ -340,6 +343,53 @@ fn counts_do_not_depend_on_the_order_of_points() {
         let backwards: Vec<u64> = counts(&scenarios).into_iter().rev().collect();
         assert_eq!(forwards, backwards);
     }
+}
+
+/// A pilot's draws are neither those of the results nor those of another kind of pilot.
+#[test]
+fn purposes_draw_apart() {
+    let scenarios = scenarios();
+    let purposes = [Purpose::Results, Purpose::Ordering, Purpose::Calibration];
+    let mut first = std::collections::HashSet::new();
+    let mut streams = 0;
+    for purpose in purposes {
+        for family in Family::arrange(&scenarios, 3, purpose, true).unwrap() {
+            for stream in [
+                &family.noise,
+                &family.impulses,
+                &family.ties,
+                &family.footfalls,
+            ] {
+                first.insert(stream.at(0).next_u64());
+                streams += 1;
+            }
+        }
+    }
+    assert_eq!(first.len(), streams);
+}
+
+/// The clairvoyant of the chain against its definition on the same draws: Δ · the whitened shape and θ ·
+/// impulses that start where they are said to, here with the first sample of Y₂.
+#[test]
+fn clairvoyant_sees_the_stated_motion() {
+    let samples = Samples::contiguous(4, 3, 2).unwrap();
+    let impulses = Impulses::new(0.3, 2.0, During::Inertial).unwrap();
+    let mut stated = scenario(samples, 0.7, impulses);
+    stated.detector.method = Method::Baseline(Baseline::Clairvoyant);
+    stated.detector.stated = Some((stated.motion, impulses));
+    let Some(Score::Clairvoyant { statistic, .. }) = Score::new(&stated) else {
+        panic!("no clairvoyant");
+    };
+    let ar = stated.sensor.ar();
+    let shape = [1.0, 1.0, 1.0, 0.0, 0.0];
+    let shift = (0..5).map(|i: usize| {
+        let back = |p: usize| if i >= p { shape[i - p] } else { 0.0 };
+        0.7 * (back(0) - ar[0] * back(1) - ar[1] * back(2))
+    });
+    let expected = Clairvoyant::new(shift.collect(), 3, 0.3, 2.0, ar);
+    let z = [0.4, -1.0, 2.2, 0.3, -0.8];
+    let value = |of: &Clairvoyant| of.log_likelihood_ratio(&z, &mut Forward::default());
+    assert!((value(&statistic) - value(&expected)).abs() < 1e-12);
 }
 
 /// Noise, impulses and ties of every family are streams of their own.

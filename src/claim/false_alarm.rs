@@ -61,7 +61,8 @@ fn rests<'a>(
     }
     let p_value = |row: &Row| row.tally().p_value_above(row.alpha);
     let p_values: Vec<f64> = found.iter().map(|(.., row)| p_value(row)).collect();
-    let rejected = holm(&p_values, claim.level);
+    // Half the level for rejections, half for the upper limits.
+    let rejected = holm(&p_values, claim.level / 2.0);
     let confidence = 1.0 - claim.level / found.len() as f64;
     let rest = |(index, (label, value, row)): (usize, (&'a str, String, &'a Row))| Rest {
         label,

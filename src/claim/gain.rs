@@ -1,14 +1,15 @@
 //! How many decibels of Δ does one curve save over another at the same power?
 //!
-//! Δ at which a curve crosses the power is bracketed by inverting its pointwise intervals: from where the
-//! upper limits first reach the power to where the lower limits last leave it, both limits joined by
-//! straight lines. The gain is 20 log₁₀(Δ_second/Δ_first).
+//! Δ at which a curve crosses the power is bracketed by inverting its pointwise intervals on the axis's own
+//! values: from the last value before the upper limits first reach the power, to the first value after the
+//! lower limits were last below it. The gain is 20 log₁₀(Δ_second/Δ_first). Only the estimate itself joins
+//! neighbouring rates by a straight line.
 //!
-//! Assumptions: the true power does not fall along the axis and is straight between neighbouring
-//! values. Then a bracket misses only if a limit fails at one of the two values around the crossing:
-//! two upper limits and two lower ones. Two curves make eight such events, so limits at level/8 each,
-//! that is two-sided intervals of confidence 1 − level/4, keep the claim's level. A curve that does
-//! not reach the power within the axis has an open bracket, and so has the gain.
+//! Assumption: the true power does not fall along the axis. Then a bracket misses only if a limit fails
+//! at one of the two values around the crossing: two upper limits and two lower ones. Two curves make eight
+//! such events, so limits at level/8 each, that is two-sided intervals of confidence 1 − level/4, keep the
+//! claim's level. A curve that does not reach the power within the axis has an open bracket, and so has the
+//! gain. The narrower the steps around the crossing, the narrower the bracket.
 
 use super::place::placed;
 use super::words::{curve as named, decimals, exact, fixed};
@@ -153,9 +154,9 @@ fn crossing(
         (0..rows.len()).map(|i| (values[i], limit(i))).collect()
     };
     Ok(Crossing {
-        low: first_reach(&line(&|i| limits[i].1), power),
+        low: last_before(&line(&|i| limits[i].1), power),
         best: first_reach(&line(&|i| rows[i].rate), power).max(values[0]),
-        high: last_reach(&line(&|i| limits[i].0), power),
+        high: first_after(&line(&|i| limits[i].0), power),
     })
 }
 
@@ -169,12 +170,21 @@ pub(super) fn first_reach(line: &[(f64, f64)], power: f64) -> f64 {
     }
 }
 
-/// From where on a broken line stays above `power`: infinity where it ends below, its start where it
-/// is above throughout.
-pub(super) fn last_reach(line: &[(f64, f64)], power: f64) -> f64 {
-    match line.iter().rposition(|&(_, y)| y <= power) {
-        Some(index) if index + 1 == line.len() => f64::INFINITY,
-        Some(index) => between(line[index], line[index + 1], power),
+/// The last value before a line first reaches `power`: nought where it starts there, infinity where it
+/// never does.
+pub(super) fn last_before(line: &[(f64, f64)], power: f64) -> f64 {
+    match line.iter().position(|&(_, y)| y >= power) {
+        Some(0) => 0.0,
+        Some(index) => line[index - 1].0,
+        None => f64::INFINITY,
+    }
+}
+
+/// The first value after a line was last below `power`: infinity where it ends below, its start where it
+/// is nowhere below.
+pub(super) fn first_after(line: &[(f64, f64)], power: f64) -> f64 {
+    match line.iter().rposition(|&(_, y)| y < power) {
+        Some(index) => line.get(index + 1).map_or(f64::INFINITY, |(x, _)| *x),
         None => line[0].0,
     }
 }

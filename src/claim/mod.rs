@@ -23,8 +23,8 @@
 //!   and nothing else, however it was selected. A range inside a fallen curve is said to grow where the
 //!   lower limits of its steps add up to more than the margin, which follows from the same event.
 //! - `alpha_held`: Holm's rule on exact p-values of "the rate is at most α" rejects any true one with
-//!   probability at most level; n upper limits of 1 − level/n all hold with probability 1 − level/2 at
-//!   least, and only there is a rate called held.
+//!   probability at most level/2; n two-sided intervals of confidence 1 − level/n have upper limits that
+//!   all hold with probability 1 − level/2 at least, and only there is a rate called held.
 //! - `gain`: see `gain.rs`. `quantity`: the interval's own confidence.
 
 mod contrast;

@@ -109,7 +109,8 @@ impl LikelihoodOrder {
     }
 
     /// The critical scores of the region of size at most `alpha`: pools from the top, the last one
-    /// from its highest score on, as far as the level allows.
+    /// from its highest score on, as far as the level allows. What level the pilot's cells leave goes to
+    /// cells that it never saw.
     pub(super) fn critical(&self, laws: &NullLaws, alpha: f64) -> Vec<u64> {
         let mut critical = vec![NEVER; laws.columns()];
         let mut size = 0.0;
@@ -127,7 +128,43 @@ impl LikelihoodOrder {
                 critical[t] = score;
             }
         }
-        critical
+        self.fill(laws, alpha, &critical)
+    }
+
+    /// The region with the cells of the largest product of tails P(S ≥ s) · P(T ≥ t) ≤ k added that the
+    /// level allows: where a pilot says nothing, the order of the `product` rule does.
+    fn fill(&self, laws: &NullLaws, alpha: f64, critical: &[u64]) -> Vec<u64> {
+        let tails = |masses: &[f64]| {
+            let mut tails = masses.to_vec();
+            for i in (1..tails.len()).rev() {
+                tails[i - 1] += tails[i];
+            }
+            tails
+        };
+        let (scores, exceedances) = (tails(&self.scores), tails(&self.exceedances));
+        let first = laws.score.first();
+        let filled = |k: f64| -> Vec<u64> {
+            let column = |t: usize| {
+                let reached = scores.partition_point(|tail| tail * exceedances[t] > k);
+                critical[t].min(first + reached as u64)
+            };
+            (0..critical.len()).map(column).collect()
+        };
+        let tail = |score: u64| scores.get((score - first) as usize).copied().unwrap_or(0.0);
+        let size = |region: &[u64]| -> f64 {
+            let columns = region.iter().zip(&self.exceedances);
+            columns.map(|(&score, mass)| tail(score) * mass).sum()
+        };
+        // Positive floats are ordered like their bits.
+        let (mut low, mut high) = (0, 1f64.to_bits());
+        while low + 1 < high {
+            let middle = low + (high - low) / 2;
+            match size(&filled(f64::from_bits(middle))) <= alpha * (1.0 - 1e-9) {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        filled(f64::from_bits(low))
     }
 }
 
@@ -152,6 +189,41 @@ fn monotone(cells: impl Iterator<Item = Pool>) -> Vec<Pool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::detect::{Alternative, Samples};
+
+    /// Whatever a pilot has seen, much or next to nothing, the exact size is at most α; and where it has
+    /// seen nothing at all, the region is that of the product rule but for its last cells.
+    #[test]
+    fn size_is_at_most_alpha_and_used() {
+        let samples = Samples::contiguous(9, 6, 7).unwrap();
+        for alternative in [
+            Alternative::Greater,
+            Alternative::Less,
+            Alternative::TwoSided,
+        ] {
+            let laws = NullLaws::new(alternative, &samples).unwrap();
+            for trials in [0u64, 1, 40, 5000] {
+                let mut pilot = Histogram::default();
+                for i in 0..trials {
+                    let rank_sum = laws.rank_sum().last() - (i * i * 31 + 7 * i) % 40;
+                    let exceedances = (i * 13 % 8) as usize;
+                    pilot.add(Statistics {
+                        rank_sum,
+                        exceedances,
+                    });
+                }
+                let order = LikelihoodOrder::new(&laws, &pilot);
+                for alpha in [0.3, 0.05, 0.01, 0.0013, 1e-5] {
+                    let size = laws.likelihood_region(&order, alpha).size();
+                    assert!(size <= alpha, "{alternative} {trials}: {size} > {alpha}");
+                    assert!(
+                        size > 0.5 * alpha || alpha < 1e-4,
+                        "{trials}: {size} of {alpha}"
+                    );
+                }
+            }
+        }
+    }
 
     /// The pooled ratios against a definition that shares nothing with the pooling: at each cell the
     /// isotonic fit is max over starts at or before it of min over ends at or after it of the mean.

@@ -25,7 +25,7 @@ pub enum Baseline {
     StudentT,
     /// The variance of the whitened Y₂ over that of X.
     VarianceRatio,
-    /// The mean of Y₁ minus that of X on the record as it is, in deviations of such means at rest.
+    /// The mean of Y₁ minus that of all rest on the record as it is, in deviations of such means at rest.
     BlockMeans,
     /// The likelihood ratio of normal noise with everything known: Δ, ν, θ and the filter.
     Clairvoyant,

@@ -79,7 +79,11 @@ impl Scale {
         } else {
             &[1.0, 2.0, 5.0]
         };
-        let at = |power: i32| factors.iter().map(move |factor| factor * 10f64.powi(power));
+        let at = |power: i32| {
+            factors
+                .iter()
+                .map(move |factor| factor * libm::pow(10.0, f64::from(power)))
+        };
         let values = powers.flat_map(at);
         let ticks = values.map(|value| {
             (
@@ -149,7 +153,7 @@ impl Scale {
 fn tick_step(rough: f64) -> (f64, usize) {
     let mut decimals = 9i32;
     loop {
-        let power = 10f64.powi(-decimals);
+        let power = libm::pow(10.0, f64::from(-decimals));
         for factor in [1.0, 2.0, 5.0] {
             if factor * power >= rough * (1.0 - 1e-9) {
                 return (factor * power, decimals.max(0) as usize);

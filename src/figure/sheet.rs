@@ -261,7 +261,7 @@ fn strokes(points: &[(f64, f64)], dash: &[f64]) -> Vec<Vec<(f64, f64)>> {
     let (mut phase, mut left) = (0, dash[0]);
     for pair in points.windows(2) {
         let ((x, y), (dx, dy)) = (pair[0], (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1));
-        let length = dx.hypot(dy);
+        let length = libm::hypot(dx, dy);
         let mut along = 0.0;
         while length - along > left {
             along += left;
