@@ -32,7 +32,7 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | 0 | [`rng`]: coordinates → generator · [`binomial`]: exact tails |
+//! | 0 | [`rng`]: coordinates → generator · [`binomial`]: exact tails · [`numeral`]: numbers in print |
 //! | 1 | [`tally`]: counts and what may be concluded from them |
 //! | 2 | [`signal`]: sensor, noise, impulses, motion · [`whiten`]: filters · [`detect`]: W, T, their laws, regions |
 //! | 3 | [`chain`]: one trial, every stage |
@@ -82,6 +82,7 @@ pub mod ensemble;
 pub mod exhibit;
 pub mod figure;
 pub mod gate;
+pub mod numeral;
 pub mod pilot;
 pub mod plan;
 pub mod report;

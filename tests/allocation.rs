@@ -39,7 +39,7 @@ static ALLOCATOR: Counting = Counting;
 const EVERYTHING: &str = r#"
 question = "Does any path of a trial allocate?"
 seed = 1
-pilot = 1000
+pilot = 2000
 [axis]
 delta = [0.0, 1.0]
 [[curve]]

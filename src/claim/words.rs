@@ -1,6 +1,7 @@
 //! Numbers and places in words.
 
 use crate::config::{Axis, Parameter};
+use crate::numeral::{minus, thousands};
 use crate::results::Comparison;
 
 /// A number and its interval, `0.8231 [0.8214, 0.8248]`, with two digits of the half-width; an exact
@@ -42,23 +43,6 @@ pub fn fixed(value: f64, decimals: usize) -> String {
         Ok(0.0) => text.trim_start_matches('-').to_owned(),
         _ => minus(&text),
     }
-}
-
-fn minus(text: &str) -> String {
-    text.replace('-', "−")
-}
-
-/// 200000 as 200 000, with thin spaces.
-pub fn thousands(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            text.push('\u{2009}');
-        }
-        text.push(digit);
-    }
-    text
 }
 
 /// `1 comparison`, `7 comparisons`.

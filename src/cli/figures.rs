@@ -55,7 +55,7 @@ enum Task<'a> {
         config: &'a Config,
         plan: Box<Plan>,
         /// Counts of the same plan, and how they came about.
-        held: Option<(Counts, Manifest)>,
+        held: Option<Box<(Counts, Manifest)>>,
     },
     Exhibit(&'a ExhibitConfig),
 }
@@ -150,7 +150,10 @@ impl Figures {
         };
         let plan = Box::new(Plan::new(config).map_err(Failure::input)?);
         sweep::rehearse(config, &plan)?;
-        let held = entry.held(config, &plan).filter(|_| !self.fresh);
+        let held = entry
+            .held(config, &plan)
+            .filter(|_| !self.fresh)
+            .map(Box::new);
         Ok(Some(Task::Sweep { config, plan, held }))
     }
 
@@ -182,10 +185,9 @@ impl Figures {
         let path = directory.path().join("README.md");
         if !missing.is_empty() {
             eprintln!(
-                "{}: not written: {} of {} configs have no complete results (run liftsim figures without --only)",
+                "{}: not written: no complete results of {} (run liftsim figures without --only)",
                 path.display(),
-                missing.len(),
-                missing.len() + entries.len()
+                in_short(&missing)
             );
             return Ok(());
         }
@@ -219,10 +221,18 @@ impl Figures {
     }
 }
 
+/// A few names, and how many more there are.
+fn in_short(names: &[&str]) -> String {
+    match names.len() {
+        0..=4 => names.join(", "),
+        many => format!("{} and {} more", names[..3].join(", "), many - 3),
+    }
+}
+
 impl Entry {
     fn origin(&self) -> Origin<'_> {
         match &self.experiment {
-            Experiment::Sweep(config) => Origin::from(config),
+            Experiment::Sweep(config) => Origin::from(&**config),
             Experiment::Exhibit(config) => Origin::from(&**config),
         }
     }
@@ -313,7 +323,7 @@ impl Task<'_> {
                 exhibit::write(directory, config, &made, seconds)?
             }
             Self::Sweep { config, plan, held } => {
-                let Some((counts, held)) = held else {
+                let Some((counts, held)) = held.map(|held| *held) else {
                     let counts = Counts::simulate(config, &plan, prefix, quiet)?;
                     let manifest = store::manifest(&Origin::from(config), counts.seconds);
                     let written = sweep::write(directory, config, &counts, manifest)?;

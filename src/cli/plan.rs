@@ -38,15 +38,17 @@ impl PlanCommand {
              points       {} in motion, {at_rest} at rest, of {} curves\n\
              trials       {trials} per point, {} trial-points in all\n\
              noise        {} independent sets of realisations\n\
-             pilots       {} trial-points more\n\
-             half-width   {:.5} at a rate of 1/2, {:.5} at 0.01, of the {} % interval\n\
+             {}half-width   {:.5} at a rate of 1/2, {:.5} at 0.01, of the {} % interval\n\
              time         about {} on {} threads\n",
             config.question,
             plan.points.len() - at_rest,
             config.curves.len(),
             plan.ensemble.work(),
             plan.ensemble.families.len(),
-            pilots.work(),
+            match pilots.work() {
+                0 => String::new(),
+                work => format!("pilots       {work} trial-points more\n"),
+            },
             half_width(trials / 2),
             half_width(trials / 100),
             config.confidence * 100.0,

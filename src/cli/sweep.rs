@@ -42,7 +42,7 @@ impl Sweep {
         );
         let path = &self.simulation.config;
         let config = match Experiment::load(path).map_err(Failure::input)? {
-            Experiment::Sweep(config) => config,
+            Experiment::Sweep(config) => *config,
             Experiment::Exhibit(config) => {
                 let config = self.simulation.exhibit(*config)?;
                 return exhibit::run(&config, &directory, self.fresh);

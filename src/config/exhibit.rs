@@ -15,7 +15,7 @@ use toml::Spanned;
 #[derive(Clone, Debug)]
 pub enum Experiment {
     /// Rates along an axis.
-    Sweep(Config),
+    Sweep(Box<Config>),
     /// A picture of something else.
     Exhibit(Box<ExhibitConfig>),
 }
@@ -155,7 +155,9 @@ impl Experiment {
             return Err(source.at(Some(span.clone()), problem));
         }
         match (&file.axis, tables.first()) {
-            (Some(axis), _) => Config::new(source, &file, axis).map(Self::Sweep),
+            (Some(axis), _) => {
+                Config::new(source, &file, axis).map(|config| Self::Sweep(Box::new(config)))
+            }
             (None, Some((_, span))) => ExhibitConfig::new(source, &file, span.clone())
                 .map(|config| Self::Exhibit(Box::new(config))),
             (None, None) => {
@@ -171,7 +173,7 @@ impl Experiment {
     /// Where they are too few for what it draws.
     pub fn with_trials(self, trials: u64) -> Result<Self, ConfigError> {
         Ok(match self {
-            Self::Sweep(config) => Self::Sweep(Config { trials, ..config }),
+            Self::Sweep(config) => Self::Sweep(Box::new(Config { trials, ..*config })),
             Self::Exhibit(exhibit) => Self::Exhibit(Box::new(exhibit.with_trials(trials)?)),
         })
     }
@@ -182,7 +184,7 @@ impl Experiment {
     /// Where it is none.
     pub fn sweep(self) -> Result<Config, ConfigError> {
         match self {
-            Self::Sweep(config) => Ok(config),
+            Self::Sweep(config) => Ok(*config),
             Self::Exhibit(exhibit) => {
                 let span = Some(exhibit.table.clone());
                 Err((exhibit.source).at(span, Problem::NoSweep(exhibit.kind.name())))

@@ -109,7 +109,7 @@ impl Config {
                 sections: curve.sections().over(&base),
             });
         }
-        check_panels(&file, &curves, &source)?;
+        check_panels(file, &curves, &source)?;
         let narrative = (file.story().check(&curves, Some(&axis)))
             .map_err(|(span, problem)| source.at(Some(span), problem.into()))?;
         Ok(Self {

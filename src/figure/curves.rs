@@ -214,7 +214,7 @@ impl Curves {
         let mut frame = self.frame(index, self.above());
         let panel = &self.panels[index];
         panel.draw(sheet, &frame, self.manner)?;
-        let is_left = self.panels.len() == 1 || index % 2 == 0;
+        let is_left = self.panels.len() == 1 || index.is_multiple_of(2);
         let is_lowest = index + 2 >= self.panels.len();
         let y_label = match (is_left, self.is_false_alarm) {
             (false, _) => "",

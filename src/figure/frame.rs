@@ -2,6 +2,7 @@
 
 use super::FigureError;
 use super::sheet::{Align, Sheet, Style, text_width};
+use crate::numeral::minus;
 use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor};
 
 /// Em size of tick labels, in points.
@@ -52,7 +53,7 @@ impl Scale {
         let last = (to / step + 1e-9).floor() as i64;
         let tick = |i: i64| {
             let value = i as f64 * step;
-            (value, minus_sign(format!("{value:.decimals$}")))
+            (value, minus(&format!("{value:.decimals$}")))
         };
         Self {
             from,
@@ -66,7 +67,7 @@ impl Scale {
         Self {
             from: value - 0.5,
             to: value + 0.5,
-            ticks: vec![(value, minus_sign(value.to_string()))],
+            ticks: vec![(value, minus(&value.to_string()))],
         }
     }
 
@@ -188,11 +189,6 @@ pub(super) fn draw_caption<B: DrawingBackend>(
         sheet.text(text, at, Style::plain(CAPTION, Align::Left))?;
     }
     Ok(())
-}
-
-/// A hyphen is no minus.
-fn minus_sign(number: String) -> String {
-    number.replace('-', "−")
 }
 
 impl Frame {

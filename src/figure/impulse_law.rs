@@ -4,8 +4,9 @@ use super::FigureError;
 use super::frame::{CAPTION_LEFT, CAPTION_STEP, Frame, Scale, WIDTH, draw_caption};
 use super::legend::{Entry, Key, Legend};
 use super::sheet::{Look, Picture, Sheet};
-use super::words::{thousands, wrap};
+use super::words::wrap;
 use crate::exhibit::impulse_law::Row;
+use crate::numeral::thousands;
 use crate::results::Manifest;
 use plotters::prelude::{Color, DrawingBackend};
 

@@ -123,7 +123,11 @@ impl Panel {
         manner: Manner,
     ) -> Result<(), FigureError> {
         for (index, Curve { points, look }) in self.curves.iter().enumerate() {
-            for p in points {
+            // A bound is drawn as an arrow.
+            for p in points
+                .iter()
+                .filter(|p| !(p.is_bound && manner.is_logarithmic))
+            {
                 let x = p.x + self.aside(index, manner);
                 let ends = [p.low, p.high].map(|y| within(frame, frame.at(x, y)));
                 sheet.line(&ends, LINE, look.colour.to_rgba())?;

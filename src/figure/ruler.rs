@@ -73,7 +73,7 @@ impl<'a> Ruler<'a> {
     pub fn scale(&self, places: &[f64]) -> Scale {
         let low = places.iter().copied().fold(f64::INFINITY, f64::min);
         let high = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let room = 0.015 * (high - low);
+        let room = 0.025 * (high - low);
         let scale = match (self.rules.is_empty(), self.is_logarithmic) {
             (false, _) => return Scale::names(&self.names()),
             (true, _) if low == high => return Scale::single(low),

@@ -414,7 +414,7 @@ impl<B: DrawingBackend> Sheet<B> {
         length: f64,
         colour: RGBColor,
     ) -> Result<(), FigureError> {
-        let (tip, half) = (y + length, 0.3 * length);
+        let (tip, half) = (y + length, 0.35 * length);
         let colour = colour.to_rgba();
         self.line(&[(x - half, y), (x + half, y)], 0.8, colour)?;
         self.line(&[(x, y), (x, tip - half)], 0.8, colour)?;

@@ -6,6 +6,7 @@
 use super::frame::CAPTION;
 use super::sheet::{literal, text_width};
 use crate::config::Parameter;
+use crate::numeral::thousands;
 use crate::results::{Manifest, Row};
 
 /// One parameter in words.
@@ -272,21 +273,4 @@ fn calibration(row: &Row) -> String {
         "promise" => "calibrated to keep α".to_owned(),
         _ => "threshold set by measured false alarms".to_owned(),
     }
-}
-
-/// 200000 as 200 000, with thin spaces.
-pub(super) fn thousands(number: u64) -> String {
-    let digits = number.to_string();
-    let first = digits.len() % 3;
-    let (head, tail) = digits.split_at(first);
-    let groups = tail
-        .as_bytes()
-        .chunks(3)
-        .map(|group| String::from_utf8_lossy(group).into_owned());
-    let groups: Vec<String> = [head.to_owned()]
-        .into_iter()
-        .filter(|h| !h.is_empty())
-        .chain(groups)
-        .collect();
-    groups.join("\u{2009}")
 }

@@ -7,8 +7,9 @@ mod text;
 
 pub use text::{PlaceholderError, fill};
 
-use crate::claim::{self, ClaimError, Evidence, Judgement, Verdict, words};
+use crate::claim::{self, ClaimError, Evidence, Judgement, Verdict};
 use crate::config::{Axis, Claim, Narrative};
+use crate::numeral::thousands;
 use crate::results::{Comparison, Quantity, Row};
 use std::fmt::Write;
 
@@ -208,7 +209,7 @@ fn claim_row(section: &Section, claim: &Claim, judgement: &Judgement, configs: &
     } = section;
     let trials = match rows.is_empty() {
         true => String::new(),
-        false => format!("; {} trials per point", words::thousands(*trials)),
+        false => format!("; {} trials per point", thousands(*trials)),
     };
     let how = format!(
         "{}{trials} ([{config}]({configs}/{config}))",

@@ -94,6 +94,9 @@ fn plan_says_what_a_sweep_would_do() {
 fn every_config_runs() {
     for entry in fs::read_dir(project().join("configs")).unwrap() {
         let path = entry.unwrap().path();
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            continue;
+        }
         let directory = tempfile::tempdir().unwrap();
         let (path, out) = (path.to_str().unwrap(), directory.path().to_str().unwrap());
         let short = ["--trials", "20", "--pilot", "2000"];

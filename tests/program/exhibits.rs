@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 /// Each config, and the head of its rows.
-const EXHIBITS: [(&str, &str); 7] = [
+const EXHIBITS: [(&str, &str); 8] = [
     ("fig1", "lag,theory,exact_transfer,estimate,low,high"),
     (
         "fig2",
@@ -24,6 +24,10 @@ const EXHIBITS: [(&str, &str); 7] = [
         "reference,shift,scale,rank_sum,exceedances,count,product,joint",
     ),
     ("impulse_law", "nu,sample,trials,zero_sum,zero_sum_count"),
+    (
+        "field",
+        "all_samples,alpha,size,power,delta,low,high,trials,confidence",
+    ),
 ];
 
 fn sweep(name: &str, out: &Path, arguments: &[&str]) -> (i32, String, String) {

@@ -1,0 +1,31 @@
+//! Numbers as a typesetter writes them.
+
+/// 200000 as 200 000, with thin spaces.
+pub fn thousands(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push('\u{2009}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// A hyphen is no minus.
+pub fn minus(number: &str) -> String {
+    number.replace('-', "−")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn as_a_typesetter_writes_them() {
+        assert_eq!(thousands(1_234_567), "1\u{2009}234\u{2009}567");
+        assert_eq!(thousands(999), "999");
+        assert_eq!(minus("-1e-7"), "−1e−7");
+    }
+}
