@@ -1,10 +1,11 @@
 //! Experiments that are no sweep: computed and written, or drawn again from what was written.
 
-use super::store::{Origin, Written, manifest, write_all};
+use super::store::{Origin, Written, file_name, manifest, write_all};
 use super::{Failure, Outcome, print, table};
 use liftsim::config::ExhibitConfig;
 use liftsim::exhibit::{self, Exhibit, Rows, independence};
 use liftsim::figure::{self, Drawing};
+use liftsim::report::Section;
 use liftsim::results::{self, Directory, Manifest};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -12,6 +13,7 @@ use std::time::Instant;
 /// Computes an exhibit and writes it into `directory`, unless that holds something else.
 pub fn run(config: &ExhibitConfig, directory: &Directory, fresh: bool) -> Outcome {
     (directory.admit_exhibit(config, fresh)).map_err(Failure::input)?;
+    rehearse(config)?;
     let (made, seconds) = compute(config)?;
     let written = write(directory, config, &made, seconds)?;
     print(&format!(
@@ -22,6 +24,25 @@ pub fn run(config: &ExhibitConfig, directory: &Directory, fresh: bool) -> Outcom
         written.files
     ))?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Judges the claims and fills the text once on as few trials as there can be, so that what they name
+/// is known to be there before anything takes long.
+pub fn rehearse(config: &ExhibitConfig) -> Result<(), Failure> {
+    let short = config.clone().with_trials(2).map_err(Failure::input)?;
+    let (made, _) = compute(&short)?;
+    let section = Section {
+        name: String::new(),
+        config: file_name(config.name()),
+        question: config.question.clone(),
+        narrative: config.narrative.clone(),
+        axis: None,
+        trials: 2,
+        rows: Vec::new(),
+        comparisons: Vec::new(),
+        quantities: made.quantities,
+    };
+    section.judge().map(drop).map_err(Failure::input)
 }
 
 /// What it comes to, and the seconds that took.

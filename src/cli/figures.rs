@@ -69,7 +69,7 @@ impl Figures {
         let chosen = (chosen.into_iter())
             .map(|(name, path)| self.entry(name, path))
             .collect::<Result<Vec<_>, _>>()?;
-        // What a sweep can be refused for is refused before the first trial.
+        // Everything that can be refused is refused before anything takes long.
         let tasks = chosen.iter().map(|entry| self.task(entry));
         let tasks = tasks.collect::<Result<Vec<_>, _>>()?;
         let work = tasks.iter().flatten().count();
@@ -145,8 +145,11 @@ impl Figures {
             self.check_trials(entry)?;
         }
         let config = match &entry.experiment {
-            Experiment::Exhibit(config) => return Ok(Some(Task::Exhibit(config))),
             Experiment::Sweep(config) => config,
+            Experiment::Exhibit(config) => {
+                exhibit::rehearse(config)?;
+                return Ok(Some(Task::Exhibit(config)));
+            }
         };
         let plan = Box::new(Plan::new(config).map_err(Failure::input)?);
         sweep::rehearse(config, &plan)?;

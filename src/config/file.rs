@@ -109,142 +109,107 @@ section! {
     }
 }
 
-/// The sections that a file has and a curve may change.
-#[derive(Clone, Debug)]
-pub(super) struct Sections {
-    pub sensor: SensorSection,
-    pub noise: NoiseSection,
-    pub rest: RestSection,
-    pub motion: MotionSection,
-    pub impulses: ImpulsesSection,
-    pub whitening: WhiteningSection,
-    pub samples: SamplesSection,
-    pub detector: DetectorSection,
+/// Hands the sections that a file has and a curve may change, each with its type, to another macro.
+macro_rules! all_sections {
+    ($callback:ident $($rest:tt)*) => {
+        $callback! {
+            {
+                sensor: SensorSection,
+                noise: NoiseSection,
+                rest: RestSection,
+                motion: MotionSection,
+                impulses: ImpulsesSection,
+                whitening: WhiteningSection,
+                samples: SamplesSection,
+                detector: DetectorSection,
+            }
+            $($rest)*
+        }
+    };
 }
 
-impl Sections {
-    /// Puts `value`, which stands at `span`, in the place of `key` in `section`.
-    pub fn set(
-        &mut self,
-        (section, key): (&str, &str),
-        value: &toml::Value,
-        span: Range<usize>,
-    ) -> Result<(), toml::de::Error> {
-        match section {
-            "sensor" => self.sensor.set(key, value, span),
-            "noise" => self.noise.set(key, value, span),
-            "rest" => self.rest.set(key, value, span),
-            "motion" => self.motion.set(key, value, span),
-            "impulses" => self.impulses.set(key, value, span),
-            "whitening" => self.whitening.set(key, value, span),
-            "samples" => self.samples.set(key, value, span),
-            _ => self.detector.set(key, value, span),
-        }
-    }
-
-    /// Where the first of `keys` that the author wrote stands.
-    pub fn first_span(&self, keys: &[(&str, &str)]) -> Option<Range<usize>> {
-        keys.iter().find_map(|&(section, key)| match section {
-            "sensor" => self.sensor.span(key),
-            "noise" => self.noise.span(key),
-            "rest" => self.rest.span(key),
-            "motion" => self.motion.span(key),
-            "impulses" => self.impulses.span(key),
-            "whitening" => self.whitening.span(key),
-            "samples" => self.samples.span(key),
-            _ => self.detector.span(key),
-        })
-    }
-
-    /// These sections where they say something, `base` where they do not. A sensor is one choice:
-    /// naming any replaces the other.
-    pub fn over(&self, base: &Self) -> Self {
-        let sensor = &self.sensor;
-        let is_named = sensor.model.is_some() || sensor.ar.is_some() || sensor.transfer.is_some();
-        Self {
-            sensor: match is_named {
-                true => sensor.clone(),
-                false => sensor.over(&base.sensor),
-            },
-            noise: self.noise.over(&base.noise),
-            rest: self.rest.over(&base.rest),
-            motion: self.motion.over(&base.motion),
-            impulses: self.impulses.over(&base.impulses),
-            whitening: self.whitening.over(&base.whitening),
-            samples: self.samples.over(&base.samples),
-            detector: self.detector.over(&base.detector),
-        }
-    }
-}
-
-impl Sections {
-    /// Every section and key that is written, with the place of its value.
-    pub fn written(&self) -> Vec<(&'static str, &'static str, Range<usize>)> {
-        let sections = [
-            ("sensor", self.sensor.written()),
-            ("noise", self.noise.written()),
-            ("rest", self.rest.written()),
-            ("motion", self.motion.written()),
-            ("impulses", self.impulses.written()),
-            ("whitening", self.whitening.written()),
-            ("samples", self.samples.written()),
-            ("detector", self.detector.written()),
-        ];
-        let keys = sections.into_iter().flat_map(|(section, keys)| {
-            keys.into_iter()
-                .map(move |(key, span)| (section, key, span))
-        });
-        keys.collect()
-    }
-}
-
-/// A struct with the sections beside its own keys. (`flatten` would lose the place of an error.)
-macro_rules! with_sections {
-    ($(#[$doc:meta])* $name:ident { $($(#[$attribute:meta])* $key:ident: $kind:ty),* $(,)? }) => {
-        $(#[$doc])*
-        #[derive(Clone, Debug, Deserialize)]
-        #[serde(deny_unknown_fields)]
-        pub(super) struct $name {
-            $($(#[$attribute])* pub $key: $kind,)*
-            #[serde(default)]
-            sensor: SensorSection,
-            #[serde(default)]
-            noise: NoiseSection,
-            #[serde(default)]
-            rest: RestSection,
-            #[serde(default)]
-            motion: MotionSection,
-            #[serde(default)]
-            impulses: ImpulsesSection,
-            #[serde(default)]
-            whitening: WhiteningSection,
-            #[serde(default)]
-            samples: SamplesSection,
-            #[serde(default)]
-            detector: DetectorSection,
+macro_rules! sections {
+    ({ $($section:ident: $kind:ident,)* }) => {
+        /// The sections that a file has and a curve may change.
+        #[derive(Clone, Debug)]
+        pub(super) struct Sections {
+            $(pub $section: $kind,)*
         }
 
-        impl $name {
-            pub fn sections(&self) -> Sections {
-                Sections {
-                    sensor: self.sensor.clone(),
-                    noise: self.noise.clone(),
-                    rest: self.rest.clone(),
-                    motion: self.motion.clone(),
-                    impulses: self.impulses.clone(),
-                    whitening: self.whitening.clone(),
-                    samples: self.samples.clone(),
-                    detector: self.detector.clone(),
+        impl Sections {
+            /// Puts `value`, which stands at `span`, in the place of `key` in `section`.
+            pub fn set(
+                &mut self,
+                (section, key): (&str, &str),
+                value: &toml::Value,
+                span: Range<usize>,
+            ) -> Result<(), toml::de::Error> {
+                match section {
+                    $(stringify!($section) => self.$section.set(key, value, span),)*
+                    _ => unreachable!("no section {section}"),
                 }
+            }
+
+            /// Where the first of `keys` that the author wrote stands.
+            pub fn first_span(&self, keys: &[(&str, &str)]) -> Option<Range<usize>> {
+                keys.iter().find_map(|&(section, key)| match section {
+                    $(stringify!($section) => self.$section.span(key),)*
+                    _ => unreachable!("no section {section}"),
+                })
+            }
+
+            /// These sections where they say something, `base` where they do not. A sensor is one
+            /// choice: naming any replaces the other.
+            pub fn over(&self, base: &Self) -> Self {
+                let mut laid = Self { $($section: self.$section.over(&base.$section)),* };
+                let SensorSection { model, ar, transfer } = &self.sensor;
+                if model.is_some() || ar.is_some() || transfer.is_some() {
+                    laid.sensor = self.sensor.clone();
+                }
+                laid
+            }
+
+            /// Every section and key that is written, with the place of its value.
+            pub fn written(&self) -> Vec<(&'static str, &'static str, Range<usize>)> {
+                let mut written = Vec::new();
+                $(for (key, span) in self.$section.written() {
+                    written.push((stringify!($section), key, span));
+                })*
+                written
             }
         }
     };
 }
 
+/// A struct with the sections beside its own keys. (`flatten` would lose the place of an error.)
+macro_rules! with_sections {
+    (
+        { $($section:ident: $section_kind:ident,)* }
+        $(#[$outer:meta])*
+        $name:ident { $($(#[$attribute:meta])* $key:ident: $kind:ty),* $(,)? }
+    ) => {
+        $(#[$outer])*
+        #[derive(Clone, Debug, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub(super) struct $name {
+            $($(#[$attribute])* pub $key: $kind,)*
+            $(#[serde(default)] $section: $section_kind,)*
+        }
+
+        impl $name {
+            pub fn sections(&self) -> Sections {
+                Sections { $($section: self.$section.clone()),* }
+            }
+        }
+    };
+}
+
+all_sections! { sections }
+
 /// What the x axis sweeps, before it is known to be one thing.
 pub(super) type AxisTable = Spanned<BTreeMap<Spanned<String>, Spanned<toml::Value>>>;
 
-with_sections! {
+all_sections! { with_sections
     /// The whole file.
     File {
         question: String,
@@ -273,8 +238,9 @@ with_sections! {
     }
 }
 
-with_sections! {
+all_sections! { with_sections
     /// `[[curve]]`
+    #[derive(Default)]
     CurveTable {
         label: Option<Spanned<String>>,
         panel: Option<String>,
@@ -305,22 +271,10 @@ impl File {
 
     /// The curves, or the one that a file without any stands for.
     pub fn curves(&self) -> Vec<CurveTable> {
-        if !self.curve.is_empty() {
-            return self.curve.clone();
+        match self.curve.is_empty() {
+            true => vec![CurveTable::default()],
+            false => self.curve.clone(),
         }
-        vec![CurveTable {
-            label: None,
-            panel: None,
-            series: None,
-            sensor: SensorSection::default(),
-            noise: NoiseSection::default(),
-            rest: RestSection::default(),
-            motion: MotionSection::default(),
-            impulses: ImpulsesSection::default(),
-            whitening: WhiteningSection::default(),
-            samples: SamplesSection::default(),
-            detector: DetectorSection::default(),
-        }]
     }
 }
 

@@ -48,7 +48,7 @@ pub enum Rows {
 /// Computes an exhibit on the current thread pool.
 ///
 /// # Errors
-/// Where a region cannot be designed.
+/// Where a region cannot be designed, or a search meets a size, a motion or a record that cannot be.
 pub fn compute(config: &ExhibitConfig) -> Result<Exhibit, ConfigError> {
     let (rows, quantities) = match &config.kind {
         ExhibitKind::Autocorrelation { lags, length } => {
