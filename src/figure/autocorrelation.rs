@@ -24,7 +24,7 @@ const SIMULATION: usize = 1;
 /// The picture of an autocorrelation.
 pub(super) struct Lags<'a> {
     rows: &'a [Row],
-    frames: Vec<Frame>,
+    frames: [Frame; 2],
     x_label: &'static str,
     caption: Vec<String>,
 }
@@ -44,7 +44,7 @@ impl<'a> Lags<'a> {
         };
         let deviations = rows.iter().flat_map(deviations);
         let widest = deviations.map(f64::abs).fold(1e-12, f64::max);
-        let ys = vec![
+        let [upper, lower] = [
             Scale {
                 from: -1.1,
                 to: 1.1,
@@ -54,7 +54,7 @@ impl<'a> Lags<'a> {
         ];
         let is_adxl105 = config.scenario.sensor == Sensor::adxl105();
         Self {
-            frames: Frame::stack(10.0, &[UPPER, LOWER], &x, ys),
+            frames: Frame::stack(10.0, [(UPPER, upper), (LOWER, lower)], &x),
             x_label: match is_adxl105 {
                 true => "lag k, samples (T_0 = 62.5 µs)",
                 false => "lag k, samples",

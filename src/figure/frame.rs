@@ -192,28 +192,24 @@ pub(super) fn draw_caption<B: DrawingBackend>(
 }
 
 impl Frame {
-    /// `count` panels one under the other, sharing `x`, the first below `top`; only the last has words
-    /// at the ticks of x.
-    pub fn stack(top: f64, heights: &[f64], x: &Scale, ys: Vec<Scale>) -> Vec<Self> {
-        let mut frames = Vec::new();
-        let mut top = top;
-        let last = heights.len() - 1;
-        for (index, (height, y)) in heights.iter().zip(ys).enumerate() {
-            frames.push(Self {
+    /// Panels one under the other, sharing `x`, each as high as it says, the first below `top`; only the
+    /// last has words at the ticks of x.
+    pub fn stack<const N: usize>(top: f64, panels: [(f64, Scale); N], x: &Scale) -> [Self; N] {
+        let mut below = top;
+        let mut left = N;
+        panels.map(|(height, y)| {
+            left -= 1;
+            let top = below;
+            below += height + BETWEEN;
+            Self {
                 left: 54.0,
                 right: WIDTH - 16.0,
                 top,
                 bottom: top + height,
-                x: if index == last {
-                    x.clone()
-                } else {
-                    x.unlabelled()
-                },
+                x: if left == 0 { x.clone() } else { x.unlabelled() },
                 y,
-            });
-            top += height + BETWEEN;
-        }
-        frames
+            }
+        })
     }
 
     /// A band over the whole height between two values of x.

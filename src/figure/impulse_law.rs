@@ -20,7 +20,7 @@ const MARKERS: usize = 34;
 /// The picture of both laws.
 pub(super) struct Laws<'a> {
     curves: Vec<&'a [Row]>,
-    frames: Vec<Frame>,
+    frames: [Frame; 2],
     caption: Vec<String>,
 }
 
@@ -35,7 +35,7 @@ impl<'a> Laws<'a> {
         };
         let lowest = rows.iter().map(|row| row.zero_sum_low).fold(0.5, f64::min);
         let highest = rows.iter().map(|row| row.positive_high).fold(0.0, f64::max);
-        let ys = vec![
+        let [upper, lower] = [
             Scale {
                 to: 1.03,
                 ..Scale::linear((lowest - 0.05).max(0.0), 1.0, 6)
@@ -43,7 +43,7 @@ impl<'a> Laws<'a> {
             Scale::linear(0.0, 1.12 * highest, 4),
         ];
         Self {
-            frames: Frame::stack(10.0, &[UPPER, LOWER], &x, ys),
+            frames: Frame::stack(10.0, [(UPPER, upper), (LOWER, lower)], &x),
             caption: caption(rows[0].trials, manifest, confidence),
             curves,
         }
@@ -106,9 +106,7 @@ impl Picture for Laws<'_> {
     }
 
     fn draw<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
-        let [upper, lower] = &self.frames[..] else {
-            return Ok(());
-        };
+        let [upper, lower] = &self.frames;
         sheet.clear(self.size())?;
         upper.draw_grid(sheet)?;
         upper.draw_level(sheet, 0.5, &[4.0, 2.0])?;

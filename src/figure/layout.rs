@@ -16,7 +16,7 @@ const LOWER: f64 = 74.0;
 pub(super) struct Layout<'a> {
     rows: &'a [Row],
     motion: Motion,
-    frames: Vec<Frame>,
+    frames: [Frame; 2],
     caption: Vec<String>,
 }
 
@@ -33,7 +33,7 @@ impl<'a> Layout<'a> {
             to: end + 0.04 * (end + cut),
             ..Scale::linear(first.max(-cut), end, 8)
         };
-        let ys = vec![
+        let [upper, lower] = [
             Scale {
                 from: -0.35,
                 to: 1.35,
@@ -46,7 +46,7 @@ impl<'a> Layout<'a> {
             },
         ];
         Self {
-            frames: Frame::stack(18.0, &[UPPER, LOWER], &x, ys),
+            frames: Frame::stack(18.0, [(UPPER, upper), (LOWER, lower)], &x),
             motion: config.scenario.motion,
             caption: caption(config),
             rows,
@@ -143,9 +143,7 @@ impl<'a> Layout<'a> {
 
     /// Where X, Y₁ and Y₂ begin and end, through both panels.
     fn draw_limits<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
-        let [upper, lower] = &self.frames[..] else {
-            return Ok(());
-        };
+        let [upper, lower] = &self.frames;
         for row in self.rows {
             if !["reference", "shift", "scale"].contains(&row.name.as_str()) {
                 continue;
@@ -171,9 +169,7 @@ impl Picture for Layout<'_> {
     }
 
     fn draw<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
-        let [upper, lower] = &self.frames[..] else {
-            return Ok(());
-        };
+        let [upper, lower] = &self.frames;
         sheet.clear(self.size())?;
         self.draw_phases(sheet)?;
         self.draw_blocks(sheet)?;

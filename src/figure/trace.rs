@@ -53,16 +53,17 @@ impl<'a> Ride<'a> {
             (last.time + 2.0 * half) / unit,
         );
         let x = Scale::linear(from, to, 8);
-        let mut ys = vec![values(rows, 0.34, |row| Some(row.record))];
-        let mut top = NAMES;
-        let mut heights = vec![SINGLE];
-        if trace.whitened {
-            ys.push(values(rows, 0.06, |row| row.whitened));
-            top += BRACKETS;
-            heights = vec![PANEL; 2];
-        }
+        let record = values(rows, 0.34, |row| Some(row.record));
+        let frames = match trace.whitened {
+            false => Frame::stack(NAMES, [(SINGLE, record)], &x).into(),
+            true => {
+                let whitened = values(rows, 0.06, |row| row.whitened);
+                let panels = [(PANEL, record), (PANEL, whitened)];
+                Frame::stack(NAMES + BRACKETS, panels, &x).into()
+            }
+        };
         Self {
-            frames: Frame::stack(top, &heights, &x, ys),
+            frames,
             caption: caption(config, trace, manifest),
             trace,
             rows,

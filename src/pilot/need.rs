@@ -1,0 +1,209 @@
+//! One decision to be found: which pilots it takes, how many false alarms they may count, and what is decided
+//! in the end.
+
+use super::gather::{Gathered, Gauge};
+use super::ladder::Ladder;
+use super::{PROMISE_LEVEL, PROMISED_LAWS, PilotError, Stage};
+use crate::binomial;
+use crate::chain::{Calibration, Decision, Detector, Scenario, Score};
+use crate::detect::{Method, Region};
+use crate::plan::Point;
+use crate::signal::{Law, Noise};
+use std::sync::Arc;
+
+/// A rate measured by fewer false alarms is none.
+const FEWEST_FALSE_ALARMS: u64 = 20;
+
+/// An order found in fewer trials is none.
+const FEWEST_TRIALS: u64 = 1000;
+
+/// A decision to be found.
+#[derive(Debug)]
+pub(super) struct Need {
+    /// The label of the first curve that needs it.
+    curve: String,
+    /// At rest, in the noise that its pilots start from.
+    pub scenario: Scenario,
+    /// What decides, where it is no region.
+    score: Option<Arc<Score>>,
+    /// False alarms that a pilot at rest may count.
+    allowed: u64,
+    /// Trials of a pilot.
+    pilot: u64,
+    /// Its place among the pilots in motion.
+    motion: Option<usize>,
+    /// Its places among the pilots at rest.
+    rest: Vec<usize>,
+}
+
+impl Need {
+    /// Adds the pilots of `scenario`, as `point` first needs it, to theirs.
+    pub fn new(
+        point: &Point,
+        scenario: Scenario,
+        pilot: u64,
+        motion: &mut Stage,
+        rest: &mut Stage,
+    ) -> Result<Self, PilotError> {
+        let detector = &scenario.detector;
+        let curve = point.label.clone();
+        let is_too_short = detector.method == Method::LikelihoodRatio && pilot < FEWEST_TRIALS;
+        let allowed = allowed(detector, pilot).filter(|_| !is_too_short);
+        let Some(allowed) = allowed else {
+            return Err(nothing(curve, detector, pilot));
+        };
+        let score = Score::new(&scenario).map(Arc::new);
+        let gauge = match &score {
+            Some(score) => Gauge::Score(score.clone(), allowed as usize + 1),
+            None => Gauge::Statistics(detector.ties),
+        };
+        let stated = detector
+            .stated
+            .filter(|_| detector.method == Method::LikelihoodRatio);
+        let moving = stated.map(|(motion, impulses)| Scenario {
+            motion,
+            impulses,
+            ..scenario.clone()
+        });
+        Ok(Self {
+            motion: moving.map(|moving| motion.add(moving, gauge.clone())),
+            rest: resting(&scenario)
+                .into_iter()
+                .map(|resting| rest.add(resting, gauge.clone()))
+                .collect(),
+            curve,
+            scenario,
+            score,
+            allowed,
+            pilot,
+        })
+    }
+
+    /// By what the pilots in motion and at rest have gathered.
+    pub fn decide(&self, motion: &[Gathered], rest: &[Gathered]) -> Result<Decision, PilotError> {
+        let detector = &self.scenario.detector;
+        let rest: Vec<&Gathered> = self.rest.iter().map(|&place| &rest[place]).collect();
+        if let Some(score) = &self.score {
+            let thresholds = rest.iter().map(|gathered| gathered.threshold());
+            return Ok(Decision::Threshold {
+                score: score.clone(),
+                threshold: thresholds.fold(f64::NEG_INFINITY, f64::max),
+            });
+        }
+        let ladder = Ladder::new(&self.scenario, self.motion.map(|place| &motion[place]));
+        let keeps = |region: &Region| {
+            let mut counts = rest.iter().map(|gathered| gathered.count(region));
+            counts.all(|count| count <= self.allowed)
+        };
+        let region = match detector.calibration {
+            Calibration::None => ladder.region(detector.alpha),
+            Calibration::Promise => ladder.climb(detector.alpha, keeps),
+            Calibration::Measured { .. } => ladder.search(keeps),
+        };
+        match region.size() > 0.0 {
+            true => Ok(Decision::Region {
+                region: Arc::new(region),
+                ties: detector.ties,
+            }),
+            false => Err(nothing(self.curve.clone(), detector, self.pilot)),
+        }
+    }
+}
+
+/// The rests on which its level is to be measured.
+fn resting(scenario: &Scenario) -> Vec<Scenario> {
+    match scenario.detector.calibration {
+        Calibration::None => Vec::new(),
+        Calibration::Measured { .. } => vec![scenario.clone()],
+        Calibration::Promise => {
+            let under = |of| Scenario {
+                noise: law(of),
+                ..scenario.clone()
+            };
+            PROMISED_LAWS.map(under).to_vec()
+        }
+    }
+}
+
+/// The scenario at rest, with the sensor and law that its calibration starts from.
+pub(super) fn believed(scenario: &Scenario) -> Scenario {
+    let mut rest = scenario.at_rest();
+    match &scenario.detector.calibration {
+        Calibration::None => {}
+        Calibration::Promise => rest.noise = law(PROMISED_LAWS[0]),
+        Calibration::Measured { sensor, noise } => {
+            (rest.sensor, rest.noise) = (sensor.clone(), *noise);
+        }
+    }
+    rest
+}
+
+fn law(law: Law) -> Noise {
+    Noise::new(law).expect("the promised laws have no parameters out of range")
+}
+
+fn nothing(curve: String, detector: &Detector, pilot: u64) -> PilotError {
+    PilotError::Nothing {
+        curve,
+        rule: detector.method.to_string(),
+        alpha: detector.alpha,
+        pilot,
+    }
+}
+
+/// How many false alarms a pilot at rest may count; none where it is too short to show anything.
+fn allowed(detector: &Detector, pilot: u64) -> Option<u64> {
+    let expected = (detector.alpha * pilot as f64).floor() as u64;
+    match detector.calibration {
+        Calibration::None => return Some(0),
+        Calibration::Measured { .. } => {
+            return (expected >= FEWEST_FALSE_ALARMS).then_some(expected);
+        }
+        Calibration::Promise => {}
+    }
+    // Counts that a rate of α would reach or undercut with probability 0.001 at most.
+    let is_shown = |count: u64| binomial::lower_tail(count, pilot, detector.alpha) <= PROMISE_LEVEL;
+    let (mut shown, mut not_shown) = (0, expected + 1);
+    while shown < not_shown {
+        let middle = shown + (not_shown - shown) / 2;
+        match is_shown(middle) {
+            true => shown = middle + 1,
+            false => not_shown = middle,
+        }
+    }
+    shown.checked_sub(1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Config;
+
+    /// Against the definition by sums of exact masses: the largest count that a rate of α would reach or
+    /// undercut with probability 0.001 at most; none where no count would do.
+    #[test]
+    fn allowed_counts_are_exact() {
+        let detector = |calibrate: &str| {
+            let text = format!(
+                "question = \"?\"\nseed = 1\n[detector]\ncalibrate = {calibrate}\n[axis]\ndelta = [1.0]\n"
+            );
+            let config = Config::parse("test", &text).unwrap();
+            config.scenario(0, &config.axis.values[0]).unwrap().detector
+        };
+        let promise = detector("true");
+        for pilot in [700u64, 1000, 5000, 20_000] {
+            let cumulative = |count: u64| {
+                (0..=count)
+                    .map(|k| binomial::mass(k, pilot, 0.01))
+                    .sum::<f64>()
+            };
+            let expected = (0..pilot)
+                .take_while(|&count| cumulative(count) <= 1e-3)
+                .last();
+            assert_eq!(allowed(&promise, pilot), expected, "{pilot}");
+        }
+        assert_eq!(allowed(&promise, 500), None);
+        assert_eq!(allowed(&detector("{}"), 5000), Some(50));
+        assert_eq!(allowed(&detector("{}"), 1000), None);
+    }
+}
