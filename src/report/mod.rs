@@ -170,8 +170,9 @@ fn claims_tables(
         text += &format!(
             "## What the paper claims\n\n{} The rule behind a verdict stands in the config. *Holds* takes a \
              test of superiority, non-inferiority or equivalence at the family-wise level; *undecided* \
-             means that the trials were too few to tell. Two points of one run share their noise \
-             and are compared trial by trial; the bands in the pictures are pointwise and no test.\n\n\
+             means that the trials were too few to tell. Points that share their noise are compared trial \
+             by trial (*paired*), others by their counts; the bands in the pictures are pointwise and no \
+             test.\n\n\
              | claim | where the paper makes it | how it was tested | numbers | verdict |\n\
              |---|---|---|---|---|\n{of_paper}\n",
             summary(&verdicts),
