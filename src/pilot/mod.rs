@@ -3,7 +3,7 @@
 //! Two things are learnt from pilots.
 //!
 //! - The `likelihood-ratio` rule needs the probabilities of (W, T) under its alternative: a pilot in
-//!   motion counts them, see [`LikelihoodOrder`].
+//!   motion counts them, see [`LikelihoodOrder`](crate::detect::LikelihoodOrder).
 //! - A *calibrated* design needs false-alarm rates of the real chain, fitted filter and all: pilots at
 //!   rest count them.
 //!
