@@ -30,7 +30,6 @@ pub(super) fn exceeds(
     comparisons: &[&Comparison],
     axis: Option<&Axis>,
 ) -> Result<Judgement, ClaimError> {
-    check(contrasts, comparisons)?;
     let margin = claim.margin;
     let any = |wanted| comparisons.iter().any(|c| side(c, margin) == wanted);
     let (greater, smaller) = (any(Side::Greater), any(Side::Smaller));
@@ -45,11 +44,7 @@ pub(super) fn exceeds(
         Verdict::Undecided
     };
     let rule = format!("nowhere below by more than {margin} and somewhere above by more");
-    Ok(Judgement {
-        verdict,
-        evidence: extremes(contrasts, comparisons, axis),
-        how: how(claim, contrasts, comparisons, &rule),
-    })
+    judgement(claim, contrasts, comparisons, axis, verdict, &rule)
 }
 
 pub(super) fn equals(
@@ -58,7 +53,6 @@ pub(super) fn equals(
     comparisons: &[&Comparison],
     axis: Option<&Axis>,
 ) -> Result<Judgement, ClaimError> {
-    check(contrasts, comparisons)?;
     let margin = claim.margin;
     let sides: Vec<Side> = comparisons.iter().map(|c| side(c, margin)).collect();
     let is_outside = |side: &Side| matches!(side, Side::Greater | Side::Smaller);
@@ -75,17 +69,25 @@ pub(super) fn equals(
         }
     };
     let rule = format!("equivalent within ± {margin} everywhere");
-    Ok(Judgement {
-        verdict,
-        evidence: extremes(contrasts, comparisons, axis),
-        how: how(claim, contrasts, comparisons, &rule),
-    })
+    judgement(claim, contrasts, comparisons, axis, verdict, &rule)
 }
 
-fn check(contrasts: &Contrasts, comparisons: &[&Comparison]) -> Result<(), ClaimError> {
+/// A verdict with its numbers and its rule; none where nothing has been compared.
+fn judgement(
+    claim: &Claim,
+    contrasts: &Contrasts,
+    comparisons: &[&Comparison],
+    axis: Option<&Axis>,
+    verdict: Verdict,
+    rule: &str,
+) -> Result<Judgement, ClaimError> {
     match comparisons.is_empty() {
         true => Err(ClaimError::NotCompared(contrasts.first.clone())),
-        false => Ok(()),
+        false => Ok(Judgement {
+            verdict,
+            evidence: extremes(contrasts, comparisons, axis),
+            how: how(claim, contrasts, comparisons, rule),
+        }),
     }
 }
 

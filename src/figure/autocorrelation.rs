@@ -1,7 +1,7 @@
 //! Autocorrelation against lag, and below it how far the simulation is from theory.
 
 use super::FigureError;
-use super::frame::{CAPTION_LEFT, CAPTION_STEP, Frame, Scale, WIDTH, draw_caption};
+use super::frame::{CAPTION_LEFT, Frame, Scale, WIDTH};
 use super::legend::{Entry, Key, Legend};
 use super::sheet::{Look, Picture, Sheet, literal};
 use super::words::wrap;
@@ -131,8 +131,7 @@ impl<'a> Lags<'a> {
 
 impl Picture for Lags<'_> {
     fn size(&self) -> (f64, f64) {
-        let caption = CAPTION_STEP * self.caption.len() as f64;
-        (WIDTH, self.frames[1].bottom + 36.0 + caption)
+        self.frames[1].sheet_size(&self.caption)
     }
 
     fn draw<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
@@ -142,7 +141,7 @@ impl Picture for Lags<'_> {
         }
         self.draw_upper(sheet, &self.frames[0])?;
         self.draw_lower(sheet, &self.frames[1])?;
-        draw_caption(sheet, &self.caption, self.frames[1].bottom + 41.0)
+        self.frames[1].draw_caption(sheet, &self.caption)
     }
 }
 

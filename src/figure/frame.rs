@@ -212,6 +212,21 @@ impl Frame {
         })
     }
 
+    /// The size of a sheet that ends with this frame and a caption.
+    pub fn sheet_size(&self, caption: &[String]) -> (f64, f64) {
+        let lines = CAPTION_STEP * caption.len() as f64;
+        (WIDTH, self.bottom + 36.0 + lines)
+    }
+
+    /// The caption below this frame and its axis.
+    pub fn draw_caption<B: DrawingBackend>(
+        &self,
+        sheet: &Sheet<B>,
+        caption: &[String],
+    ) -> Result<(), FigureError> {
+        draw_caption(sheet, caption, self.bottom + 41.0)
+    }
+
     /// A band over the whole height between two values of x.
     pub fn draw_band<B: DrawingBackend>(
         &self,

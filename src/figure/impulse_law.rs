@@ -1,7 +1,7 @@
 //! The laws of S and of λ against time: closed form and simulation.
 
 use super::FigureError;
-use super::frame::{CAPTION_LEFT, CAPTION_STEP, Frame, Scale, WIDTH, draw_caption};
+use super::frame::{CAPTION_LEFT, Frame, Scale, WIDTH};
 use super::legend::{Entry, Key, Legend};
 use super::sheet::{Look, Picture, Sheet};
 use super::words::wrap;
@@ -101,8 +101,7 @@ impl<'a> Laws<'a> {
 
 impl Picture for Laws<'_> {
     fn size(&self) -> (f64, f64) {
-        let caption = CAPTION_STEP * self.caption.len() as f64;
-        (WIDTH, self.frames[1].bottom + 36.0 + caption)
+        self.frames[1].sheet_size(&self.caption)
     }
 
     fn draw<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
@@ -126,7 +125,7 @@ impl Picture for Laws<'_> {
             |row| [row.positive_low, row.positive_rate, row.positive_high],
         )?;
         lower.draw_axes(sheet, "i, samples since S = 0", "P(λ_i = +θ)")?;
-        draw_caption(sheet, &self.caption, lower.bottom + 41.0)
+        lower.draw_caption(sheet, &self.caption)
     }
 }
 

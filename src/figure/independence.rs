@@ -1,7 +1,7 @@
 //! P(W, T) against P(W)·P(T), for every W, T and sizes: on the diagonal where W and T are independent.
 
 use super::FigureError;
-use super::frame::{CAPTION_LEFT, CAPTION_STEP, Frame, Scale, WIDTH, draw_caption};
+use super::frame::{CAPTION_LEFT, Frame, Scale, WIDTH};
 use super::legend::{Entry, Key, Legend};
 use super::sheet::{Look, Picture, Sheet};
 use super::words::wrap;
@@ -60,8 +60,7 @@ impl<'a> Diagonal<'a> {
 
 impl Picture for Diagonal<'_> {
     fn size(&self) -> (f64, f64) {
-        let caption = CAPTION_STEP * self.caption.len() as f64;
-        (WIDTH, self.frame.bottom + 36.0 + caption)
+        self.frame.sheet_size(&self.caption)
     }
 
     fn draw<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
@@ -84,7 +83,7 @@ impl Picture for Diagonal<'_> {
         let legend = self.legend();
         let corner = legend.free_corner(frame, &covered);
         legend.draw(sheet, corner.unwrap_or((frame.left + 6.0, frame.top + 6.0)))?;
-        draw_caption(sheet, &self.caption, frame.bottom + 41.0)
+        frame.draw_caption(sheet, &self.caption)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Where the samples of a trial lie: the acceleration above, the blocks below, one axis.
 
 use super::FigureError;
-use super::frame::{CAPTION_LEFT, CAPTION_STEP, Frame, NORMAL, SMALL, Scale, WIDTH, draw_caption};
+use super::frame::{CAPTION_LEFT, Frame, NORMAL, SMALL, Scale, WIDTH};
 use super::sheet::{Align, Look, Picture, Sheet, Style, text_width};
 use super::words::wrap;
 use crate::config::ExhibitConfig;
@@ -164,8 +164,7 @@ impl<'a> Layout<'a> {
 
 impl Picture for Layout<'_> {
     fn size(&self) -> (f64, f64) {
-        let caption = CAPTION_STEP * self.caption.len() as f64;
-        (WIDTH, self.frames[1].bottom + 36.0 + caption)
+        self.frames[1].sheet_size(&self.caption)
     }
 
     fn draw<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
@@ -177,7 +176,7 @@ impl Picture for Layout<'_> {
         self.draw_pulse(sheet)?;
         upper.draw_axes(sheet, "", "acceleration, σ_ξ")?;
         lower.draw_axes(sheet, "time, observations after X", "samples")?;
-        draw_caption(sheet, &self.caption, lower.bottom + 41.0)
+        lower.draw_caption(sheet, &self.caption)
     }
 }
 

@@ -2,9 +2,7 @@
 //! C_W(T) of each region as a line of its own colour, dash and width.
 
 use super::FigureError;
-use super::frame::{
-    CAPTION_LEFT, CAPTION_STEP, Frame, SMALL, Scale, WIDTH, draw_caption, power_of_ten,
-};
+use super::frame::{CAPTION_LEFT, Frame, SMALL, Scale, WIDTH, power_of_ten};
 use super::legend::{Entry, Key, Legend};
 use super::sheet::{Align, Look, Picture, Sheet, Style};
 use super::words::wrap;
@@ -99,8 +97,7 @@ const LOOKS: [usize; 6] = [1, 2, 3, 4, 0, 5];
 
 impl Picture for Plane<'_> {
     fn size(&self) -> (f64, f64) {
-        let caption = CAPTION_STEP * self.caption.len() as f64;
-        (WIDTH, self.frame().bottom + 36.0 + caption)
+        self.frame().sheet_size(&self.caption)
     }
 
     fn draw<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
@@ -117,7 +114,7 @@ impl Picture for Plane<'_> {
         }
         frame.draw_axes(sheet, "W, rank sum of Y_1", "T, exceedances of Y_2")?;
         self.legend().draw(sheet, (frame.left, 4.0))?;
-        draw_caption(sheet, &self.caption, frame.bottom + 41.0)
+        frame.draw_caption(sheet, &self.caption)
     }
 }
 

@@ -2,7 +2,7 @@
 //! bracketed.
 
 use super::FigureError;
-use super::frame::{CAPTION_LEFT, CAPTION_STEP, Frame, SMALL, Scale, WIDTH, draw_caption};
+use super::frame::{CAPTION_LEFT, Frame, SMALL, Scale, WIDTH};
 use super::layout::{phase_colour, phase_words};
 use super::legend::{Entry, Key, Legend};
 use super::sheet::{Align, Look, Picture, Sheet, Style, literal, text_width};
@@ -191,9 +191,7 @@ impl<'a> Ride<'a> {
 
 impl Picture for Ride<'_> {
     fn size(&self) -> (f64, f64) {
-        let caption = CAPTION_STEP * self.caption.len() as f64;
-        let bottom = self.frames[self.frames.len() - 1].bottom;
-        (WIDTH, bottom + 36.0 + caption)
+        self.frames[self.frames.len() - 1].sheet_size(&self.caption)
     }
 
     fn draw<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
@@ -221,8 +219,7 @@ impl Picture for Ride<'_> {
             frames => frames[0].draw_axes(sheet, time, &record)?,
         }
         self.draw_legend(sheet)?;
-        let bottom = self.frames[self.frames.len() - 1].bottom;
-        draw_caption(sheet, &self.caption, bottom + 41.0)
+        self.frames[self.frames.len() - 1].draw_caption(sheet, &self.caption)
     }
 }
 
