@@ -45,6 +45,7 @@ pub use quantity::named_quantity;
 
 use crate::config::{Axis, Claim, Test};
 use crate::results::{Comparison, Quantity, Row};
+use contrast::Compared;
 
 /// What a claim is judged by.
 #[derive(Clone, Copy, Debug)]
@@ -112,12 +113,16 @@ pub enum ClaimError {
 pub fn judge(claim: &Claim, number: usize, evidence: &Evidence) -> Result<Judgement, ClaimError> {
     let of_claim = |comparison: &&Comparison| comparison.claim == number;
     let comparisons: Vec<&Comparison> = evidence.comparisons.iter().filter(of_claim).collect();
+    let compared = |contrasts| Compared {
+        claim,
+        contrasts,
+        comparisons: &comparisons,
+        axis: evidence.axis,
+    };
     match &claim.test {
         Test::Grows { curves } => growth::judge(claim, curves, &comparisons, evidence.axis),
-        Test::Exceeds(contrasts) => {
-            contrast::exceeds(claim, contrasts, &comparisons, evidence.axis)
-        }
-        Test::Equals(contrasts) => contrast::equals(claim, contrasts, &comparisons, evidence.axis),
+        Test::Exceeds(contrasts) => compared(contrasts).exceeds(),
+        Test::Equals(contrasts) => compared(contrasts).equals(),
         Test::AlphaHeld { curves, excess } => false_alarm::judge(claim, curves, *excess, evidence),
         Test::Quantity { name, from, to } => {
             quantity::judge(name, [*from, *to], evidence.quantities)
