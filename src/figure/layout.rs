@@ -2,12 +2,13 @@
 
 use super::FigureError;
 use super::frame::{CAPTION_LEFT, Frame, NORMAL, SMALL, Scale, WIDTH};
+use super::phases::{draw_limit, phase_colour, phase_words};
 use super::sheet::{Align, Look, Picture, Sheet, Style, text_width};
 use super::words::wrap;
 use crate::config::ExhibitConfig;
 use crate::exhibit::layout::Row;
 use crate::signal::{Motion, Profile};
-use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor};
+use plotters::prelude::{Color, DrawingBackend, RGBColor};
 
 const UPPER: f64 = 84.0;
 const LOWER: f64 = 74.0;
@@ -149,13 +150,7 @@ impl<'a> Layout<'a> {
                 continue;
             }
             for x in [row.start, row.end] {
-                let (top, bottom) = (upper.at(x as f64, 0.0).0, lower.bottom);
-                sheet.dashed(
-                    &[(top, upper.top), (top, bottom)],
-                    0.5,
-                    BLACK.mix(0.6),
-                    &[2.0, 2.0],
-                )?;
+                draw_limit(sheet, upper.at(x as f64, 0.0).0, [upper.top, lower.bottom])?;
             }
         }
         Ok(())
@@ -222,24 +217,6 @@ impl Block {
         };
         let colour = Some(Look::of(index).colour);
         Some(Self { colour, lines })
-    }
-}
-
-/// The shade of a phase.
-pub(super) fn phase_colour(name: &str) -> RGBColor {
-    match name {
-        "acceleration" => RGBColor(253, 236, 214),
-        "inertial" => RGBColor(226, 240, 250),
-        "braking" => RGBColor(247, 228, 240),
-        _ => RGBColor(255, 255, 255),
-    }
-}
-
-/// A phase in words.
-pub(super) fn phase_words(name: &str) -> &str {
-    match name {
-        "inertial" => "inertial motion",
-        other => other,
     }
 }
 

@@ -12,6 +12,7 @@ mod layout;
 mod legend;
 mod operating_point;
 mod panel;
+mod phases;
 mod region;
 mod ruler;
 mod sheet;

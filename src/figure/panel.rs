@@ -32,6 +32,13 @@ pub(super) struct Point {
     pub is_bound: bool,
 }
 
+/// A point where it is drawn, beside those of other curves at the same name.
+struct Mark<'a> {
+    look: Look,
+    x: f64,
+    point: &'a Point,
+}
+
 /// How rates are drawn, the same in every panel.
 #[derive(Clone, Copy)]
 pub(super) struct Manner {
@@ -122,16 +129,13 @@ impl Panel {
         frame: &Frame,
         manner: Manner,
     ) -> Result<(), FigureError> {
-        for (index, Curve { points, look }) in self.curves.iter().enumerate() {
-            // A bound is drawn as an arrow.
-            for p in points
-                .iter()
-                .filter(|p| !(p.is_bound && manner.is_logarithmic))
-            {
-                let x = p.x + self.aside(index, manner);
-                let ends = [p.low, p.high].map(|y| within(frame, frame.at(x, y)));
-                sheet.line(&ends, LINE, look.colour.to_rgba())?;
-            }
+        // A bound is drawn as an arrow.
+        let bars = self
+            .marks(manner)
+            .filter(|mark| !(mark.point.is_bound && manner.is_logarithmic));
+        for Mark { look, x, point } in bars {
+            let ends = [point.low, point.high].map(|y| within(frame, frame.at(x, y)));
+            sheet.line(&ends, LINE, look.colour.to_rgba())?;
         }
         Ok(())
     }
@@ -142,16 +146,27 @@ impl Panel {
         frame: &Frame,
         manner: Manner,
     ) -> Result<(), FigureError> {
-        for (index, Curve { points, look }) in self.curves.iter().enumerate() {
-            for p in points {
-                let centre = frame.at(p.x + self.aside(index, manner), p.rate);
-                match p.is_bound && manner.is_logarithmic {
-                    true => sheet.arrow_down(centre, 3.0 * MARKER, look.colour)?,
-                    false => sheet.marker(look.marker, centre, MARKER, look.colour)?,
-                }
+        for Mark { look, x, point } in self.marks(manner) {
+            let centre = frame.at(x, point.rate);
+            match point.is_bound && manner.is_logarithmic {
+                true => sheet.arrow_down(centre, 3.0 * MARKER, look.colour)?,
+                false => sheet.marker(look.marker, centre, MARKER, look.colour)?,
             }
         }
         Ok(())
+    }
+
+    /// Every point of every curve.
+    fn marks(&self, manner: Manner) -> impl Iterator<Item = Mark<'_>> {
+        let curves = self.curves.iter().enumerate();
+        curves.flat_map(move |(index, Curve { points, look })| {
+            let aside = self.aside(index, manner);
+            points.iter().map(move |point| Mark {
+                look: *look,
+                x: point.x + aside,
+                point,
+            })
+        })
     }
 }
 

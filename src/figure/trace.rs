@@ -3,8 +3,8 @@
 
 use super::FigureError;
 use super::frame::{CAPTION_LEFT, Frame, SMALL, Scale, WIDTH};
-use super::layout::{phase_colour, phase_words};
 use super::legend::{Entry, Key, Legend};
+use super::phases::{draw_limit, phase_colour, phase_words};
 use super::sheet::{Align, Look, Picture, Sheet, Style, literal, text_width};
 use super::words::wrap;
 use crate::config::{ExhibitConfig, Trace};
@@ -124,8 +124,7 @@ impl<'a> Ride<'a> {
                 continue;
             }
             for x in [left - 0.7, right + 0.7] {
-                let limit = [(x, upper.top), (x, bottom)];
-                sheet.dashed(&limit, 0.5, BLACK.mix(0.6), &[2.0, 2.0])?;
+                draw_limit(sheet, x, [upper.top, bottom])?;
             }
         }
         Ok(())
