@@ -2,8 +2,8 @@
 //! takes the place of `[axis]` and `[[curve]]`.
 
 use super::error::Problem;
-use super::exhibit::{ExhibitKind, Phase, PhaseKind, Search, Trace};
-use super::file::{File, LawKind, RuleKind, Sections};
+use super::exhibit::{ExhibitKind, Search};
+use super::file::{LawKind, RuleKind, Sections};
 use super::value::{Number, Whole};
 use crate::chain::Scenario;
 use crate::detect::{Method, Rule};
@@ -15,7 +15,7 @@ use toml::Spanned;
 pub(super) type Refused = (Option<Range<usize>>, Problem);
 
 /// Most samples in one realisation.
-const LONGEST: usize = 1_000_000;
+pub(super) const LONGEST: usize = 1_000_000;
 /// Most assignments of ranks that an enumeration may take; their square is exact in an f64.
 const MOST_ASSIGNMENTS: u128 = 50_000_000;
 /// Most curves that can be told apart.
@@ -27,29 +27,6 @@ const MOST_CURVES: usize = 36;
 pub(super) struct AutocorrelationTable {
     pub lags: Option<Spanned<Whole>>,
     pub length: Option<Spanned<Whole>>,
-}
-
-/// `[trace]`
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct TraceTable {
-    pub phases: Spanned<Vec<Spanned<PhaseTable>>>,
-    pub rate: Option<Spanned<Number>>,
-    pub sigma: Option<Spanned<Number>>,
-    pub unit: Option<Spanned<String>>,
-    pub vibration: Option<Spanned<Number>>,
-    pub whitened: Option<Spanned<bool>>,
-    pub drawn_from: Option<Spanned<Whole>>,
-}
-
-/// One of `trace.phases`, its length in samples.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum PhaseTable {
-    Rest(Whole),
-    Acceleration(Whole),
-    Inertial(Whole),
-    Braking(Whole),
 }
 
 /// `[layout]`
@@ -143,69 +120,6 @@ pub(super) fn autocorrelation(table: &AutocorrelationTable) -> Result<ExhibitKin
     let length = whole(KIND, "length", &table.length, 4096, 2..=LONGEST)?;
     let lags = whole(KIND, "lags", &table.lags, 40, 1..=length.min(10_000) - 1)?;
     Ok(ExhibitKind::Autocorrelation { lags, length })
-}
-
-pub(super) fn trace(table: &TraceTable) -> Result<Trace, Refused> {
-    const KIND: &str = "trace";
-    let phases: Vec<Phase> = table
-        .phases
-        .get_ref()
-        .iter()
-        .map(phase)
-        .collect::<Result<_, _>>()?;
-    let length = phases
-        .iter()
-        .fold(0usize, |sum, phase| sum.saturating_add(phase.length));
-    if !(1..=LONGEST).contains(&length) {
-        let rule = format!("hold 1 to {LONGEST} samples");
-        let problem = out_of_range(KIND, "phases", rule, length.to_string());
-        return Err((Some(table.phases.span()), problem));
-    }
-    let unit = table.unit.as_ref().map(|unit| unit.get_ref().trim());
-    if let Some("") = unit {
-        let problem = out_of_range(KIND, "unit", "have a name".to_owned(), "\"\"".to_owned());
-        return Err((table.unit.as_ref().map(Spanned::span), problem));
-    }
-    Ok(Trace {
-        rate: positive(KIND, "rate", &table.rate, 1.0)?,
-        sigma: positive(KIND, "sigma", &table.sigma, 1.0)?,
-        unit: unit.unwrap_or("σ_ξ").to_owned(),
-        vibration: vibration(&table.vibration)?,
-        whitened: table
-            .whitened
-            .as_ref()
-            .is_some_and(|whitened| *whitened.get_ref()),
-        drawn_from: whole(KIND, "drawn_from", &table.drawn_from, 0, 0..=length - 1)?,
-        phases,
-    })
-}
-
-fn phase(given: &Spanned<PhaseTable>) -> Result<Phase, Refused> {
-    let (kind, length) = match *given.get_ref() {
-        PhaseTable::Rest(length) => (PhaseKind::Rest, length),
-        PhaseTable::Acceleration(length) => (PhaseKind::Acceleration, length),
-        PhaseTable::Inertial(length) => (PhaseKind::Inertial, length),
-        PhaseTable::Braking(length) => (PhaseKind::Braking, length),
-    };
-    let length = length.size();
-    if length == 0 {
-        let rule = format!("give {} at least 1 sample", kind.name());
-        let problem = out_of_range("trace", "phases", rule, "0".to_owned());
-        return Err((Some(given.span()), problem));
-    }
-    Ok(Phase { kind, length })
-}
-
-fn vibration(given: &Option<Spanned<Number>>) -> Result<f64, Refused> {
-    let value = given.as_ref().map_or(0.0, |value| value.get_ref().0);
-    match value >= 0.0 {
-        true => Ok(value),
-        false => {
-            let rule = "be zero or positive".to_owned();
-            let problem = out_of_range("trace", "vibration", rule, value.to_string());
-            Err((given.as_ref().map(Spanned::span), problem))
-        }
-    }
 }
 
 /// The rules, read by the same code as a detector's.
@@ -348,42 +262,7 @@ pub(super) fn check_length(scenario: &Scenario) -> Result<(), Refused> {
     }
 }
 
-/// Training, X, Y₁ and Y₂ must lie inside the ride.
-pub(super) fn check_fit(trace: &Trace, scenario: &Scenario, file: &File) -> Result<(), Refused> {
-    let refuse = |rule: String, got: usize, remedy| {
-        let span = file
-            .trace
-            .as_ref()
-            .map(|table| table.get_ref().phases.span());
-        let problem = Problem::DrawingValue {
-            kind: "trace",
-            key: "phases",
-            rule,
-            got: got.to_string(),
-            remedy,
-        };
-        Err((span, problem))
-    };
-    const LENGTHEN: &str = " (lengthen them, or leave whitened out)";
-    let samples = &scenario.samples;
-    let before = scenario.whitening.lead() + samples.reference();
-    let Some(start) = trace.acceleration_start() else {
-        let remedy = " (add one, or leave whitened out)";
-        return refuse("hold an acceleration".to_owned(), 0, remedy);
-    };
-    if start < before {
-        let rule = format!("hold {before} samples for training and X before the acceleration");
-        return refuse(rule, start, LENGTHEN);
-    }
-    let (needed, after) = (samples.span() - samples.reference(), trace.length() - start);
-    if after < needed {
-        let rule = format!("hold {needed} samples for Y1 and Y2 from the acceleration on");
-        return refuse(rule, after, LENGTHEN);
-    }
-    Ok(())
-}
-
-fn whole(
+pub(super) fn whole(
     kind: &'static str,
     key: &'static str,
     given: &Option<Spanned<Whole>>,
@@ -403,7 +282,7 @@ fn whole(
     }
 }
 
-fn positive(
+pub(super) fn positive(
     kind: &'static str,
     key: &'static str,
     given: &Option<Spanned<Number>>,
@@ -419,7 +298,12 @@ fn positive(
     }
 }
 
-fn out_of_range(kind: &'static str, key: &'static str, rule: String, got: String) -> Problem {
+pub(super) fn out_of_range(
+    kind: &'static str,
+    key: &'static str,
+    rule: String,
+    got: String,
+) -> Problem {
     Problem::DrawingValue {
         kind,
         key,

@@ -3,10 +3,11 @@
 use super::drawing::{self, Refused};
 use super::error::{ConfigError, Problem, Source};
 use super::file::{File, Sections};
+use super::trace::{self, Trace};
 use super::value::Whole;
 use super::{Config, Narrative};
 use crate::chain::Scenario;
-use crate::detect::{RegionError, Rule, Samples};
+use crate::detect::{RegionError, Rule};
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
@@ -87,47 +88,6 @@ pub struct Search {
     pub delta: [f64; 2],
 }
 
-/// A ride and how it is shown.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Trace {
-    /// In the order of time.
-    pub phases: Vec<Phase>,
-    /// Samples per second.
-    pub rate: f64,
-    /// σ_ξ in `unit`.
-    pub sigma: f64,
-    /// Of the record.
-    pub unit: String,
-    /// Deviation of the vibration, white noise added in motion, in σ_ξ.
-    pub vibration: f64,
-    /// Whether the record is also shown after whitening, with X, Y₁ and Y₂ marked.
-    pub whitened: bool,
-    /// The first sample in the picture.
-    pub drawn_from: usize,
-}
-
-/// A part of a ride.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Phase {
-    /// What the cage does.
-    pub kind: PhaseKind,
-    /// For how many samples.
-    pub length: usize,
-}
-
-/// What the cage does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PhaseKind {
-    /// It stands.
-    Rest,
-    /// It gains speed: Δ acts.
-    Acceleration,
-    /// It moves by itself.
-    Inertial,
-    /// It loses speed: −Δ acts.
-    Braking,
-}
-
 impl Experiment {
     /// Reads and checks a file.
     ///
@@ -148,17 +108,20 @@ impl Experiment {
     pub fn parse(name: &str, text: &str) -> Result<Self, ConfigError> {
         let source = Source::new(name, text);
         let file = File::parse(&source)?;
-        let tables = file.tables();
-        if let [(first, _), (second, span), ..] = &tables[..] {
+        let axis = file.axis.as_ref().map(|axis| ("axis", axis.span()));
+        let asked = file.asked();
+        let drawings = asked.iter().map(|asked| (asked.name, asked.table.clone()));
+        let things: Vec<_> = axis.into_iter().chain(drawings).collect();
+        if let [(first, _), (second, span), ..] = &things[..] {
             let (first, second) = (*first, *second);
             let problem = Problem::TwoThingsToDo { first, second };
             return Err(source.at(Some(span.clone()), problem));
         }
-        match (&file.axis, tables.first()) {
+        match (&file.axis, asked.into_iter().next()) {
             (Some(axis), _) => {
                 Config::new(source, &file, axis).map(|config| Self::Sweep(Box::new(config)))
             }
-            (None, Some((_, span))) => ExhibitConfig::new(source, &file, span.clone())
+            (None, Some(asked)) => ExhibitConfig::new(source, &file, asked)
                 .map(|config| Self::Exhibit(Box::new(config))),
             (None, None) => {
                 let known = ExhibitKind::NAMES.map(|name| format!("[{name}]"));
@@ -193,55 +156,46 @@ impl Experiment {
     }
 }
 
-impl File {
-    /// The axis and the drawing tables that are there, each with its place.
-    fn tables(&self) -> Vec<(&'static str, Range<usize>)> {
-        let all = [
-            ("axis", self.axis.as_ref().map(Spanned::span)),
-            (
-                "autocorrelation",
-                self.autocorrelation.as_ref().map(Spanned::span),
-            ),
-            ("trace", self.trace.as_ref().map(Spanned::span)),
-            ("layout", self.layout.as_ref().map(Spanned::span)),
-            ("region", self.region.as_ref().map(Spanned::span)),
-            (
-                "independence",
-                self.independence.as_ref().map(Spanned::span),
-            ),
-            ("impulse_law", self.impulse_law.as_ref().map(Spanned::span)),
-            (
-                "operating_point",
-                self.operating_point.as_ref().map(Spanned::span),
-            ),
-        ];
-        let there = all.into_iter();
-        there
-            .filter_map(|(name, span)| Some((name, span?)))
-            .collect()
-    }
+/// A drawing table that is there.
+struct Asked {
+    name: &'static str,
+    table: Range<usize>,
+    kind: Result<ExhibitKind, Refused>,
+}
 
-    /// What is drawn, of a file that says so.
-    fn kind(&self) -> Result<ExhibitKind, Refused> {
-        if let Some(table) = &self.autocorrelation {
-            return drawing::autocorrelation(table.get_ref());
-        }
-        if let Some(table) = &self.trace {
-            return drawing::trace(table.get_ref()).map(ExhibitKind::Trace);
-        }
-        if let Some(table) = &self.region {
-            return drawing::rules(table.get_ref(), &self.sections());
-        }
-        if let Some(table) = &self.independence {
-            return drawing::sizes(table.get_ref());
-        }
-        if let Some(table) = &self.operating_point {
-            return drawing::search(table.get_ref());
-        }
-        match &self.impulse_law {
-            Some(table) => drawing::impulse_law(table.get_ref()),
-            None => Ok(ExhibitKind::Layout),
-        }
+impl Asked {
+    fn new<T>(
+        name: &'static str,
+        table: &Option<Spanned<T>>,
+        kind: impl Fn(&T) -> Result<ExhibitKind, Refused>,
+    ) -> Option<Self> {
+        let table = table.as_ref()?;
+        Some(Self {
+            name,
+            table: table.span(),
+            kind: kind(table.get_ref()),
+        })
+    }
+}
+
+impl File {
+    /// The drawing tables that are there, and what each comes to.
+    fn asked(&self) -> Vec<Asked> {
+        let rules = |table: &_| drawing::rules(table, &self.sections());
+        let all = [
+            Asked::new(
+                "autocorrelation",
+                &self.autocorrelation,
+                drawing::autocorrelation,
+            ),
+            Asked::new("trace", &self.trace, trace::trace),
+            Asked::new("layout", &self.layout, |_| Ok(ExhibitKind::Layout)),
+            Asked::new("region", &self.region, rules),
+            Asked::new("independence", &self.independence, drawing::sizes),
+            Asked::new("impulse_law", &self.impulse_law, drawing::impulse_law),
+            Asked::new("operating_point", &self.operating_point, drawing::search),
+        ];
+        all.into_iter().flatten().collect()
     }
 
     /// What stands in the file and means nothing to this kind of drawing.
@@ -283,9 +237,10 @@ impl File {
 }
 
 impl ExhibitConfig {
-    fn new(source: Source, file: &File, table: Range<usize>) -> Result<Self, ConfigError> {
+    fn new(source: Source, file: &File, asked: Asked) -> Result<Self, ConfigError> {
+        let Asked { table, kind, .. } = asked;
         let refuse = |(span, problem): Refused| source.at(span.or(Some(table.clone())), problem);
-        let kind = file.kind().map_err(refuse)?;
+        let kind = kind.map_err(refuse)?;
         file.check_heeded(&kind).map_err(refuse)?;
         let sections = kind.laid_over(file.sections(), &table);
         let scenario = sections
@@ -435,54 +390,9 @@ impl ExhibitKind {
     fn check(&self, scenario: &Scenario, file: &File) -> Result<(), Refused> {
         match self {
             Self::Autocorrelation { .. } => drawing::check_law(&file.sections()),
-            Self::Trace(trace) if trace.whitened => drawing::check_fit(trace, scenario, file),
+            Self::Trace(trace) if trace.whitened => trace::check_fit(trace, scenario, file),
             Self::Layout => drawing::check_length(scenario),
             _ => Ok(()),
         }
-    }
-}
-
-impl PhaseKind {
-    /// Whether the cage moves.
-    pub fn moves(self) -> bool {
-        self != Self::Rest
-    }
-
-    /// Of Δ: 1, 0 or −1.
-    pub fn sign(self) -> f64 {
-        match self {
-            Self::Acceleration => 1.0,
-            Self::Braking => -1.0,
-            Self::Rest | Self::Inertial => 0.0,
-        }
-    }
-
-    /// As in a config and in results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rest => "rest",
-            Self::Acceleration => "acceleration",
-            Self::Inertial => "inertial",
-            Self::Braking => "braking",
-        }
-    }
-}
-
-impl Trace {
-    /// Samples of the whole ride.
-    pub fn length(&self) -> usize {
-        self.phases.iter().map(|phase| phase.length).sum()
-    }
-
-    /// Where the first of X lies: X ends where the first acceleration starts. `None` where there is
-    /// no acceleration, or not enough of a record before it.
-    pub fn reference_start(&self, samples: &Samples) -> Option<usize> {
-        self.acceleration_start()?.checked_sub(samples.reference())
-    }
-
-    pub(super) fn acceleration_start(&self) -> Option<usize> {
-        let mut phases = self.phases.iter();
-        let first = phases.position(|phase| phase.kind == PhaseKind::Acceleration)?;
-        Some(self.phases[..first].iter().map(|phase| phase.length).sum())
     }
 }

@@ -4,9 +4,10 @@
 use super::claim::{ClaimTable, Story};
 use super::drawing::{
     AutocorrelationTable, ImpulseLawTable, IndependenceTable, LayoutTable, OperatingPointTable,
-    RegionTable, TraceTable,
+    RegionTable,
 };
 use super::error::{ConfigError, Source};
+use super::trace::TraceTable;
 use super::value::{Critical, Number, Whole};
 use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;

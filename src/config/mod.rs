@@ -14,12 +14,14 @@ mod file;
 mod resolve;
 #[cfg(test)]
 mod tests;
+mod trace;
 mod value;
 
 pub use axis::{Axis, AxisValue, Parameter};
 pub use claim::{Claim, ClaimProblem, Contrast, Contrasts, Narrative, Test};
 pub use error::{ConfigError, Problem};
-pub use exhibit::{ExhibitConfig, ExhibitKind, Experiment, Phase, PhaseKind, Search, Trace};
+pub use exhibit::{ExhibitConfig, ExhibitKind, Experiment, Search};
+pub use trace::{Phase, PhaseKind, Trace};
 
 use crate::tally;
 use error::Source;
