@@ -1,12 +1,12 @@
 //! The file as it stands, every value with its place. Nothing here has a default: what the author
 //! did not write is `None`, so that a curve can be laid over the file and the axis over a curve.
 
-use super::claim::{ClaimTable, Story};
 use super::drawing::{
     AutocorrelationTable, ImpulseLawTable, IndependenceTable, LayoutTable, OperatingPointTable,
     RegionTable,
 };
 use super::error::{ConfigError, Source};
+use super::story::{ClaimTable, Story};
 use super::trace::TraceTable;
 use super::value::{Critical, Number, Whole};
 use serde::Deserialize;

@@ -12,6 +12,7 @@ mod error;
 mod exhibit;
 mod file;
 mod resolve;
+mod story;
 #[cfg(test)]
 mod tests;
 mod trace;
