@@ -280,7 +280,7 @@ impl Sink for Counts<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::{Config, Experiment};
+    use crate::config::{Config, ExhibitKind, Experiment};
     use crate::pilot::Pilots;
     use crate::plan::Plan;
     use crate::run;
@@ -288,17 +288,22 @@ mod tests {
     const SEARCH: &str = "question = \"?\"\nseed = 5\ntrials = 4000\n[impulses]\nnu = 0.2\n\
         [operating_point]\nsizes = [9, 12]\npower = [0.5, 0.9]\ndelta = { from = 0.0, to = 3.2 }\n";
 
+    /// The rows of a config's search.
+    fn searched(text: &str) -> Vec<Row> {
+        let Ok(Experiment::Exhibit(config)) = Experiment::parse("test", text) else {
+            panic!("no exhibit");
+        };
+        let ExhibitKind::OperatingPoint(search) = &config.kind else {
+            panic!("no search");
+        };
+        rows(&config, search).unwrap()
+    }
+
     /// Against brute force: a sweep over every Δ of the finest grid on the same draws, and the three
     /// crossings read off its rates and limits.
     #[test]
     fn finds_what_a_grid_of_every_point_shows() {
-        let Ok(Experiment::Exhibit(config)) = Experiment::parse("test", SEARCH) else {
-            panic!("no exhibit");
-        };
-        let crate::config::ExhibitKind::OperatingPoint(search) = &config.kind else {
-            panic!("no search");
-        };
-        let rows = rows(&config, search).unwrap();
+        let rows = searched(SEARCH);
         assert_eq!(rows.len(), 4);
         for row in rows {
             let size = row.all_samples;
@@ -345,13 +350,7 @@ mod tests {
     #[test]
     fn what_is_not_reached_is_left_out() {
         let text = SEARCH.replace("3.2", "0.05").replace("0.9]", "0.999]");
-        let Ok(Experiment::Exhibit(config)) = Experiment::parse("test", &text) else {
-            panic!("no exhibit");
-        };
-        let crate::config::ExhibitKind::OperatingPoint(search) = &config.kind else {
-            panic!("no search");
-        };
-        let rows = rows(&config, search).unwrap();
+        let rows = searched(&text);
         assert!(rows.iter().all(|row| row.delta.is_none()));
         assert!(
             quantities(&rows)
