@@ -3,7 +3,9 @@
 use super::FigureError;
 use super::frame::{CAPTION_LEFT, Frame, Scale, WIDTH};
 use super::legend::{Entry, Key, Legend};
-use super::sheet::{Look, Picture, Sheet, literal};
+use super::look::Look;
+use super::sheet::{Picture, Sheet};
+use super::text::literal;
 use super::words::wrap;
 use crate::config::ExhibitConfig;
 use crate::exhibit::autocorrelation::Row;

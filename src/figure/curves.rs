@@ -4,9 +4,11 @@
 use super::FigureError;
 use super::frame::{CAPTION_LEFT, CAPTION_STEP, Frame, NORMAL, Scale, WIDTH, draw_caption};
 use super::legend::{Entry, Key, Legend};
+use super::look::Look;
 use super::panel::{Curve, Manner, Panel, Point, rate_scale};
 use super::ruler::{LONG_RANGE, Ruler};
-use super::sheet::{Align, Look, Picture, Sheet, Style};
+use super::sheet::{Picture, Sheet};
+use super::text::{Align, Style};
 use super::words::{axis_label, caption, common_facts, is_held_against_alpha, legend};
 use crate::config::{Config, Parameter};
 use crate::results::{Manifest, Row};

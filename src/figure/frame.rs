@@ -1,7 +1,8 @@
 //! Axes: a plot rectangle on a sheet, its scales, ticks and labels.
 
 use super::FigureError;
-use super::sheet::{Align, Sheet, Style, text_width};
+use super::sheet::Sheet;
+use super::text::{Align, Style, text_width};
 use crate::numeral::minus;
 use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor};
 

@@ -3,7 +3,8 @@
 use super::FigureError;
 use super::frame::{CAPTION_LEFT, Frame, Scale, WIDTH};
 use super::legend::{Entry, Key, Legend};
-use super::sheet::{Look, Picture, Sheet};
+use super::look::Look;
+use super::sheet::{Picture, Sheet};
 use super::words::wrap;
 use crate::exhibit::independence::{Row, findings};
 use crate::numeral::thousands;

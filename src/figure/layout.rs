@@ -2,8 +2,10 @@
 
 use super::FigureError;
 use super::frame::{CAPTION_LEFT, Frame, NORMAL, SMALL, Scale, WIDTH};
+use super::look::Look;
 use super::phases::{draw_limit, phase_colour, phase_words};
-use super::sheet::{Align, Look, Picture, Sheet, Style, text_width};
+use super::sheet::{Picture, Sheet};
+use super::text::{Align, Style, text_width};
 use super::words::wrap;
 use crate::config::ExhibitConfig;
 use crate::exhibit::layout::Row;

@@ -2,7 +2,9 @@
 
 use super::FigureError;
 use super::frame::{Frame, SMALL};
-use super::sheet::{Align, Look, Sheet, Style, text_width};
+use super::look::Look;
+use super::sheet::Sheet;
+use super::text::{Align, Style, text_width};
 use plotters::prelude::{BLACK, Color, DrawingBackend, WHITE};
 
 const STEP: f64 = 11.5;

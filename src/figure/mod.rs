@@ -1,6 +1,7 @@
 //! Pictures, each drawn once and written twice: PNG at 300 dpi and SVG.
 //!
-//! `sheet` is the paper: a drawing area measured in points, with lines, markers and text.
+//! `sheet` is the paper: a drawing area measured in points, with lines, markers and text;
+//! `text` measures the words on it, `look` tells curves apart.
 //! `frame` puts axes on it. The other files each draw one kind of picture from results alone.
 
 mod autocorrelation;
@@ -10,6 +11,7 @@ mod impulse_law;
 mod independence;
 mod layout;
 mod legend;
+mod look;
 mod operating_point;
 mod panel;
 mod phases;
@@ -17,6 +19,7 @@ mod region;
 mod ruler;
 mod sheet;
 mod svg;
+mod text;
 mod trace;
 mod words;
 

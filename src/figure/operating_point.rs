@@ -3,7 +3,8 @@
 use super::FigureError;
 use super::frame::{CAPTION_LEFT, CAPTION_STEP, Frame, Scale, WIDTH, draw_caption};
 use super::legend::{Entry, Key, Legend};
-use super::sheet::{Look, Picture, Sheet};
+use super::look::Look;
+use super::sheet::{Picture, Sheet};
 use super::words::wrap;
 use crate::config::ExhibitConfig;
 use crate::exhibit::operating_point::Row;

@@ -2,7 +2,8 @@
 
 use super::FigureError;
 use super::frame::{Frame, Scale};
-use super::sheet::{Look, Sheet};
+use super::look::Look;
+use super::sheet::Sheet;
 use plotters::prelude::{Color, DrawingBackend};
 
 const LINE: f64 = 1.1;

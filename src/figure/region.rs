@@ -4,7 +4,9 @@
 use super::FigureError;
 use super::frame::{CAPTION_LEFT, Frame, SMALL, Scale, WIDTH, power_of_ten};
 use super::legend::{Entry, Key, Legend};
-use super::sheet::{Align, Look, Picture, Sheet, Style};
+use super::look::Look;
+use super::sheet::{Picture, Sheet};
+use super::text::{Align, Style};
 use super::words::wrap;
 use crate::detect::{Alternative, NullLaws, Samples};
 use crate::exhibit::region::Row;

@@ -1,14 +1,13 @@
 //! The paper: a drawing area measured in points (1/72 inch) from its upper left corner.
 //!
 //! The raster is drawn three times too large and averaged down, because the drawing library's own
-//! lines are jagged. Text is the embedded DejaVu Sans; `_` makes the next character a subscript.
+//! lines are jagged.
 
+use super::look::Marker;
+use super::text::{Align, FAMILY, FONT_HEIGHT, Style, register_embedded_font, runs, text_width};
 use super::{Drawing, FigureError, svg};
-use ab_glyph::{Font, FontRef, ScaleFont};
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::register_font;
-use std::sync::OnceLock;
 
 /// Dots per inch of the PNG.
 const DPI: u32 = 300;
@@ -16,10 +15,6 @@ const DPI: u32 = 300;
 const OVERSAMPLING: u32 = 3;
 /// SVG units per point: coordinates are integers.
 const SVG_UNITS: f64 = 20.0;
-/// The font library counts a size from descender to ascender; this many times the em.
-const FONT_HEIGHT: f64 = 1.164;
-const FAMILY: &str = "sans-serif";
-
 /// Something that can be drawn on a sheet.
 pub(super) trait Picture {
     /// Width and height in points.
@@ -34,86 +29,6 @@ pub(super) struct Sheet<B: DrawingBackend> {
     paper: DrawingArea<B, Shift>,
     /// Backend units per point.
     unit: f64,
-}
-
-/// Where on a text its position is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Align {
-    Left,
-    Centre,
-    Right,
-}
-
-/// The look of a text.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Style {
-    /// Em size in points.
-    pub size: f64,
-    pub colour: RGBColor,
-    pub align: Align,
-    /// Reads upwards.
-    pub upright: bool,
-}
-
-impl Style {
-    /// Horizontal black text.
-    pub fn plain(size: f64, align: Align) -> Self {
-        Self {
-            size,
-            colour: BLACK,
-            align,
-            upright: false,
-        }
-    }
-}
-
-/// The shapes that tell curves apart without colour.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Marker {
-    Disc,
-    Square,
-    Triangle,
-    Diamond,
-    Cross,
-    Wedge,
-}
-
-/// What tells one curve from another.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Look {
-    pub colour: RGBColor,
-    pub marker: Marker,
-    /// Points drawn and left out in turn, for lines without markers; none for a solid line.
-    pub dash: &'static [f64],
-}
-
-impl Look {
-    /// The look of curve `index`: colours that remain apart for colour-blind readers (Okabe and Ito),
-    /// and markers that shift against them, so that 36 curves differ.
-    pub fn of(index: usize) -> Self {
-        const COLOURS: [RGBColor; 6] = [
-            RGBColor(0, 114, 178),
-            RGBColor(213, 94, 0),
-            RGBColor(0, 158, 115),
-            RGBColor(204, 121, 167),
-            RGBColor(230, 159, 0),
-            RGBColor(86, 180, 233),
-        ];
-        const MARKERS: [Marker; 6] = [
-            Marker::Disc,
-            Marker::Square,
-            Marker::Triangle,
-            Marker::Diamond,
-            Marker::Wedge,
-            Marker::Cross,
-        ];
-        const DASHES: [&[f64]; 4] = [&[], &[6.0, 2.0], &[1.5, 1.5], &[6.0, 1.5, 1.5, 1.5]];
-        Self {
-            colour: COLOURS[index % 6],
-            marker: MARKERS[(index + index / 6) % 6],
-            dash: DASHES[index % 4],
-        }
-    }
 }
 
 /// Draws `picture` in both its forms.
@@ -191,68 +106,6 @@ fn average_down(fine: &[u8], width: u32, height: u32) -> Vec<u8> {
         }
     }
     pixels
-}
-
-/// The embedded font.
-pub(super) fn font() -> FontRef<'static> {
-    FontRef::try_from_slice(dejavu::sans::regular()).expect("the embedded font is a font")
-}
-
-fn register_embedded_font() {
-    static DONE: OnceLock<()> = OnceLock::new();
-    DONE.get_or_init(|| {
-        let registered = register_font(FAMILY, FontStyle::Normal, dejavu::sans::regular());
-        assert!(registered.is_ok(), "the embedded font is a font");
-    });
-}
-
-/// Stands for an underscore that is meant as one.
-const UNDERSCORE: char = '\u{e000}';
-
-/// A user's own words: an underscore in them lowers nothing.
-pub(super) fn literal(text: &str) -> String {
-    text.replace('_', &UNDERSCORE.to_string())
-}
-
-/// Width of a text in points at `size`, subscripts included.
-pub(super) fn text_width(text: &str, size: f64) -> f64 {
-    runs(text).iter().map(|run| run.width(size)).sum()
-}
-
-/// A stretch of text on one line, or one character below it.
-struct Run {
-    text: String,
-    is_subscript: bool,
-}
-
-impl Run {
-    fn scale(&self) -> f64 {
-        if self.is_subscript { 0.7 } else { 1.0 }
-    }
-
-    fn width(&self, size: f64) -> f64 {
-        let scale = (size * self.scale() * FONT_HEIGHT) as f32;
-        let font = font().into_scaled(scale);
-        let advance = |c: char| f64::from(font.h_advance(font.glyph_id(c)));
-        self.text.chars().map(advance).sum()
-    }
-}
-
-fn runs(text: &str) -> Vec<Run> {
-    let mut runs = Vec::new();
-    for (index, part) in text.split('_').enumerate() {
-        let lowered = match index {
-            0 => 0,
-            _ => part.chars().next().map_or(0, char::len_utf8),
-        };
-        for (text, is_subscript) in [(&part[..lowered], true), (&part[lowered..], false)] {
-            if !text.is_empty() {
-                let text = text.replace(UNDERSCORE, "_");
-                runs.push(Run { text, is_subscript });
-            }
-        }
-    }
-    runs
 }
 
 /// The parts of a line through `points` that a `dash` leaves.

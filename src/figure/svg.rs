@@ -3,7 +3,7 @@
 //! The drawing library writes `<text>`; the backend here catches each text on its way and writes
 //! its glyphs as a path instead, above everything else.
 
-use super::sheet::font;
+use super::text::font;
 use ab_glyph::{Font, OutlineCurve, Point};
 use plotters::prelude::SVGBackend;
 use plotters_backend::{

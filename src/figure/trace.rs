@@ -4,8 +4,10 @@
 use super::FigureError;
 use super::frame::{CAPTION_LEFT, Frame, SMALL, Scale, WIDTH};
 use super::legend::{Entry, Key, Legend};
+use super::look::Look;
 use super::phases::{draw_limit, phase_colour, phase_words};
-use super::sheet::{Align, Look, Picture, Sheet, Style, literal, text_width};
+use super::sheet::{Picture, Sheet};
+use super::text::{Align, Style, literal, text_width};
 use super::words::wrap;
 use crate::config::{ExhibitConfig, Trace};
 use crate::exhibit::trace::Row;

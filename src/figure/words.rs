@@ -4,7 +4,7 @@
 //! a default nobody needs to be told; what tells curves apart stands in the legend.
 
 use super::frame::CAPTION;
-use super::sheet::{literal, text_width};
+use super::text::{literal, text_width};
 use crate::config::Parameter;
 use crate::numeral::thousands;
 use crate::results::{Manifest, Row};
