@@ -27,6 +27,8 @@ pub trait Sink: Send {
     /// The trial of family `family` is over: all its places have been shown.
     fn end_trial(&mut self, _family: usize) {}
 
+    /// A block is over.
+    fn end_block(&mut self) {}
     /// Adds what another has gathered.
     fn merge(&mut self, other: Self);
 }
@@ -78,6 +80,7 @@ impl Ensemble {
             trial.run(number, |place, observation| sink.take(place, observation));
             sink.end_trial(index);
         }
+        sink.end_block();
     }
 
     /// What [`Ensemble::run`]'s progress adds up to.

@@ -32,7 +32,7 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | 0 | [`rng`]: coordinates → generator · [`binomial`]: exact tails · [`numeral`]: numbers in print |
+//! | 0 | [`rng`]: coordinates → generator · [`binomial`]: exact tails · [`numeral`]: numbers in print · [`lanes`]: trials side by side |
 //! | 1 | [`tally`]: counts and what may be concluded from them |
 //! | 2 | [`signal`]: sensor, noise, impulses, motion · [`whiten`]: filters · [`detect`]: W, T, their laws, regions |
 //! | 3 | [`chain`]: one trial, every stage |
@@ -70,7 +70,7 @@
 //! [^1]: M. A. Raifeld, "Distinguishing the motion/stop states of a lift from accelerometer
 //!     signals", Avtometriya (in Russian), received 25 November 2013.
 
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 #![warn(missing_docs)]
 
 pub mod binomial;
@@ -82,6 +82,7 @@ pub mod ensemble;
 pub mod exhibit;
 pub mod figure;
 pub mod gate;
+pub mod lanes;
 pub mod numeral;
 pub mod pilot;
 pub mod plan;

@@ -25,9 +25,12 @@ pub fn run(
     progress: impl Fn(u64) + Sync,
 ) -> Outcome {
     let pairs_of = pairs_by_family(plan, pairs);
-    let counts = plan
-        .ensemble
-        .run(|| Counts::new(decisions, pairs, &pairs_of), progress);
+    let families = plan.ensemble.families.iter();
+    let places_of: Vec<Vec<usize>> = families.map(|family| family.places().collect()).collect();
+    let counts = plan.ensemble.run(
+        || Counts::new(decisions, pairs, &pairs_of, &places_of),
+        progress,
+    );
     let trials = plan.ensemble.trials;
     let is_shared = |pair: &usize| pairs_of.iter().any(|family| family.contains(pair));
     let tallies = counts.hits.iter();
@@ -54,27 +57,58 @@ fn pairs_by_family(plan: &Plan, pairs: &[[usize; 2]]) -> Vec<Vec<usize>> {
     pairs_of
 }
 
-/// Counts that add.
+/// Counts that add. Decisions of [`WORD`] trials are gathered as bits of a word before they are counted,
+/// so that a pair of points is compared once a word and not once a trial.
 struct Counts<'a> {
     decisions: &'a [Decision],
     pairs: &'a [[usize; 2]],
     pairs_of: &'a [Vec<usize>],
-    /// What each point decided in the current trial.
-    decided: Vec<bool>,
+    places_of: &'a [Vec<usize>],
+    /// What each point decided in the trials since the last count, the first in the lowest bit.
+    decided: Vec<u64>,
+    /// How many trials that are.
+    gathered: u32,
+    /// The family they are of.
+    family: usize,
     hits: Vec<u64>,
     discordant: Vec<[u64; 2]>,
 }
 
+/// Trials that a word has bits for.
+const WORD: u32 = u64::BITS;
+
 impl<'a> Counts<'a> {
-    fn new(decisions: &'a [Decision], pairs: &'a [[usize; 2]], pairs_of: &'a [Vec<usize>]) -> Self {
+    fn new(
+        decisions: &'a [Decision],
+        pairs: &'a [[usize; 2]],
+        pairs_of: &'a [Vec<usize>],
+        places_of: &'a [Vec<usize>],
+    ) -> Self {
         Self {
             decisions,
             pairs,
             pairs_of,
-            decided: vec![false; decisions.len()],
+            places_of,
+            decided: vec![0; decisions.len()],
+            gathered: 0,
+            family: 0,
             hits: vec![0; decisions.len()],
             discordant: vec![[0; 2]; pairs.len()],
         }
+    }
+
+    /// Counts what has been gathered.
+    fn count(&mut self) {
+        for &pair in &self.pairs_of[self.family] {
+            let [first, second] = self.pairs[pair].map(|place| self.decided[place]);
+            self.discordant[pair][0] += u64::from((first & !second).count_ones());
+            self.discordant[pair][1] += u64::from((second & !first).count_ones());
+        }
+        for &place in &self.places_of[self.family] {
+            self.hits[place] += u64::from(self.decided[place].count_ones());
+            self.decided[place] = 0;
+        }
+        self.gathered = 0;
     }
 }
 
@@ -82,16 +116,19 @@ impl Sink for Counts<'_> {
     #[inline]
     fn take(&mut self, place: usize, observation: &mut Observation) {
         let is_h1 = self.decisions[place].is_h1(observation);
-        self.decided[place] = is_h1;
-        self.hits[place] += u64::from(is_h1);
+        self.decided[place] |= u64::from(is_h1) << self.gathered;
     }
 
     fn end_trial(&mut self, family: usize) {
-        for &pair in &self.pairs_of[family] {
-            let [first, second] = self.pairs[pair].map(|place| self.decided[place]);
-            self.discordant[pair][0] += u64::from(first && !second);
-            self.discordant[pair][1] += u64::from(second && !first);
+        self.family = family;
+        self.gathered += 1;
+        if self.gathered == WORD {
+            self.count();
         }
+    }
+
+    fn end_block(&mut self) {
+        self.count();
     }
 
     fn merge(&mut self, other: Self) {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// Each module of the library and its floor.
 const FLOORS: [&[&str]; 9] = [
-    &["rng", "binomial", "numeral"],
+    &["rng", "binomial", "numeral", "lanes"],
     &["tally"],
     &["signal", "whiten", "detect"],
     &["chain"],

@@ -3,7 +3,8 @@
 //! places (points that decide on the same samples).
 
 use super::scenario::Scenario;
-use crate::detect::Samples;
+use crate::detect::{Samples, Ties};
+use crate::lanes::LANES;
 use crate::rng::Stream;
 use crate::signal::{Digitiser, Disturbance, During, Impulses, Noise, Sensor};
 use crate::whiten::Whitening;
@@ -37,6 +38,9 @@ pub(super) struct Branch {
     pub digitiser: Digitiser,
     pub whitening: Whitening,
     pub courses: Vec<Course>,
+    /// Whether the record itself has to be written down: a point looks at it, or it is digitised and so
+    /// not linear in Δ.
+    pub needs_record: bool,
 }
 
 /// One pattern of impulses and shape of acceleration.
@@ -47,15 +51,18 @@ pub(super) struct Course {
     pub shape: Vec<f64>,
     /// Its block means.
     pub observed_shape: Vec<f64>,
+    /// In ascending order of Δ.
     pub stages: Vec<Stage>,
+    /// Whether a point here looks at the whitened samples themselves and not only at W and T.
+    pub needs_samples: bool,
+    /// Whether a point here looks at the record itself.
+    pub needs_record: bool,
 }
 
 /// One Δ, as added to the record.
 #[derive(Clone, Debug)]
 pub(super) struct Stage {
     pub delta: f64,
-    /// Whether a point here looks at the record itself.
-    pub needs_record: bool,
     /// The points that look at it.
     pub places: Vec<usize>,
 }
@@ -152,6 +159,12 @@ impl Family {
         courses.map(stages).sum()
     }
 
+    /// Whether anything in it vibrates.
+    pub(super) fn has_impulses(&self) -> bool {
+        let mut courses = self.branches.iter().flat_map(|branch| &branch.courses);
+        courses.any(|course| !course.impulses.are_absent())
+    }
+
     /// The places of its points.
     pub fn places(&self) -> impl Iterator<Item = usize> {
         let courses = self.branches.iter().flat_map(|branch| &branch.courses);
@@ -167,6 +180,7 @@ impl Family {
                 digitiser: scenario.digitiser,
                 whitening: scenario.whitening,
                 courses: Vec::new(),
+                needs_record: false,
             },
         );
         let course = find_or_push(
@@ -174,18 +188,11 @@ impl Family {
             |course| course.is_of(scenario),
             || Course::new(scenario),
         );
-        let delta = scenario.record_delta();
-        let stage = find_or_push(
-            &mut course.stages,
-            |stage| stage.delta == delta,
-            || Stage {
-                delta,
-                needs_record: false,
-                places: Vec::new(),
-            },
-        );
-        stage.needs_record |= scenario.detector.method.needs_record();
-        stage.places.push(place);
+        let detector = &scenario.detector;
+        course.needs_samples |= detector.method.needs_samples() || detector.ties != Ties::Random;
+        course.needs_record |= detector.method.needs_record();
+        course.stage(scenario.record_delta()).places.push(place);
+        branch.needs_record |= !branch.digitiser.is_transparent() || detector.method.needs_record();
     }
 }
 
@@ -238,9 +245,12 @@ impl Source {
         )
     }
 
-    /// Raw samples before the record proper.
+    /// Raw samples before the record proper: none where the noise starts out stationary.
     pub fn burn_in(&self) -> usize {
-        self.sensor.burn_in()
+        match self.noise.is_normal() {
+            true => 0,
+            false => self.sensor.burn_in(),
+        }
     }
 
     /// Observations of a trial.
@@ -273,7 +283,9 @@ impl Source {
         let samples = observations * decimation + self.burn_in() as f64;
         let whitening = &scenario.whitening;
         let fit = 2.0 * whitening.training() as f64 + (whitening.order() as f64 + 3.0).powi(2);
-        let values = samples + observations + 2.0 * span + after * (4.0 * decimation + 6.0) + fit;
+        let wide = samples + 2.0 * observations + 3.0 * span + whitening.training() as f64;
+        let values =
+            LANES as f64 * wide + samples + after * (LANES as f64 * decimation + 10.0) + fit;
         let gigabytes = 8.0 * values / 1e9;
         match gigabytes > MEMORY_LIMIT {
             true => Err(RecordTooLong {
@@ -296,7 +308,23 @@ impl Course {
             observed_shape: shape.chunks_exact(decimation).map(mean).collect(),
             shape,
             stages: Vec::new(),
+            needs_samples: false,
+            needs_record: false,
         }
+    }
+
+    /// The stage of this Δ, new where there is none.
+    fn stage(&mut self, delta: f64) -> &mut Stage {
+        let index = self.stages.partition_point(|stage| stage.delta < delta);
+        if self
+            .stages
+            .get(index)
+            .is_none_or(|stage| stage.delta != delta)
+        {
+            let places = Vec::new();
+            self.stages.insert(index, Stage { delta, places });
+        }
+        &mut self.stages[index]
     }
 
     fn is_of(&self, scenario: &Scenario) -> bool {

@@ -6,9 +6,13 @@
 //!
 //! noise + Δ · (step response) + θ · (impulse response),
 //!
-//! so that a further Δ costs one multiplication a sample. A digitised record is not linear in Δ; it
-//! is written and whitened anew for each.
+//! a line in Δ: W and T at every Δ follow from where such lines cross, for little more than at one. A
+//! digitised record is not linear in Δ; it is written and whitened anew for each.
+//!
+//! Noise is drawn, coloured and whitened for several trials side by side, which is what a processor's
+//! vectors are for; from there on each trial goes its own way.
 
+mod batch;
 mod family;
 mod observation;
 mod scenario;

@@ -12,13 +12,13 @@ use std::sync::Arc;
 
 /// One trial of one point: whitened samples, and the record where it was asked for.
 pub struct Observation<'a, 'k> {
-    /// X, Y₁ and Y₂, whitened.
+    /// X, Y₁ and Y₂, whitened; empty where all points need is W and T, and these are known.
     pub pooled: Pooled<'a>,
     /// Where they lie.
     pub samples: &'a Samples,
-    /// The observed record, up to the last of X.
+    /// The observed record, up to the last of X; empty unless a method here needs it.
     pub rest: &'a [f64],
-    /// The same from there on, with the motion in it; empty unless a method at this point needs it.
+    /// The same from there on, with the motion in it; likewise.
     pub motion: &'a [f64],
     pub(super) keys: &'a mut Keys<'k>,
     pub(super) statistics: Option<Statistics>,
@@ -32,7 +32,24 @@ pub(super) struct Scratch {
     forward: Forward,
 }
 
-impl Observation<'_, '_> {
+impl<'a, 'k> Observation<'a, 'k> {
+    /// Nothing seen yet.
+    pub(super) fn new(
+        samples: &'a Samples,
+        keys: &'a mut Keys<'k>,
+        scratch: &'a mut Scratch,
+    ) -> Self {
+        Self {
+            pooled: Pooled::none(),
+            samples,
+            rest: &[],
+            motion: &[],
+            keys,
+            statistics: None,
+            scratch,
+        }
+    }
+
     /// W and T.
     #[inline]
     pub fn statistics(&mut self, ties: Ties) -> Statistics {

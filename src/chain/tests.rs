@@ -7,6 +7,7 @@ use crate::detect::{
     Alternative, Baseline, Clairvoyant, Forward, Method, NullLaws, Region, Rule, Samples,
     Statistics, Ties,
 };
+use crate::lanes::{LANES, Wide};
 use crate::rng::Stream;
 use crate::signal::{
     DeltaAt, Digitiser, Disturbance, During, ImpulseMemory, Impulses, Law, Motion, Noise, Profile,
@@ -131,14 +132,19 @@ fn arrange(scenarios: &[Scenario], seed: u64, common_random_numbers: bool) -> Ve
 fn naive_trial(scenario: &Scenario, white: &[f64], draws: &[u64], keys: &[u64]) -> Statistics {
     let samples = &scenario.samples;
     let ar = scenario.sensor.ar();
-    let mut x: Vec<f64> = Vec::new();
-    for (i, xi) in white.iter().enumerate() {
+    let mut x = naive_start(scenario, white);
+    for (i, xi) in white.iter().enumerate().skip(x.len()) {
         let past = (0..ar.len())
             .filter(|p| i > *p)
             .map(|p| ar[p] * x[i - 1 - p]);
         x.push(xi + past.sum::<f64>());
     }
-    let x = &x[scenario.sensor.burn_in()..];
+    let burn_in = if scenario.noise.is_normal() {
+        0
+    } else {
+        scenario.sensor.burn_in()
+    };
+    let x = &x[burn_in..];
     let lead = scenario.whitening.lead();
     let rest = (lead + samples.reference()) * samples.decimation();
     let y2 = (lead + samples.scale_range().start) * samples.decimation();
@@ -171,6 +177,41 @@ fn naive_trial(scenario: &Scenario, white: &[f64], draws: &[u64], keys: &[u64]) 
         .map(|i| r[i] - (0..a.len()).map(|p| a[p] * r[i - 1 - p]).sum::<f64>())
         .collect();
     naive_statistics(samples, &y, keys)
+}
+
+/// The first samples of stationary normal noise: Cholesky's factor of their covariances, which are sums
+/// over the impulse response. Other laws start from zero.
+fn naive_start(scenario: &Scenario, white: &[f64]) -> Vec<f64> {
+    let ar = scenario.sensor.ar();
+    if !scenario.noise.is_normal() {
+        return Vec::new();
+    }
+    let mut response = vec![1.0];
+    for i in 1..20_000 {
+        let past = (0..ar.len().min(i)).map(|p| ar[p] * response[i - 1 - p]);
+        response.push(past.sum());
+    }
+    let covariance = |lag: usize| -> f64 {
+        response
+            .iter()
+            .zip(&response[lag..])
+            .map(|(a, b)| a * b)
+            .sum()
+    };
+    let mut factor = vec![vec![0.0; ar.len()]; ar.len()];
+    for i in 0..ar.len() {
+        for j in 0..=i {
+            let known: f64 = (0..j).map(|k| factor[i][k] * factor[j][k]).sum();
+            let rest = covariance(i - j) - known;
+            factor[i][j] = if i == j {
+                rest.sqrt()
+            } else {
+                rest / factor[j][j]
+            };
+        }
+    }
+    let sample = |row: &Vec<f64>| row.iter().zip(white).map(|(l, z)| l * z).sum();
+    factor.iter().map(sample).collect()
 }
 
 /// Least squares by the normal equations as they are written, Gauss–Jordan with pivoting.
@@ -239,18 +280,22 @@ fn naive_statistics(samples: &Samples, y: &[f64], keys: &[u64]) -> Statistics {
 /// How often `scenario` decides H₁ in the first trials, by the naive chain.
 fn naive_count(scenario: &Scenario, family: &Family) -> u64 {
     let region = region(scenario);
-    let mut white = vec![0.0; family.source.burn_in() + family.source.raw_length()];
+    let length = family.source.burn_in() + family.source.raw_length();
     let raw_after = family.source.motion_observations() * scenario.samples.decimation();
-    let draws = |stream: &Stream, trial, count| -> Vec<u64> {
-        let mut generator = stream.at(trial);
+    let draws = |stream: &Stream, position, count| -> Vec<u64> {
+        let mut generator = stream.at(position);
         (0..count).map(|_| generator.next_u64()).collect()
     };
     (0..TRIALS)
         .filter(|&trial| {
-            scenario.noise.fill(&mut family.noise.at(trial), &mut white);
-            let impulses = draws(&family.impulses, trial, raw_after);
+            let (batch, lane) = (trial / LANES as u64, trial as usize % LANES);
+            let mut all = vec![Wide::<LANES>::default(); length];
+            scenario.noise.fill(&mut family.noise.at(batch), &mut all);
+            let white: Vec<f64> = all.iter().map(|wide| wide.0[lane]).collect();
+            let impulses = draws(&family.impulses, batch, LANES * raw_after);
+            let impulses = &impulses[lane * raw_after..];
             let keys = draws(&family.ties, trial, scenario.samples.span());
-            region.contains(naive_trial(scenario, &white, &impulses, &keys))
+            region.contains(naive_trial(scenario, &white, impulses, &keys))
         })
         .count() as u64
 }

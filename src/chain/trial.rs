@@ -1,43 +1,45 @@
-//! One trial of a family, in buffers that are allocated once and reused for a whole block.
+//! One trial of a family: from the noise of its batch to what every point sees, in buffers that are
+//! allocated once.
 
-use super::family::{Branch, Course, Family, Source};
+use super::batch::{Batch, observe};
+use super::family::{Branch, Course, Family, Source, Stage};
 use super::observation::{Observation, Scratch};
-use crate::detect::{Pooled, Samples};
-use crate::rng::{Generator, Stream};
+use crate::detect::{Crossings, Lines, Pooled, Samples, Statistics};
+use crate::lanes::Vectors;
+use crate::rng::Stream;
 use crate::signal::Digitiser;
-use crate::whiten::{Fitter, whiten};
+use crate::whiten::whiten;
 use rand::Rng;
 
 /// The buffers of a trial. Times run from the first observation of the record, or, where named
 /// `motion`, from the first after X.
 pub struct Trial<'a> {
     family: &'a Family,
-    fitters: Vec<Fitter>,
-    noise: NoiseRecord,
-    motion: MotionBuffers,
+    batch: Batch<'a>,
+    record: Record,
+    motion: Motion,
+    /// Of every course of every branch, where W and T are worth counting along Δ.
+    crossings: Vec<Option<Crossings>>,
     keys: Keys<'a>,
     scratch: Scratch,
 }
 
-/// The sensor's noise, as drawn and as observed.
-struct NoiseRecord {
-    /// Raw samples, burn-in first.
+/// The record itself, where it has to be looked at.
+struct Record {
+    /// Raw samples at rest.
     raw: Vec<f64>,
-    burn_in: usize,
-    /// Digitised block means.
+    /// Observations at rest; from the first after X on, those that were written last.
     observed: Vec<f64>,
-    /// Whitened observations from the first of X.
-    whitened: Vec<f64>,
+    /// The raw record with the motion in it, from the first sample after X.
+    raw_motion: Vec<f64>,
+    /// The observed record with the motion in it, from the first after X.
+    motion: Vec<f64>,
 }
 
 /// What a motion adds.
-struct MotionBuffers {
-    /// One 64-bit draw for each raw observation.
-    draws: Vec<u64>,
+struct Motion {
     /// λ/θ for each raw observation.
     pattern: Vec<f64>,
-    /// The raw record with the motion in it.
-    raw: Vec<f64>,
     /// Block means of the pattern.
     observed: Vec<f64>,
     /// Whitened step and impulses; noise and impulses; all three.
@@ -45,8 +47,6 @@ struct MotionBuffers {
     impulse: Vec<f64>,
     without_step: Vec<f64>,
     whitened: Vec<f64>,
-    /// The observed record with the motion in it.
-    record: Vec<f64>,
 }
 
 /// Keys for a trial's ties; random ones are drawn when first asked for.
@@ -58,6 +58,9 @@ pub(super) struct Keys<'a> {
     positions: Vec<u64>,
 }
 
+/// From how many values of Δ on crossings are cheaper than comparing the samples at each.
+const CROSSINGS_PAY: usize = 4;
+
 impl<'a> Trial<'a> {
     /// The buffers for trials of `family`.
     pub fn new(family: &'a Family) -> Self {
@@ -65,27 +68,30 @@ impl<'a> Trial<'a> {
         let after = source.motion_observations();
         let raw_after = after * source.samples.decimation();
         let span = source.samples.span();
-        let fitter = |branch: &Branch| Fitter::new(branch.whitening, source.sensor.ar());
+        let courses = family.branches.iter();
+        let courses = courses.flat_map(|branch| branch.courses.iter().map(move |c| (branch, c)));
+        let looks = family.branches.iter().any(|branch| branch.needs_record);
+        let recorded = |length: usize| vec![0.0; if looks { length } else { 0 }];
         Self {
             family,
-            fitters: family.branches.iter().map(fitter).collect(),
-            noise: NoiseRecord {
-                raw: vec![0.0; source.burn_in() + source.raw_length()],
-                burn_in: source.burn_in(),
-                observed: vec![0.0; source.observations()],
-                whitened: vec![0.0; span],
+            batch: Batch::new(family),
+            record: Record {
+                raw: recorded(source.raw_length()),
+                observed: recorded(source.observations()),
+                raw_motion: recorded(raw_after),
+                motion: recorded(after),
             },
-            motion: MotionBuffers {
-                draws: vec![0; raw_after],
+            motion: Motion {
                 pattern: vec![0.0; raw_after],
-                raw: vec![0.0; raw_after],
                 observed: vec![0.0; after],
                 step: vec![0.0; after],
                 impulse: vec![0.0; after],
                 without_step: vec![0.0; after],
                 whitened: vec![0.0; after],
-                record: vec![0.0; after],
             },
+            crossings: courses
+                .map(|(branch, course)| crossings(branch, course))
+                .collect(),
             keys: Keys {
                 stream: &family.ties,
                 trial: 0,
@@ -98,62 +104,73 @@ impl<'a> Trial<'a> {
     }
 
     /// Draws the noise of trial `index` and shows every point of the family, by its place, what it
-    /// gives there.
+    /// gives there. Consecutive trials are cheapest.
     pub fn run(&mut self, index: u64, mut show: impl FnMut(usize, &mut Observation)) {
-        let family = self.family;
+        let lane = self.batch.seek(index);
+        let Self {
+            family,
+            batch,
+            record,
+            motion,
+            crossings,
+            keys,
+            scratch,
+        } = self;
         let source = &family.source;
-        self.keys.start(index);
-        self.noise.draw(family, index);
-        let mut impulses = family.impulses.at(index);
-        for draw in &mut self.motion.draws {
-            *draw = impulses.next_u64();
-        }
-        for (branch, fitter) in family.branches.iter().zip(&mut self.fitters) {
-            self.noise
-                .observe(&branch.digitiser, source.samples.decimation());
-            let coefficients = fitter.fit(self.noise.training(branch, source));
-            whiten(
-                coefficients,
-                &self.noise.observed,
-                source.lead,
-                &mut self.noise.whitened,
-            );
+        keys.start(index);
+        let mut crossings = crossings.iter_mut();
+        for (number, branch) in family.branches.iter().enumerate() {
+            let (coefficients, rest) = batch.rest(number, lane);
             let is_linear = branch.digitiser.is_transparent();
+            if branch.needs_record {
+                record.observe(batch.raw(lane), branch, source);
+            }
             for course in &branch.courses {
-                self.motion.draw_impulses(course, source);
+                let crossings = crossings.next().expect("one for each course");
+                motion.draw_impulses(course, batch.impulses(lane), source);
                 if is_linear {
-                    self.motion
-                        .respond(course, coefficients, source, &self.noise.whitened);
+                    motion.respond(course, coefficients, source, rest);
+                }
+                let counted = crossings
+                    .as_mut()
+                    .and_then(|crossings| motion.count(crossings, &source.samples, rest));
+                if let Some(counted) = counted
+                    && !course.needs_samples
+                {
+                    let mut observation = Observation::new(&source.samples, keys, scratch);
+                    for (stage, statistics) in course.stages.iter().zip(counted) {
+                        observation.statistics = Some(*statistics);
+                        for &place in &stage.places {
+                            show(place, &mut observation);
+                        }
+                    }
+                    continue;
                 }
                 for stage in &course.stages {
-                    let (motion, noise) = (&mut self.motion, &mut self.noise);
                     match is_linear {
                         true => motion.add_step(stage.delta),
-                        false => motion.record_anew(
-                            branch,
-                            course,
-                            stage.delta,
-                            coefficients,
-                            source,
-                            noise,
-                        ),
+                        false => {
+                            record.write(branch, course, stage.delta, source, &motion.pattern);
+                            let whitened = &mut motion.whitened;
+                            whiten(coefficients, &record.observed, source.rest(), whitened);
+                        }
                     }
-                    if stage.needs_record {
-                        motion.keep_record(course, stage.delta, is_linear, source, noise);
+                    if course.needs_record {
+                        record.keep(is_linear, course, stage.delta, source, &motion.observed);
                     }
-                    let record = if stage.needs_record {
-                        &motion.record[..]
-                    } else {
-                        &[]
-                    };
                     let mut observation = Observation {
-                        pooled: pool(&source.samples, &noise.whitened, &motion.whitened),
-                        samples: &source.samples,
-                        rest: &noise.observed[..source.rest()],
-                        motion: record,
-                        keys: &mut self.keys,
-                        statistics: None,
-                        scratch: &mut self.scratch,
+                        pooled: pool(&source.samples, rest, &motion.whitened),
+                        rest: if course.needs_record {
+                            &record.observed[..source.rest()]
+                        } else {
+                            &[]
+                        },
+                        motion: if course.needs_record {
+                            &record.motion
+                        } else {
+                            &[]
+                        },
+                        ..Observation::new(&source.samples, keys, scratch)
                     };
                     for &place in &stage.places {
                         show(place, &mut observation);
@@ -164,66 +181,87 @@ impl<'a> Trial<'a> {
     }
 }
 
-impl NoiseRecord {
-    /// Stationary noise of the sensor, and what disturbs it.
-    fn draw(&mut self, family: &Family, index: u64) {
-        let source = &family.source;
-        source
-            .noise
-            .fill(&mut family.noise.at(index), &mut self.raw);
-        source.sensor.colour(&mut self.raw);
-        let mut footfalls: Option<Generator> = None;
-        let draw = || {
-            let generator = footfalls.get_or_insert_with(|| family.footfalls.at(index));
-            generator.next_u64()
-        };
-        let after_rest = source.rest() * source.samples.decimation();
-        let record = &mut self.raw[self.burn_in..];
-        source.disturbance.act(record, after_rest, draw);
+/// What counts W and T along Δ, where the whitened samples are lines in it and there are enough of them.
+fn crossings(branch: &Branch, course: &Course) -> Option<Crossings> {
+    let pays = course.stages.len() >= CROSSINGS_PAY && branch.digitiser.is_transparent();
+    let deltas = || course.stages.iter().map(|stage: &Stage| stage.delta);
+    pays.then(|| Crossings::new(Vectors::widest(), deltas().collect()))
+}
+
+impl Record {
+    /// Writes down the rest as the branch's sensor does.
+    fn observe(&mut self, raw: impl Iterator<Item = f64>, branch: &Branch, source: &Source) {
+        self.raw.iter_mut().zip(raw).for_each(|(x, raw)| *x = raw);
+        let decimation = source.samples.decimation();
+        observe(&branch.digitiser, decimation, &self.raw, &mut self.observed);
     }
 
-    /// The record of rest as the sensor writes it down.
-    fn observe(&mut self, digitiser: &Digitiser, decimation: usize) {
-        observe(
-            &self.raw[self.burn_in..],
-            digitiser,
-            decimation,
-            &mut self.observed,
-        );
+    /// Writes the motion down anew, and digitises it.
+    fn write(
+        &mut self,
+        branch: &Branch,
+        course: &Course,
+        delta: f64,
+        source: &Source,
+        pattern: &[f64],
+    ) {
+        let theta = course.impulses.theta();
+        let rest = &self.raw[self.raw.len() - self.raw_motion.len()..];
+        for (i, r) in self.raw_motion.iter_mut().enumerate() {
+            *r = rest[i] + delta * course.shape[i] + theta * pattern[i];
+        }
+        let observed = &mut self.observed[source.rest()..];
+        let decimation = source.samples.decimation();
+        observe(&branch.digitiser, decimation, &self.raw_motion, observed);
     }
 
-    /// The observations the filter is fitted to.
-    fn training(&self, branch: &Branch, source: &Source) -> &[f64] {
-        let end = match branch.whitening.includes_reference() {
-            true => source.rest(),
-            false => source.lead,
-        };
-        &self.observed[end - branch.whitening.training()..end]
+    /// Keeps the observed record of this stage: already written by the direct path, a sum on the linear one.
+    fn keep(
+        &mut self,
+        is_linear: bool,
+        course: &Course,
+        delta: f64,
+        source: &Source,
+        impulses: &[f64],
+    ) {
+        let observed = &self.observed[source.rest()..];
+        if !is_linear {
+            self.motion.copy_from_slice(observed);
+            return;
+        }
+        let theta = course.impulses.theta();
+        let motion = course.observed_shape.iter().zip(impulses);
+        for ((r, x), (shape, impulse)) in self.motion.iter_mut().zip(observed).zip(motion) {
+            *r = x + delta * shape + theta * impulse;
+        }
     }
 }
 
-impl MotionBuffers {
+impl Motion {
     /// The pattern of this course from the trial's draws.
-    fn draw_impulses(&mut self, course: &Course, source: &Source) {
+    fn draw_impulses(&mut self, course: &Course, draws: &[[u8; 8]], source: &Source) {
         let first = course.first_impulse(&source.samples);
         let (silent, acting) = self.pattern.split_at_mut(first);
         silent.fill(0.0);
-        course.impulses.pattern(&self.draws[first..], acting);
+        match course.impulses.are_absent() {
+            true => acting.fill(0.0),
+            false => course.impulses.pattern(&draws[first..], acting),
+        }
     }
 
     /// Whitened responses to a unit step and to the impulses, and the whitened record without step.
-    fn respond(&mut self, course: &Course, coefficients: &[f64], source: &Source, noise: &[f64]) {
+    fn respond(&mut self, course: &Course, coefficients: &[f64], source: &Source, rest: &[f64]) {
         whiten(coefficients, &course.observed_shape, 0, &mut self.step);
         let decimation = source.samples.decimation();
         observe(
-            &self.pattern,
             &Digitiser::default(),
             decimation,
+            &self.pattern,
             &mut self.observed,
         );
         whiten(coefficients, &self.observed, 0, &mut self.impulse);
         let theta = course.impulses.theta();
-        let noise = &noise[source.samples.reference()..];
+        let noise = &rest[source.samples.reference()..];
         for ((sum, xi), impulse) in self.without_step.iter_mut().zip(noise).zip(&self.impulse) {
             *sum = xi + theta * impulse;
         }
@@ -241,51 +279,21 @@ impl MotionBuffers {
         }
     }
 
-    /// Writes the record with the motion in it, digitises it and whitens it.
-    fn record_anew(
-        &mut self,
-        branch: &Branch,
-        course: &Course,
-        delta: f64,
-        coefficients: &[f64],
-        source: &Source,
-        noise: &mut NoiseRecord,
-    ) {
-        let theta = course.impulses.theta();
-        let rest = &noise.raw[noise.raw.len() - self.raw.len()..];
-        for (i, r) in self.raw.iter_mut().enumerate() {
-            *r = rest[i] + delta * course.shape[i] + theta * self.pattern[i];
-        }
-        let start = source.rest();
-        let decimation = source.samples.decimation();
-        observe(
-            &self.raw,
-            &branch.digitiser,
-            decimation,
-            &mut noise.observed[start..],
-        );
-        whiten(coefficients, &noise.observed, start, &mut self.whitened);
-    }
-
-    /// The observed record of this stage: already written by the direct path, a sum on the linear one.
-    fn keep_record(
-        &mut self,
-        course: &Course,
-        delta: f64,
-        is_linear: bool,
-        source: &Source,
-        noise: &NoiseRecord,
-    ) {
-        let observed = &noise.observed[source.rest()..];
-        if !is_linear {
-            self.record.copy_from_slice(observed);
-            return;
-        }
-        let theta = course.impulses.theta();
-        let motion = course.observed_shape.iter().zip(&self.observed);
-        for ((r, x), (shape, impulse)) in self.record.iter_mut().zip(observed).zip(motion) {
-            *r = x + delta * shape + theta * impulse;
-        }
+    /// W and T at every Δ of the course, unless a near tie leaves them in doubt.
+    fn count<'c>(
+        &self,
+        crossings: &'c mut Crossings,
+        samples: &Samples,
+        rest: &[f64],
+    ) -> Option<&'c [Statistics]> {
+        let base = pool(samples, rest, &self.without_step);
+        let slope = pool(samples, rest, &self.step);
+        let lines = |base, slope| Lines { base, slope };
+        crossings.count(
+            base.reference,
+            lines(base.shift, slope.shift),
+            lines(base.scale, slope.scale),
+        )
     }
 }
 
@@ -322,13 +330,5 @@ fn pool<'a>(samples: &Samples, rest: &'a [f64], motion: &'a [f64]) -> Pooled<'a>
         reference: &rest[samples.reference_range()],
         shift: after(samples.shift_range()),
         scale: after(samples.scale_range()),
-    }
-}
-
-/// Digitises raw samples and takes block means: sums of codes, which are exact, then one scale.
-fn observe(raw: &[f64], digitiser: &Digitiser, decimation: usize, observed: &mut [f64]) {
-    let scale = digitiser.unit() / decimation as f64;
-    for (mean, block) in observed.iter_mut().zip(raw.chunks_exact(decimation)) {
-        *mean = block.iter().map(|&x| digitiser.code(x)).sum::<f64>() * scale;
     }
 }

@@ -130,6 +130,14 @@ impl Method {
         )
     }
 
+    /// Whether it looks at the whitened samples themselves, not only at W and T.
+    pub fn needs_samples(&self) -> bool {
+        matches!(
+            self,
+            Self::Baseline(Baseline::StudentT | Baseline::VarianceRatio)
+        )
+    }
+
     /// Whether it looks at the record itself, not only at whitened samples.
     pub fn needs_record(&self) -> bool {
         matches!(

@@ -29,6 +29,15 @@ pub struct Pooled<'a> {
 }
 
 impl Pooled<'_> {
+    /// No samples at all.
+    pub fn none() -> Self {
+        Self {
+            reference: &[],
+            shift: &[],
+            scale: &[],
+        }
+    }
+
     /// W and T. `keys` gives a random key for each sample, in the order X, Y₁, Y₂.
     #[inline]
     pub fn statistics<'k>(&self, keys: impl FnOnce() -> &'k [u64]) -> Statistics {

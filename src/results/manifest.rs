@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 /// Raised whenever the same config and seed come to give other bytes than before, so that results of
 /// before are not taken for complete.
-pub const RESULTS: u32 = 1;
+pub const RESULTS: u32 = 2;
 
 /// How a run came about: `run.json`.
 #[derive(Clone, Debug, Serialize, Deserialize)]

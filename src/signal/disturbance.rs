@@ -10,6 +10,7 @@
 //!
 //! [^1]: see [`crate::signal`].
 
+use crate::lanes::Value;
 use std::fmt;
 
 /// What is added to the noise of a rest.
@@ -111,21 +112,25 @@ impl Disturbance {
     }
 
     /// Disturbs `record`, whose sample `after` is the first after X. `draws` gives 64 random bits for
-    /// each sample from there on, and is not asked where nobody walks.
-    pub fn act(&self, record: &mut [f64], after: usize, mut draws: impl FnMut() -> u64) {
+    /// each sample of each trial from there on, and is not asked where nobody walks.
+    pub fn act<V: Value>(&self, record: &mut [V], after: usize, mut draws: impl FnMut() -> u64) {
         if *self == Self::default() {
             return;
         }
-        let mut jolt = 0.0;
+        let mut jolt = V::default();
         for (i, x) in record.iter_mut().enumerate() {
             if i >= after {
-                *x *= self.swell;
+                *x = *x * self.swell;
                 if self.has_footfalls() {
-                    jolt = DECAY * jolt + self.footfall(draws());
-                    *x += jolt;
+                    jolt = jolt * DECAY;
+                    for jolt in jolt.lanes_mut() {
+                        *jolt += self.footfall(draws());
+                    }
+                    *x = *x + jolt;
                 }
             }
-            *x += self.drift * (i as f64 - after as f64);
+            let drift = self.drift * (i as f64 - after as f64);
+            x.lanes_mut().iter_mut().for_each(|x| *x += drift);
         }
     }
 

@@ -85,12 +85,28 @@ impl Impulses {
 
     /// λ/θ for each 64-bit draw, from S = 0. Draws may serve impulses of any ν: a sample that
     /// carries an impulse at some ν carries one at every larger ν.
-    pub fn pattern(&self, draws: &[u64], pattern: &mut [f64]) {
+    pub fn pattern(&self, draws: &[[u8; 8]], pattern: &mut [f64]) {
         let mut memory = ImpulseMemory::default();
-        for (impulse, &draw) in pattern.iter_mut().zip(draws) {
-            *impulse = memory.step(self.nu, draw);
+        let chance = chance(self.nu);
+        pattern.fill(0.0);
+        for (draws, pattern) in draws.chunks(64).zip(pattern.chunks_mut(64)) {
+            // Where there is an impulse, as bits: most draws bring none.
+            let mut fired = 0u64;
+            for (i, bits) in draws.iter().enumerate() {
+                fired |= u64::from(u64::from_le_bytes(*bits) >> 11 < chance) << i;
+            }
+            while fired != 0 {
+                let i = fired.trailing_zeros() as usize;
+                pattern[i] = memory.fire(u64::from_le_bytes(draws[i]));
+                fired &= fired - 1;
+            }
         }
     }
+}
+
+/// Of the 2⁵³ values of the upper bits of a draw, how many bring an impulse.
+fn chance(nu: f64) -> u64 {
+    (nu * (1u64 << 53) as f64).ceil() as u64
 }
 
 /// S, the sum of the impulses so far, in units of θ.
@@ -102,10 +118,14 @@ impl ImpulseMemory {
     /// the sign of one that starts from S = 0.
     #[inline]
     pub fn step(&mut self, nu: f64, draw: u64) -> f64 {
-        let uniform = (draw >> 11) as f64 * (1.0 / (1u64 << 53) as f64);
-        if uniform >= nu {
-            return 0.0;
+        match draw >> 11 < chance(nu) {
+            true => self.fire(draw),
+            false => 0.0,
         }
+    }
+
+    /// λ/θ of a sample that carries an impulse.
+    fn fire(&mut self, draw: u64) -> f64 {
         let fresh = if draw & 1 == 1 { 1.0 } else { -1.0 };
         let impulse = if self.0 == 0.0 { fresh } else { -self.0 };
         self.0 += impulse;
@@ -183,10 +203,13 @@ mod tests {
         let impulses = Impulses::new(0.4, 2.0, During::Motion).unwrap();
         let mut generator = Stream::new(1, "impulses", "").at(0);
         let draws: Vec<u64> = (0..10_000).map(|_| generator.next_u64()).collect();
+        let bytes: Vec<[u8; 8]> = draws.iter().map(|draw| draw.to_le_bytes()).collect();
         let mut pattern = vec![0.0; draws.len()];
-        impulses.pattern(&draws, &mut pattern);
+        impulses.pattern(&bytes, &mut pattern);
+        let mut memory = ImpulseMemory::default();
         let mut sum: f64 = 0.0;
-        for impulse in pattern {
+        for (impulse, draw) in pattern.into_iter().zip(draws) {
+            assert_eq!(impulse, memory.step(0.4, draw));
             sum += impulse;
             assert!(sum.abs() <= 1.0);
         }

@@ -7,6 +7,7 @@
 
 mod digitiser;
 mod disturbance;
+mod gaussian;
 mod impulses;
 mod motion;
 mod noise;

@@ -7,6 +7,7 @@
 //!
 //! [^1]: see [`crate::signal`].
 
+use crate::lanes::Value;
 use std::fmt;
 
 /// A stable autoregression driven by unit-scale white noise.
@@ -14,7 +15,16 @@ use std::fmt;
 pub struct Sensor {
     /// φ₁, φ₂, …; empty for a sensor whose noise is already white.
     ar: Vec<f64>,
+    /// What the first samples of a stationary record are given those before them, one by one.
+    starts: Vec<Start>,
     burn_in: usize,
+}
+
+/// The best prediction of a stationary sample from all before it, and the deviation of its error.
+#[derive(Clone, Debug, PartialEq)]
+struct Start {
+    ar: Vec<f64>,
+    deviation: f64,
 }
 
 /// K(p) = 1/(a p² + b p + c) and the sampling period, eq. (1).
@@ -90,9 +100,7 @@ const BURN_IN_DEFICIT: f64 = 1e-9;
 impl Sensor {
     /// The ADXL105 by the coefficients printed in (2).
     pub fn adxl105() -> Self {
-        let ar = vec![-1.5365, -0.75056];
-        let burn_in = burn_in(&ar);
-        Self { ar, burn_in }
+        Self::from_ar(vec![-1.5365, -0.75056]).expect("a stable autoregression")
     }
 
     /// φ₁, φ₂, … as given; none for white noise.
@@ -104,20 +112,27 @@ impl Sensor {
         if let Some(&value) = ar.iter().find(|value| !value.is_finite()) {
             return Err(SensorError::NotFinite(value));
         }
-        if let Some((index, reflection)) = first_outside(&ar) {
-            return Err(SensorError::Unstable {
-                ar,
-                index,
-                reflection,
-            });
-        }
+        let starts = match starts(&ar) {
+            Ok(starts) => starts,
+            Err((index, reflection)) => {
+                return Err(SensorError::Unstable {
+                    ar,
+                    index,
+                    reflection,
+                });
+            }
+        };
         let burn_in = burn_in(&ar);
         match burn_in > LONGEST_BURN_IN {
             true => Err(SensorError::BarelyStable {
                 ar,
                 limit: LONGEST_BURN_IN,
             }),
-            false => Ok(Self { ar, burn_in }),
+            false => Ok(Self {
+                ar,
+                starts,
+                burn_in,
+            }),
         }
     }
 
@@ -165,18 +180,49 @@ impl Sensor {
     }
 
     /// Turns white noise into sensor noise in place, from the zero state.
-    pub fn colour(&self, record: &mut [f64]) {
-        if let [first, second] = self.ar[..] {
-            let (mut x1, mut x2) = (0.0, 0.0);
-            for x in record {
-                let next = *x + first * x1 + second * x2;
+    #[inline(always)]
+    pub fn colour<V: Value>(&self, record: &mut [V]) {
+        self.continue_from(0, record);
+    }
+
+    /// Turns white normal noise into stationary sensor noise in place: the first samples are normal
+    /// with the deviations and correlations that all later ones have. For other laws of noise such a
+    /// start is not known; they need [`Sensor::burn_in`].
+    #[inline(always)]
+    pub fn colour_stationary<V: Value>(&self, record: &mut [V]) {
+        let starts = self.starts.len().min(record.len());
+        for (i, start) in self.starts[..starts].iter().enumerate() {
+            record[i] = predict(&start.ar, &record[..i], record[i] * start.deviation);
+        }
+        self.continue_from(starts, record);
+    }
+
+    /// The recursion from sample `first` on.
+    #[inline(always)]
+    fn continue_from<V: Value>(&self, first: usize, record: &mut [V]) {
+        if let [phi_1, phi_2] = self.ar[..] {
+            let back = |p: usize| {
+                if first >= p {
+                    record[first - p]
+                } else {
+                    V::default()
+                }
+            };
+            let (mut x1, mut x2) = (back(1), back(2));
+            for x in &mut record[first..] {
+                // The newest sample is added last: the next step waits for that alone.
+                let next = (*x + x2 * phi_2) + x1 * phi_1;
                 (x2, x1) = (x1, next);
                 *x = next;
             }
             return;
         }
-        for i in 0..record.len() {
-            record[i] = self.step(&record[i.saturating_sub(self.ar.len())..i], record[i]);
+        for i in first..record.len() {
+            record[i] = predict(
+                &self.ar,
+                &record[i.saturating_sub(self.ar.len())..i],
+                record[i],
+            );
         }
     }
 
@@ -218,26 +264,42 @@ fn burn_in(ar: &[f64]) -> usize {
 }
 
 /// Σ φ_p x_{i−p} + ξ, where `past` ends with x_{i−1} and what precedes it counts as zero.
-#[inline]
-fn predict(ar: &[f64], past: &[f64], innovation: f64) -> f64 {
-    ar.iter()
-        .zip(past.iter().rev())
-        .fold(innovation, |sum, (phi, x)| sum + phi * x)
+#[inline(always)]
+fn predict<V: Value>(ar: &[f64], past: &[V], innovation: V) -> V {
+    let mut sum = innovation;
+    for (phi, x) in ar.iter().zip(past.iter().rev()) {
+        sum = sum + *x * *phi;
+    }
+    sum
 }
 
-/// The first reflection coefficient outside (−1, 1), with its index, by the step-down recursion.
-fn first_outside(ar: &[f64]) -> Option<(usize, f64)> {
-    let mut phi = ar.to_vec();
-    while let Some(reflection) = phi.pop() {
+/// The best predictors of order 0, 1, … below that of `ar`, by the step-down recursion from it: the last
+/// coefficient k of each order is a reflection coefficient, and the error's variance grows by
+/// 1/(1 − k²) with every order taken away.
+///
+/// # Errors
+/// The first reflection coefficient outside (−1, 1), with its index: then nothing is stationary.
+fn starts(ar: &[f64]) -> Result<Vec<Start>, (usize, f64)> {
+    let mut predictor = ar.to_vec();
+    let mut variance = 1.0;
+    let mut starts = Vec::new();
+    while let Some(reflection) = predictor.pop() {
+        let order = predictor.len();
         if reflection.is_nan() || reflection.abs() >= 1.0 {
-            return Some((phi.len() + 1, reflection));
+            return Err((order + 1, reflection));
         }
         let scale = 1.0 - reflection * reflection;
-        phi = (0..phi.len())
-            .map(|p| (phi[p] + reflection * phi[phi.len() - 1 - p]) / scale)
+        predictor = (0..order)
+            .map(|p| (predictor[p] + reflection * predictor[order - 1 - p]) / scale)
             .collect();
+        variance /= scale;
+        starts.push(Start {
+            ar: predictor.clone(),
+            deviation: libm::sqrt(variance),
+        });
     }
-    None
+    starts.reverse();
+    Ok(starts)
 }
 
 #[cfg(test)]
@@ -307,6 +369,52 @@ mod tests {
         assert!((68..78).contains(&burn_in), "{burn_in}");
         assert_eq!(Sensor::from_ar(vec![]).unwrap().burn_in(), 0);
         assert!(Sensor::from_ar(vec![0.999]).unwrap().burn_in() > 10_000);
+    }
+
+    /// The start of a stationary record in closed form, as its response to each innovation alone: the
+    /// covariances of the first samples are the autocovariances that the recursion keeps, at every lag
+    /// r_k = Σ φ_p r_{k−p}, and at lag 0 with one more for the innovation.
+    #[test]
+    fn stationary_start_has_the_autocovariances() {
+        for ar in [
+            vec![],
+            vec![0.5],
+            vec![-1.5365, -0.75056],
+            vec![0.2, 0.1, -0.3],
+        ] {
+            let sensor = Sensor::from_ar(ar.clone()).unwrap();
+            let length = 8;
+            let response = |innovation: usize| {
+                let mut record = vec![0.0; length];
+                record[innovation] = 1.0;
+                sensor.colour_stationary(&mut record);
+                record
+            };
+            let responses: Vec<Vec<f64>> = (0..length).map(response).collect();
+            let covariance = |i: usize, j: usize| -> f64 {
+                responses
+                    .iter()
+                    .map(|response| response[i] * response[j])
+                    .sum()
+            };
+            for i in 0..length {
+                for j in 0..=i {
+                    let lag = i - j;
+                    assert!(
+                        (covariance(i, j) - covariance(lag, 0)).abs() < 1e-12,
+                        "{ar:?}"
+                    );
+                    let predicted: f64 = (1..=ar.len())
+                        .map(|p| ar[p - 1] * covariance(lag.abs_diff(p), 0))
+                        .sum();
+                    let innovation = if lag == 0 { 1.0 } else { 0.0 };
+                    assert!(
+                        (covariance(i, j) - predicted - innovation).abs() < 1e-12,
+                        "{ar:?}"
+                    );
+                }
+            }
+        }
     }
 
     #[test]

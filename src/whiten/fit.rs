@@ -1,67 +1,119 @@
 //! Fitting the filter's coefficients: least squares, Yule–Walker, Burg.
 
 use super::{Fit, Whitening};
+use crate::lanes::Value;
 
 /// Fits coefficients without allocating: a [`Whitening`] with its scratch space.
 #[derive(Clone, Debug)]
-pub struct Fitter {
+pub struct Fitter<V: Value = f64> {
     whitening: Whitening,
+    coefficients: Vec<V>,
+    centred: Vec<V>,
+    products: Vec<V>,
+    solver: Solver,
+}
+
+/// Solves for one trial after the other.
+#[derive(Clone, Debug)]
+struct Solver {
     coefficients: Vec<f64>,
-    centred: Vec<f64>,
+    forward: Vec<f64>,
     backward: Vec<f64>,
     scratch: Vec<f64>,
     normal: Vec<f64>,
 }
 
-impl Fitter {
+impl<V: Value> Fitter<V> {
     /// A fitter for a sensor with the autoregression `known`.
     pub fn new(whitening: Whitening, known: &[f64]) -> Self {
         let order = whitening.order;
-        let mut coefficients = vec![0.0; order];
+        let mut coefficients = vec![V::default(); order];
         if whitening.fit == Fit::Known {
-            coefficients[..known.len()].copy_from_slice(known);
+            for (coefficient, known) in coefficients.iter_mut().zip(known) {
+                coefficient.lanes_mut().fill(*known);
+            }
         }
         Self {
             whitening,
             coefficients,
-            centred: vec![0.0; whitening.training],
-            backward: vec![0.0; whitening.training],
-            scratch: vec![0.0; order + 1],
-            normal: vec![0.0; (order + 1) * (order + 1)],
+            centred: vec![V::default(); whitening.training],
+            products: vec![V::default(); (order + 1) * (order + 1)],
+            solver: Solver {
+                coefficients: vec![0.0; order],
+                forward: vec![0.0; whitening.training],
+                backward: vec![0.0; whitening.training],
+                scratch: vec![0.0; order + 1],
+                normal: vec![0.0; (order + 1) * (order + 1)],
+            },
         }
     }
 
     /// a_1 … a_m for this training record. A record that determines fewer than m coefficients (a
     /// constant one, say) gets zeros for the rest.
-    pub fn fit(&mut self, training: &[f64]) -> &[f64] {
-        if !matches!(self.whitening.fit, Fit::Known | Fit::None) {
-            let mean = training.iter().sum::<f64>() / training.len() as f64;
-            for (centred, x) in self.centred.iter_mut().zip(training) {
-                *centred = x - mean;
-            }
+    #[inline(always)]
+    pub fn fit(&mut self, training: &[V]) -> &[V] {
+        if matches!(self.whitening.fit, Fit::Known | Fit::None) {
+            return &self.coefficients;
         }
-        match self.whitening.fit {
-            Fit::Known | Fit::None => {}
-            Fit::LeastSquares => self.least_squares(),
-            Fit::YuleWalker => self.yule_walker(),
-            Fit::Burg => self.burg(),
+        let mut mean = V::default();
+        for x in training {
+            mean = mean + *x;
+        }
+        let length = training.len() as f64;
+        mean.lanes_mut().iter_mut().for_each(|sum| *sum /= length);
+        for (centred, x) in self.centred.iter_mut().zip(training) {
+            *centred = *x - mean;
+        }
+        if self.whitening.fit == Fit::LeastSquares {
+            covariances(&self.centred, self.whitening.order, &mut self.products);
+        }
+        for lane in 0..V::default().lanes().len() {
+            self.solve(lane);
         }
         &self.coefficients
     }
 
+    fn solve(&mut self, lane: usize) {
+        let solver = &mut self.solver;
+        let take = |from: &[V], to: &mut [f64]| {
+            let values = from.iter().map(|value| value.lanes()[lane]);
+            to.iter_mut()
+                .zip(values)
+                .for_each(|(to, value)| *to = value);
+        };
+        match self.whitening.fit {
+            Fit::Known | Fit::None => {}
+            Fit::LeastSquares => {
+                take(&self.products, &mut solver.normal);
+                solver.least_squares();
+            }
+            Fit::YuleWalker => {
+                take(&self.centred, &mut solver.forward);
+                solver.yule_walker();
+            }
+            Fit::Burg => {
+                take(&self.centred, &mut solver.forward);
+                solver.burg();
+            }
+        }
+        for (all, one) in self.coefficients.iter_mut().zip(&solver.coefficients) {
+            all.lanes_mut()[lane] = *one;
+        }
+    }
+}
+
+impl Solver {
     /// Solves Σ_k c_jk a_k = c_j0, c_jk = Σ_{i=m}^{L−1} x_{i−j} x_{i−k}.
     fn least_squares(&mut self) {
-        let order = self.whitening.order;
-        covariances(&self.centred, order, &mut self.normal);
         solve_normal_equations(&mut self.normal, &mut self.scratch, &mut self.coefficients);
     }
 
     /// Levinson's recursion on r_k = Σ x_i x_{i−k}.
     fn yule_walker(&mut self) {
-        let order = self.whitening.order;
+        let order = self.coefficients.len();
         let correlation = &mut self.normal[..=order];
         for (lag, r) in correlation.iter_mut().enumerate() {
-            *r = lagged_product(&self.centred, lag, lag..self.centred.len());
+            *r = lagged_product(&self.forward, lag, lag..self.forward.len());
         }
         self.coefficients.fill(0.0);
         let mut error = correlation[0];
@@ -78,15 +130,15 @@ impl Fitter {
         }
     }
 
-    /// Burg's recursion on forward (`centred`) and backward errors.
+    /// Burg's recursion on forward (`forward`) and backward errors.
     fn burg(&mut self) {
-        let length = self.centred.len();
-        self.backward.copy_from_slice(&self.centred);
+        let length = self.forward.len();
+        self.backward.copy_from_slice(&self.forward);
         self.coefficients.fill(0.0);
-        for m in 0..self.whitening.order {
+        for m in 0..self.coefficients.len() {
             let (mut product, mut energy) = (0.0, 0.0);
             for i in m + 1..length {
-                let (f, b) = (self.centred[i], self.backward[i - 1]);
+                let (f, b) = (self.forward[i], self.backward[i - 1]);
                 product += f * b;
                 energy += f * f + b * b;
             }
@@ -96,8 +148,8 @@ impl Fitter {
             let reflection = 2.0 * product / energy;
             extend(&mut self.coefficients, &mut self.scratch, m, reflection);
             for i in (m + 1..length).rev() {
-                let (f, b) = (self.centred[i], self.backward[i - 1]);
-                self.centred[i] = f - reflection * b;
+                let (f, b) = (self.forward[i], self.backward[i - 1]);
+                self.forward[i] = f - reflection * b;
                 self.backward[i] = b - reflection * f;
             }
         }
@@ -113,16 +165,29 @@ fn extend(coefficients: &mut [f64], scratch: &mut [f64], m: usize, reflection: f
     coefficients[m] = reflection;
 }
 
-/// Σ x_i x_{i−lag} over `range`.
-fn lagged_product(x: &[f64], lag: usize, range: std::ops::Range<usize>) -> f64 {
+/// Σ x_i x_{i−lag} over `range`, in four sums that need not wait for each other.
+#[inline(always)]
+fn lagged_product<V: Value>(x: &[V], lag: usize, range: std::ops::Range<usize>) -> V {
     let late = &x[range.clone()];
     let early = &x[range.start - lag..range.end - lag];
-    late.iter().zip(early).map(|(a, b)| a * b).sum()
+    let (late, last) = late.as_chunks::<4>();
+    let (early, first) = early.as_chunks::<4>();
+    let mut sums = [V::default(); 4];
+    for (late, early) in late.iter().zip(early) {
+        for (sum, (a, b)) in sums.iter_mut().zip(late.iter().zip(early)) {
+            *sum = *sum + *a * *b;
+        }
+    }
+    for (a, b) in last.iter().zip(first) {
+        sums[0] = sums[0] + *a * *b;
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
 /// c_jk for j, k = 0…m, row by row. Products of one lag share the middle of the record and differ
 /// only at its ends, so that m + 1 sums over the record serve all of them, and nothing is subtracted.
-fn covariances(x: &[f64], order: usize, normal: &mut [f64]) {
+#[inline(always)]
+fn covariances<V: Value>(x: &[V], order: usize, products: &mut [V]) {
     let length = x.len();
     for lag in 0..=order {
         let middle = lagged_product(x, lag, order..length - order);
@@ -131,8 +196,8 @@ fn covariances(x: &[f64], order: usize, normal: &mut [f64]) {
             let tail = lagged_product(x, lag, length - order..length - j);
             let sum = head + middle + tail;
             let k = j + lag;
-            normal[j * (order + 1) + k] = sum;
-            normal[k * (order + 1) + j] = sum;
+            products[j * (order + 1) + k] = sum;
+            products[k * (order + 1) + j] = sum;
         }
     }
 }

@@ -17,6 +17,7 @@ mod fit;
 
 pub use fit::Fitter;
 
+use crate::lanes::Value;
 use std::fmt;
 
 /// How a filter comes by its coefficients.
@@ -152,19 +153,28 @@ impl Whitening {
 }
 
 /// The whitened sample y_i = r_i − Σ a_p r_{i−p}, where `past` ends with r_{i−1}.
-#[inline]
-pub fn step(coefficients: &[f64], past: &[f64], sample: f64) -> f64 {
-    coefficients
-        .iter()
-        .zip(past.iter().rev())
-        .fold(sample, |rest, (a, r)| rest - a * r)
+#[inline(always)]
+pub fn step<V: Value>(coefficients: &[V], past: &[V], sample: V) -> V {
+    let mut rest = sample;
+    for (a, r) in coefficients.iter().zip(past.iter().rev()) {
+        rest = rest - *a * *r;
+    }
+    rest
 }
 
-/// Whitens `record[start..]` into `whitened`; what precedes the record counts as zero.
-pub fn whiten(coefficients: &[f64], record: &[f64], start: usize, whitened: &mut [f64]) {
-    let order = coefficients.len();
-    for (i, y) in (start..record.len()).zip(whitened) {
-        *y = step(coefficients, &record[i.saturating_sub(order)..i], record[i]);
+/// Whitens `record[start..]` into `whitened`; what precedes the record counts as zero. One coefficient
+/// after the other, over all samples: those need not wait for each other.
+#[inline(always)]
+pub fn whiten<V: Value>(coefficients: &[V], record: &[V], start: usize, whitened: &mut [V]) {
+    let length = whitened.len().min(record.len() - start);
+    whitened[..length].copy_from_slice(&record[start..start + length]);
+    for (back, a) in (1..).zip(coefficients) {
+        // What lies before the record has no part in the first samples.
+        let missing = length.min(back - back.min(start));
+        let past = &record[start + missing - back.min(start + missing)..];
+        for (y, r) in whitened[missing..length].iter_mut().zip(past) {
+            *y = *y - *a * *r;
+        }
     }
 }
 

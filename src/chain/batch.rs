@@ -1,0 +1,198 @@
+//! The noise of [`LANES`] trials side by side: drawn, coloured, observed, whitened.
+//!
+//! Trials whose indices have the same quotient by [`LANES`] are drawn together, from one stream. Which of
+//! them are asked for, in which order, makes no difference.
+
+use super::family::{Branch, Family, Source};
+use crate::lanes::{LANES, Value, Vectors, Wide};
+use crate::rng::Generator;
+use crate::signal::Digitiser;
+use crate::whiten::{Fitter, whiten};
+use rand::Rng;
+
+/// The noise of one batch of trials, and every branch's view of it.
+pub(super) struct Batch<'a> {
+    family: &'a Family,
+    /// Which batch is here.
+    index: Option<u64>,
+    /// Raw samples, burn-in first.
+    raw: Vec<Wide>,
+    /// Digitised block means of the branch that came last.
+    observed: Vec<Wide>,
+    /// Whitened observations of that branch from the first of X.
+    whitened: Vec<Wide>,
+    branches: Vec<Rest>,
+    /// 64 random bits for the impulse of each raw observation after X, trial by trial.
+    impulses: Vec<[u8; 8]>,
+}
+
+/// Rest as one branch sees it, trial by trial.
+struct Rest {
+    fitter: Fitter<Wide>,
+    coefficients: Vec<f64>,
+    whitened: Vec<f64>,
+}
+
+impl<'a> Batch<'a> {
+    pub fn new(family: &'a Family) -> Self {
+        let source = &family.source;
+        let span = source.samples.span();
+        let impulses = match family.has_impulses() {
+            true => source.motion_observations() * source.samples.decimation(),
+            false => 0,
+        };
+        let branches = family.branches.iter();
+        Self {
+            family,
+            index: None,
+            raw: vec![Wide::default(); source.burn_in() + source.raw_length()],
+            observed: vec![Wide::default(); source.observations()],
+            whitened: vec![Wide::default(); span],
+            branches: branches
+                .map(|branch| Rest {
+                    fitter: Fitter::new(branch.whitening, source.sensor.ar()),
+                    coefficients: vec![0.0; branch.whitening.order() * LANES],
+                    whitened: vec![0.0; span * LANES],
+                })
+                .collect(),
+            impulses: vec![[0; 8]; LANES * impulses],
+        }
+    }
+
+    /// Draws the batch of `trial`, unless it is here, and says in which lane that trial lies.
+    pub fn seek(&mut self, trial: u64) -> usize {
+        let (index, lane) = (trial / LANES as u64, trial % LANES as u64);
+        if self.index != Some(index) {
+            self.index = Some(index);
+            self.draw(index);
+        }
+        lane as usize
+    }
+
+    /// The coefficients and the whitened rest of branch `index` in the trial of `lane`.
+    pub fn rest(&self, index: usize, lane: usize) -> (&[f64], &[f64]) {
+        let Rest {
+            coefficients,
+            whitened,
+            ..
+        } = &self.branches[index];
+        (part(coefficients, lane), part(whitened, lane))
+    }
+
+    /// 64 random bits for each raw observation after X; none where nothing vibrates.
+    pub fn impulses(&self, lane: usize) -> &[[u8; 8]] {
+        part(&self.impulses, lane)
+    }
+
+    /// The raw record of rest in the trial of `lane`, without the burn-in.
+    pub fn raw(&self, lane: usize) -> impl Iterator<Item = f64> {
+        let record = &self.raw[self.family.source.burn_in()..];
+        record.iter().map(move |wide| wide.0[lane])
+    }
+
+    fn draw(&mut self, index: u64) {
+        let family = self.family;
+        let source = &family.source;
+        source
+            .noise
+            .fill(&mut family.noise.at(index), &mut self.raw);
+        let impulses = self.impulses.as_flattened_mut();
+        family.impulses.at(index).fill_bytes(impulses);
+        let mut footfalls: Option<Generator> = None;
+        let footfall = || {
+            let generator = footfalls.get_or_insert_with(|| family.footfalls.at(index));
+            generator.next_u64()
+        };
+        Vectors::widest().run(
+            #[inline(always)]
+            || {
+                match source.burn_in() {
+                    0 => source.sensor.colour_stationary(&mut self.raw),
+                    _ => source.sensor.colour(&mut self.raw),
+                }
+                let record = &mut self.raw[source.burn_in()..];
+                let after_rest = source.rest() * source.samples.decimation();
+                source.disturbance.act(record, after_rest, footfall);
+                for (branch, rest) in family.branches.iter().zip(&mut self.branches) {
+                    see(
+                        source,
+                        branch,
+                        record,
+                        &mut self.observed,
+                        &mut self.whitened,
+                        rest,
+                    );
+                }
+            },
+        );
+    }
+}
+
+/// Observes and whitens `record` in the way of `branch`.
+#[inline(always)]
+fn see(
+    source: &Source,
+    branch: &Branch,
+    record: &[Wide],
+    observed: &mut [Wide],
+    whitened: &mut [Wide],
+    rest: &mut Rest,
+) {
+    observe(
+        &branch.digitiser,
+        source.samples.decimation(),
+        record,
+        observed,
+    );
+    let end = match branch.whitening.includes_reference() {
+        true => source.rest(),
+        false => source.lead,
+    };
+    let training = &observed[end - branch.whitening.training()..end];
+    let coefficients = rest.fitter.fit(training);
+    whiten(coefficients, observed, source.lead, whitened);
+    deal(coefficients, &mut rest.coefficients);
+    deal(whitened, &mut rest.whitened);
+}
+
+/// Digitises raw samples and takes block means: sums of codes, which are exact, then one scale.
+#[inline(always)]
+pub(super) fn observe<V: Value>(
+    digitiser: &Digitiser,
+    decimation: usize,
+    raw: &[V],
+    observed: &mut [V],
+) {
+    if decimation == 1 && digitiser.is_transparent() {
+        observed.copy_from_slice(&raw[..observed.len()]);
+        return;
+    }
+    let scale = digitiser.unit() / decimation as f64;
+    for (mean, block) in observed.iter_mut().zip(raw.chunks_exact(decimation)) {
+        let mut sum = V::default();
+        for x in block {
+            let mut code = *x;
+            for x in code.lanes_mut() {
+                *x = digitiser.code(*x);
+            }
+            sum = sum + code;
+        }
+        *mean = sum * scale;
+    }
+}
+
+/// Lays the values of each trial side by side, one trial after the other.
+#[inline(always)]
+fn deal(wide: &[Wide], trials: &mut [f64]) {
+    for (lane, trial) in trials.chunks_exact_mut(wide.len().max(1)).enumerate() {
+        for (value, wide) in trial.iter_mut().zip(wide) {
+            *value = wide.0[lane];
+        }
+    }
+}
+
+/// What of `all` belongs to the trial of `lane`.
+fn part<T>(all: &[T], lane: usize) -> &[T] {
+    let length = all.len() / LANES;
+    &all[lane * length..(lane + 1) * length]
+}

@@ -1,0 +1,519 @@
+//! W and T along Δ: where pairs of samples change their order.
+//!
+//! A whitened sample is a line in Δ, a + Δ g. Sample y exceeds sample z of slope h < g from
+//!
+//! Δ* = (a_z − a_y)/(g − h)
+//!
+//! on, and of slope h > g up to there. W and T count such pairs: W those of Y₁ over all others, T those
+//! of min X over Y₂ and of Y₂ over max X. So all values of Δ cost little more than one: every crossing
+//! is found once, counted at the first Δ behind it, and a running sum tells how many pairs are in
+//! that order at each. Neither needs to be monotone: the head of Y₂ has a slope too.
+//!
+//! The counts are those of comparing the samples at every Δ. Where rounding could make a difference,
+//! because two samples all but tie at some Δ, nothing is returned and the samples have to be compared.
+
+use super::statistics::{Statistics, smallest_rank_sum};
+use crate::lanes::{Vectors, Wide};
+
+/// Two samples nearer than this share of the largest value may compare one way or the other by
+/// rounding: each value has an error of two units in the last place, each crossing one of ten.
+const DOUBT: f64 = 1e-11;
+
+/// Samples as lines in Δ.
+#[derive(Clone, Copy, Debug)]
+pub struct Lines<'a> {
+    /// Their values at Δ = 0, finite.
+    pub base: &'a [f64],
+    /// What Δ = 1 adds to them.
+    pub slope: &'a [f64],
+}
+
+/// Counts W and T at every Δ of a list.
+#[derive(Clone, Debug)]
+pub struct Crossings {
+    vectors: Vectors,
+    grid: Grid,
+    shift: Field,
+    rank_sums: Changes,
+    exceedances: Changes,
+    statistics: Vec<Statistics>,
+}
+
+/// The values of Δ, in ascending order.
+#[derive(Clone, Debug)]
+struct Grid {
+    deltas: Vec<f64>,
+    even: Option<Even>,
+}
+
+/// Values in equal steps.
+#[derive(Clone, Copy, Debug)]
+struct Even {
+    start: f64,
+    step: f64,
+    steps_per_unit: f64,
+    last: f64,
+}
+
+/// Y₁: lines that all others are compared with, one after the other; the last array is filled up with
+/// copies.
+#[derive(Clone, Debug, Default)]
+struct Field {
+    /// How many are no copies.
+    length: usize,
+    lines: Vec<Several>,
+    least_slope: f64,
+    /// The first Δ behind each crossing with the other line.
+    behind: Vec<[u32; SEVERAL]>,
+    /// How near any line has come to another at any Δ.
+    nearest: Wide<SEVERAL>,
+}
+
+/// Lines side by side.
+#[derive(Clone, Copy, Debug, Default)]
+struct Several {
+    base: Wide<SEVERAL>,
+    slope: Wide<SEVERAL>,
+    /// Steps of the grid for each unit that a line without slope is ahead.
+    pace: Wide<SEVERAL>,
+    /// What one step is worth: |slope| · step; where that is nothing, 1 stands in `flat`.
+    stride: Wide<SEVERAL>,
+    flat: Wide<SEVERAL>,
+}
+
+/// Three times this are the samples of Fig. 6.
+const SEVERAL: usize = 4;
+
+/// How many more pairs are in order at each Δ than at the one before.
+#[derive(Clone, Debug)]
+struct Changes {
+    /// Several counts, one after the other, which take turns and are added in the end: so equal
+    /// neighbours need not wait for each other.
+    turns: Vec<i32>,
+    /// Of each.
+    length: usize,
+}
+
+/// For W, where there are many crossings.
+const TURNS: usize = 4;
+
+impl Crossings {
+    /// For `deltas` in ascending order, at least two of them, all different.
+    pub fn new(vectors: Vectors, deltas: Vec<f64>) -> Self {
+        let length = deltas.len() + 1;
+        let changes = |turns: usize| Changes {
+            turns: vec![0; turns * length],
+            length,
+        };
+        Self {
+            vectors,
+            shift: Field::default(),
+            rank_sums: changes(TURNS),
+            exceedances: changes(1),
+            statistics: Vec::with_capacity(deltas.len()),
+            grid: Grid::new(deltas),
+        }
+    }
+
+    /// W and T at every Δ; none where a near tie leaves one in doubt. X does not move.
+    pub fn count(
+        &mut self,
+        reference: &[f64],
+        shift: Lines,
+        scale: Lines,
+    ) -> Option<&[Statistics]> {
+        let vectors = self.vectors;
+        let is_certain = vectors.run(
+            #[inline(always)]
+            || self.find(reference, shift, scale),
+        );
+        is_certain.then_some(&self.statistics)
+    }
+
+    /// Finds all crossings and counts; whether none of them is in doubt.
+    #[inline(always)]
+    fn find(&mut self, reference: &[f64], shift: Lines, scale: Lines) -> bool {
+        self.rank_sums.turns.fill(0);
+        self.exceedances.turns.fill(0);
+        self.shift.take(shift, &self.grid);
+        for &x in reference {
+            self.shift.meet_still(&self.grid, x);
+            self.rank_sums.count(&self.shift, 0.0);
+        }
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for &x in reference {
+            low = least(low, x);
+            high = greatest(high, x);
+        }
+        let mut nearest = f64::INFINITY;
+        for (&y, &slope) in scale.base.iter().zip(scale.slope) {
+            match slope == 0.0 {
+                true => self.shift.meet_still(&self.grid, y),
+                false => self.shift.meet(&self.grid, y, slope),
+            }
+            self.rank_sums.count(&self.shift, slope);
+            // T: above max X, and below min X.
+            for (above, ahead) in [(1, high - y), (-1, low - y)] {
+                nearest = least(
+                    nearest,
+                    self.exceedances.cross(&self.grid, ahead, slope, above),
+                );
+            }
+        }
+        self.sum(shift.base.len());
+        for gap in self.shift.nearest.0 {
+            nearest = least(nearest, gap);
+        }
+        let largest = greatest(self.grid.largest(shift), self.grid.largest(scale));
+        nearest > DOUBT * greatest(largest, greatest(-low, high))
+    }
+
+    /// Running sums of the changes.
+    #[inline(always)]
+    fn sum(&mut self, shift: usize) {
+        let mut rank_sum = smallest_rank_sum(shift);
+        let mut outside = 0usize;
+        self.statistics.clear();
+        let points = self.grid.deltas.len();
+        let changes = self.rank_sums.total().iter().zip(self.exceedances.total());
+        self.statistics.extend(changes.take(points).map(
+            #[inline(always)]
+            |(&pairs, &exceedances)| {
+                rank_sum = rank_sum.wrapping_add_signed(pairs.into());
+                outside = outside.wrapping_add_signed(exceedances as isize);
+                Statistics {
+                    rank_sum,
+                    exceedances: outside,
+                }
+            },
+        ));
+    }
+}
+
+impl Changes {
+    /// Counts the lines of `field` that are above one of this slope, at every Δ.
+    #[inline(always)]
+    fn count(&mut self, field: &Field, slope: f64) {
+        let behind = &field.behind.as_flattened()[..field.length];
+        if field.least_slope >= slope {
+            let (first, rest) = self.turns.split_at_mut(self.length);
+            let (second, rest) = rest.split_at_mut(self.length);
+            let (third, fourth) = rest.split_at_mut(self.length);
+            let (fours, rest) = behind.as_chunks::<TURNS>();
+            for places in fours {
+                first[places[0] as usize] += 1;
+                second[places[1] as usize] += 1;
+                third[places[2] as usize] += 1;
+                fourth[places[3] as usize] += 1;
+            }
+            for &place in rest {
+                first[place as usize] += 1;
+            }
+            return;
+        }
+        for (i, &place) in behind.iter().enumerate() {
+            // Above from the crossing on, or up to there.
+            let falls = field.lines[i / SEVERAL].slope.0[i % SEVERAL] < slope;
+            self.turns[0] += i32::from(falls);
+            self.turns[place as usize] += if falls { -1 } else { 1 };
+        }
+    }
+
+    /// Counts a line of this slope where it is above a line without, or where it is not; `ahead` is how far
+    /// that one is ahead at Δ = 0. How near they come at any Δ.
+    #[inline(always)]
+    fn cross(&mut self, grid: &Grid, ahead: f64, slope: f64, above: i32) -> f64 {
+        let counts = &mut self.turns;
+        counts[0] += if above < 0 { 1 } else { 0 };
+        if slope == 0.0 {
+            counts[0] += if ahead < 0.0 { above } else { 0 };
+            return ahead.abs();
+        }
+        let ([place], Wide([gap])) = grid.cross(Wide([ahead]), Wide([slope]));
+        counts[0] += if slope < 0.0 { above } else { 0 };
+        counts[place as usize] += if slope < 0.0 { -above } else { above };
+        gap
+    }
+
+    /// The changes, all turns together.
+    #[inline(always)]
+    fn total(&mut self) -> &[i32] {
+        let (sums, others) = self.turns.split_at_mut(self.length);
+        for turn in others.chunks_exact(self.length) {
+            for (sum, more) in sums.iter_mut().zip(turn) {
+                *sum += more;
+            }
+        }
+        sums
+    }
+}
+
+impl Field {
+    #[inline(always)]
+    fn take(&mut self, lines: Lines, grid: &Grid) {
+        self.length = lines.base.len();
+        let arrays = self.length.div_ceil(SEVERAL);
+        self.lines.resize(arrays, Several::default());
+        self.behind.resize(arrays, [0; SEVERAL]);
+        self.nearest = Wide::all(f64::INFINITY);
+        self.least_slope = f64::INFINITY;
+        let (step, steps) = grid
+            .even
+            .map_or((1.0, 1.0), |even| (even.step, even.steps_per_unit));
+        for (array, several) in self.lines.iter_mut().enumerate() {
+            for lane in 0..SEVERAL {
+                let line = array * SEVERAL + lane;
+                let line = if line < self.length { line } else { 0 };
+                several.base.0[lane] = lines.base[line];
+                several.slope.0[lane] = lines.slope[line];
+                self.least_slope = least(self.least_slope, lines.slope[line]);
+                several.flat.0[lane] = if lines.slope[line] == 0.0 { 1.0 } else { 0.0 };
+            }
+            several.pace = Wide::all(steps) / several.slope;
+            several.stride = several.slope.abs() * step;
+        }
+    }
+
+    /// Finds the crossings with a line that has no slope, of this value.
+    #[inline(always)]
+    fn meet_still(&mut self, grid: &Grid, value: f64) {
+        let Some(even) = grid.even else {
+            return self.meet(grid, value, 0.0);
+        };
+        let (value, start) = (
+            Wide::all(value),
+            Wide::all(even.start * even.steps_per_unit),
+        );
+        let mut nearest = self.nearest;
+        for (several, behind) in self.lines.iter().zip(&mut self.behind) {
+            let ahead = value - several.base;
+            let place = even.clamp(ahead * several.pace - start);
+            *behind = round_up(place);
+            let gap = (place - round(place)).abs() * several.stride + ahead.abs() * several.flat;
+            nearest = gap.least(nearest);
+        }
+        self.nearest = nearest;
+    }
+
+    /// Finds the crossings with any line.
+    #[inline(always)]
+    fn meet(&mut self, grid: &Grid, base: f64, slope: f64) {
+        let mut nearest = self.nearest;
+        for (several, behind) in self.lines.iter().zip(&mut self.behind) {
+            let ahead = Wide::all(base) - several.base;
+            let closing = several.slope - Wide::all(slope);
+            let (first, gap) = grid.cross(ahead, closing);
+            *behind = first;
+            nearest = gap.least(nearest);
+        }
+        self.nearest = nearest;
+    }
+}
+
+impl Grid {
+    fn new(deltas: Vec<f64>) -> Self {
+        let (start, last) = (deltas[0], deltas.len() - 1);
+        let largest = start.abs().max(deltas[last].abs());
+        let step = (deltas[last] - start) / last as f64;
+        let is_even =
+            |(i, delta): (usize, &f64)| (start + i as f64 * step - delta).abs() <= 1e-14 * largest;
+        let even = Even {
+            start,
+            step,
+            steps_per_unit: 1.0 / step,
+            last: last as f64,
+        };
+        Self {
+            even: deltas.iter().enumerate().all(is_even).then_some(even),
+            deltas,
+        }
+    }
+
+    /// The first Δ from which on Δ · `closing` exceeds `ahead`, and how near to it that comes at any Δ.
+    #[inline(always)]
+    fn cross<const N: usize>(&self, ahead: Wide<N>, closing: Wide<N>) -> ([u32; N], Wide<N>) {
+        match self.even {
+            Some(even) => even.cross(ahead, closing),
+            None => self.search(ahead, closing),
+        }
+    }
+
+    fn search<const N: usize>(&self, ahead: Wide<N>, closing: Wide<N>) -> ([u32; N], Wide<N>) {
+        let mut nearest = Wide::all(f64::INFINITY);
+        let behind = std::array::from_fn(|lane| {
+            let (ahead, closing) = (ahead.0[lane], closing.0[lane]);
+            let first = (self.deltas).partition_point(|&delta| delta < ahead / closing);
+            for delta in &self.deltas[first.saturating_sub(1)..self.deltas.len().min(first + 1)] {
+                nearest.0[lane] = least((ahead - closing * delta).abs(), nearest.0[lane]);
+            }
+            first as u32
+        });
+        (behind, nearest)
+    }
+
+    /// The largest value that a line may have.
+    #[inline(always)]
+    fn largest(&self, lines: Lines) -> f64 {
+        let delta = self.deltas[0]
+            .abs()
+            .max(self.deltas[self.deltas.len() - 1].abs());
+        let (mut base, mut slope) = (0.0, 0.0);
+        for value in lines.base {
+            base = greatest(base, value.abs());
+        }
+        for value in lines.slope {
+            slope = greatest(slope, value.abs());
+        }
+        base + delta * slope
+    }
+}
+
+impl Even {
+    #[inline(always)]
+    fn cross<const N: usize>(&self, ahead: Wide<N>, closing: Wide<N>) -> ([u32; N], Wide<N>) {
+        let (start, step) = (Wide::all(self.start), Wide::all(self.step));
+        let place = self.clamp((ahead / closing - start) * self.steps_per_unit);
+        let nearby = start + step * round(place).least(Wide::all(self.last));
+        (round_up(place), (ahead - closing * nearby).abs())
+    }
+
+    /// Half a step outside is as good as any.
+    #[inline(always)]
+    fn clamp<const N: usize>(&self, place: Wide<N>) -> Wide<N> {
+        place
+            .greatest(Wide::all(-0.5))
+            .least(Wide::all(self.last + 0.5))
+    }
+}
+
+/// Adding this to a number below 2⁵¹ rounds it to a whole number, which is in the lowest bits of the sum.
+const ROUND: f64 = 1.5 * (1u64 << 52) as f64;
+
+#[inline(always)]
+fn round<const N: usize>(place: Wide<N>) -> Wide<N> {
+    (place + Wide::all(ROUND)) - Wide::all(ROUND)
+}
+
+/// The next whole number above; either neighbour of a whole number itself, which is in doubt anyway.
+#[inline(always)]
+fn round_up<const N: usize>(place: Wide<N>) -> [u32; N] {
+    ((place + Wide::all(0.5)) + Wide::all(ROUND)).low_bits()
+}
+
+/// The smaller of two numbers, in one instruction; the second where one is NaN.
+#[inline(always)]
+fn least(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The larger of two numbers, in one instruction; the second where one is NaN.
+#[inline(always)]
+fn greatest(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::detect::Pooled;
+    use proptest::prelude::*;
+
+    /// W and T at every Δ by comparing the samples there.
+    fn compared(deltas: &[f64], reference: &[f64], shift: Lines, scale: Lines) -> Vec<Statistics> {
+        let at = |lines: Lines, delta: f64| -> Vec<f64> {
+            let lines = lines.base.iter().zip(lines.slope);
+            lines.map(|(base, slope)| base + delta * slope).collect()
+        };
+        let statistics = |&delta: &f64| {
+            let (shift, scale) = (at(shift, delta), at(scale, delta));
+            let pooled = Pooled {
+                reference,
+                shift: &shift,
+                scale: &scale,
+            };
+            pooled.statistics(|| unreachable!("no ties"))
+        };
+        deltas.iter().map(statistics).collect()
+    }
+
+    /// Values of a few slopes, zero and negative ones among them, as the head of Y₂ and late motions have.
+    fn slopes() -> impl Strategy<Value = f64> {
+        prop_oneof![Just(0.0), Just(3.287), -2.0..4.0]
+    }
+
+    fn grids() -> impl Strategy<Value = Vec<f64>> {
+        let even = (-2.0..1.0, 0.01..0.5, 2usize..70).prop_map(|(start, step, points)| {
+            (0..points).map(|i| start + i as f64 * step).collect()
+        });
+        let uneven = prop::collection::btree_set(-300i32..300, 2..40)
+            .prop_map(|set| set.into_iter().map(|i| f64::from(i) / 97.0).collect());
+        prop_oneof![even, uneven]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { rng_seed: prop::test_runner::RngSeed::Fixed(2014), cases: 3000, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn agree_with_comparing(
+            deltas in grids(),
+            sizes in (1usize..14, 1usize..14, 1usize..14),
+            values in prop::collection::vec(-6.0..6.0, 42),
+            slopes in prop::collection::vec(slopes(), 28),
+        ) {
+            let (n, m1, m2) = sizes;
+            let shift = Lines { base: &values[14..14 + m1], slope: &slopes[..m1] };
+            let scale = Lines { base: &values[28..28 + m2], slope: &slopes[14..14 + m2] };
+            let expected = compared(&deltas, &values[..n], shift, scale);
+            for vectors in Vectors::available() {
+                let mut crossings = Crossings::new(vectors, deltas.clone());
+                // Twice: what is left of a trial must not reach the next.
+                for _ in 0..2 {
+                    let counted = crossings.count(&values[..n], shift, scale);
+                    prop_assert_eq!(counted, Some(&expected[..]));
+                }
+            }
+        }
+    }
+
+    /// Ties at a Δ, and next to one, are not decided here.
+    #[test]
+    fn near_ties_are_in_doubt() {
+        let mut even = Crossings::new(Vectors::Baseline, vec![0.0, 0.5, 1.0, 1.5]);
+        let mut uneven = Crossings::new(Vectors::Baseline, vec![0.0, 0.4, 1.0, 1.5]);
+        let scale = Lines {
+            base: &[7.0],
+            slope: &[0.0],
+        };
+        let of = |crossings: &mut Crossings, x: f64, slope: f64, scale| {
+            let shift = Lines {
+                base: &[-2.0],
+                slope: &[slope],
+            };
+            crossings.count(&[x, -5.0], shift, scale).is_some()
+        };
+        for crossings in [&mut even, &mut uneven] {
+            assert!(of(crossings, 0.1, 2.0, scale));
+            assert!(!of(crossings, 0.0, 2.0, scale));
+            assert!(!of(crossings, 1e-13, 2.0, scale));
+            assert!(!of(crossings, -2.0, 0.0, scale));
+            assert!(!of(
+                crossings,
+                0.1,
+                2.0,
+                Lines {
+                    base: &[0.1],
+                    slope: &[0.0]
+                }
+            ));
+            assert!(!of(
+                crossings,
+                0.1,
+                2.0,
+                Lines {
+                    base: &[1.1],
+                    slope: &[-1.0]
+                }
+            ));
+        }
+    }
+}
