@@ -87,6 +87,26 @@ impl Plan {
         Self::of(config, |hypothesis| hypothesis == Hypothesis::H0)
     }
 
+    /// The same experiment with one of its points alone, whose draws are what they were.
+    ///
+    /// # Panics
+    /// Where there is no such point.
+    pub fn of_point(&self, index: usize) -> Self {
+        let point = self.points[index].clone();
+        let ensemble = Ensemble::new(
+            [&point.scenario],
+            self.ensemble.trials,
+            self.seed,
+            Purpose::Results,
+            self.common_random_numbers,
+        );
+        Self {
+            points: vec![point],
+            ensemble: ensemble.expect("it fits in memory beside others"),
+            ..*self
+        }
+    }
+
     fn of(config: &Config, wanted: impl Fn(Hypothesis) -> bool) -> Result<Self, ConfigError> {
         let mut designer = Designer::default();
         let mut points: Vec<Point> = Vec::new();

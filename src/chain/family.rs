@@ -53,7 +53,7 @@ pub(super) struct Course {
     pub observed_shape: Vec<f64>,
     /// In ascending order of Δ.
     pub stages: Vec<Stage>,
-    /// Whether a point here looks at the whitened samples themselves and not only at W and T.
+    /// Whether a point here looks at more than W and T.
     pub needs_samples: bool,
     /// Whether a point here looks at the record itself.
     pub needs_record: bool,

@@ -15,6 +15,7 @@
 mod batch;
 mod family;
 mod observation;
+mod replay;
 mod scenario;
 #[cfg(test)]
 mod tests;
@@ -22,5 +23,6 @@ mod trial;
 
 pub use family::{Family, Purpose, RecordTooLong};
 pub use observation::{Decision, Observation, Score};
+pub use replay::Replay;
 pub use scenario::{Calibration, Detector, Scenario};
 pub use trial::Trial;

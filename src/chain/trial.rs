@@ -15,12 +15,12 @@ use rand::Rng;
 /// `motion`, from the first after X.
 pub struct Trial<'a> {
     family: &'a Family,
-    batch: Batch<'a>,
+    pub(super) batch: Batch<'a>,
     record: Record,
-    motion: Motion,
+    pub(super) motion: Motion,
     /// Of every course of every branch, where W and T are worth counting along Δ.
     crossings: Vec<Option<Crossings>>,
-    keys: Keys<'a>,
+    pub(super) keys: Keys<'a>,
     scratch: Scratch,
 }
 
@@ -37,16 +37,16 @@ struct Record {
 }
 
 /// What a motion adds.
-struct Motion {
+pub(super) struct Motion {
     /// λ/θ for each raw observation.
-    pattern: Vec<f64>,
+    pub pattern: Vec<f64>,
     /// Block means of the pattern.
     observed: Vec<f64>,
     /// Whitened step and impulses; noise and impulses; all three.
     step: Vec<f64>,
     impulse: Vec<f64>,
     without_step: Vec<f64>,
-    whitened: Vec<f64>,
+    pub whitened: Vec<f64>,
 }
 
 /// Keys for a trial's ties; random ones are drawn when first asked for.

@@ -9,6 +9,7 @@ mod man;
 mod plan;
 mod plot;
 mod progress;
+mod replay;
 mod store;
 mod sweep;
 mod threshold;
@@ -47,6 +48,7 @@ enum Command {
     Figures(figures::Figures),
     Threshold(threshold::Threshold),
     Plan(plan::PlanCommand),
+    Replay(replay::ReplayCommand),
     Completions(completions::Completions),
     Man(man::Man),
 }
@@ -82,6 +84,7 @@ impl Arguments {
             Command::Figures(verb) => verb.run(self.quiet),
             Command::Threshold(verb) => verb.run(),
             Command::Plan(verb) => verb.run(),
+            Command::Replay(verb) => verb.run(),
             Command::Completions(verb) => verb.run(),
             Command::Man(verb) => verb.run(),
         }

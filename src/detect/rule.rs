@@ -130,12 +130,9 @@ impl Method {
         )
     }
 
-    /// Whether it looks at the whitened samples themselves, not only at W and T.
+    /// Whether it looks at the samples themselves, not only at W and T.
     pub fn needs_samples(&self) -> bool {
-        matches!(
-            self,
-            Self::Baseline(Baseline::StudentT | Baseline::VarianceRatio)
-        )
+        matches!(self, Self::Baseline(_))
     }
 
     /// Whether it looks at the record itself, not only at whitened samples.

@@ -5,6 +5,7 @@ mod commands;
 mod exhibits;
 mod figures;
 mod gate;
+mod replay;
 mod results;
 
 use assert_cmd::Command;

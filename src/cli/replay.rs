@@ -1,0 +1,132 @@
+//! `liftsim replay CONFIG --point P --trial T`: every stage of one trial.
+
+use super::{Failure, Outcome, Simulation, print};
+use anyhow::anyhow;
+use clap::Args;
+use liftsim::chain::{Decision, Replay};
+use liftsim::detect::Samples;
+use liftsim::pilot::Pilots;
+use liftsim::plan::Plan;
+use std::fmt::Write;
+use std::process::ExitCode;
+
+/// Lay open every stage of one trial, as CSV: what was drawn, written down, fitted, ranked and decided.
+///
+/// Columns are stage, sample, index and value. Stages: innovation (the draws behind the noise), noise, acceleration, impulse
+/// (one for each raw sample), record (as observed), coefficient (of the filter, from 1), whitened, rank,
+/// rank_sum (W), exceedances (T), critical (the smallest W that decides H1 at this T, as a score), threshold
+/// (of a score) and h1 (1 where the decision is H1). The decision is the one that a sweep with this
+/// config, seed and number of pilot trials counts.
+#[derive(Debug, Args)]
+pub struct ReplayCommand {
+    #[command(flatten)]
+    simulation: Simulation,
+    /// Which point: its row in points.csv, from 1.
+    #[arg(long, value_name = "P", value_parser = clap::value_parser!(u64).range(1..))]
+    point: u64,
+    /// Which trial, from 0.
+    #[arg(long, value_name = "T")]
+    trial: u64,
+}
+
+impl ReplayCommand {
+    /// Runs the command.
+    pub fn run(self) -> Outcome {
+        let (_, plan) = self.simulation.prepare(Plan::new)?;
+        let (points, trials) = (plan.points.len(), plan.ensemble.trials);
+        if self.point > points as u64 {
+            return Err(Failure::Input(anyhow!(
+                "--point must lie in 1 to {points}, the rows of points.csv, got {}",
+                self.point
+            )));
+        }
+        if self.trial >= trials {
+            return Err(Failure::Input(anyhow!(
+                "--trial must lie in 0 to {}, got {} (raise --trials to look further)",
+                trials - 1,
+                self.trial
+            )));
+        }
+        let alone = plan.of_point(self.point as usize - 1);
+        let decisions = Pilots::new(&alone).and_then(|pilots| pilots.decide(|_| {}));
+        let decision = &decisions.map_err(Failure::input)?[0];
+        let replay = Replay::new(
+            &alone.points[0].scenario,
+            decision,
+            plan.seed,
+            plan.common_random_numbers,
+            self.trial,
+        );
+        print(&csv(&replay.map_err(Failure::input)?, decision))?;
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+fn csv(replay: &Replay, decision: &Decision) -> String {
+    let Replay { samples, lead, .. } = replay;
+    let decimation = samples.decimation();
+    let burn_in = replay.innovations.len() - replay.noise.len();
+    let raw = |i: usize| part(samples, *lead, i / decimation);
+    let mut text = "stage,sample,index,value\n".to_owned();
+    let mut line = |stage: &str, sample: &str, index: usize, value: &dyn std::fmt::Display| {
+        writeln!(text, "{stage},{sample},{index},{value}").expect("a string takes every line");
+    };
+    for (i, value) in replay.innovations.iter().enumerate() {
+        match i.checked_sub(burn_in) {
+            Some(i) => line("innovation", raw(i), i, value),
+            None => line("innovation", "burn-in", i, value),
+        }
+    }
+    for (stage, values) in [
+        ("noise", &replay.noise),
+        ("acceleration", &replay.acceleration),
+        ("impulse", &replay.impulses),
+    ] {
+        for (i, value) in values.iter().enumerate() {
+            line(stage, raw(i), i, value);
+        }
+    }
+    for (i, value) in replay.record.iter().enumerate() {
+        line("record", part(samples, *lead, i), i, value);
+    }
+    for (i, value) in replay.coefficients.iter().enumerate() {
+        line("coefficient", "", i + 1, value);
+    }
+    for (i, value) in replay.whitened.iter().enumerate() {
+        line("whitened", part(samples, 0, i), i, value);
+    }
+    for (i, rank) in replay.ranks.iter().enumerate() {
+        if let Some(rank) = rank {
+            line("rank", part(samples, 0, i), i, rank);
+        }
+    }
+    line("rank_sum", "shift", 0, &replay.statistics.rank_sum);
+    line("exceedances", "scale", 0, &replay.statistics.exceedances);
+    if let Decision::Region { region, .. } = decision {
+        let (lower, upper) = region.critical_values()[replay.statistics.exceedances];
+        for (stage, critical) in [("critical_below", lower), ("critical", upper)] {
+            if let Some(critical) = critical {
+                line(stage, "shift", 0, &critical);
+            }
+        }
+    }
+    if let Some(threshold) = decision.threshold() {
+        line("threshold", "", 0, &threshold);
+    }
+    line("h1", "", 0, &u8::from(replay.is_h1));
+    text
+}
+
+/// Which sample an observation belongs to, where X starts with observation `lead`.
+fn part(samples: &Samples, lead: usize, observation: usize) -> &'static str {
+    let Some(place) = observation.checked_sub(lead) else {
+        return "training";
+    };
+    let named = [
+        (samples.reference_range(), "reference"),
+        (samples.shift_range(), "shift"),
+        (samples.scale_range(), "scale"),
+    ];
+    let found = named.into_iter().find(|(range, _)| range.contains(&place));
+    found.map_or("gap", |(_, name)| name)
+}
