@@ -4,69 +4,93 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use liftsim::config::Config;
-use liftsim::detect::{Alternative, NullLaws, Pooled, Rule, Samples};
+use liftsim::detect::{Alternative, Crossings, Lines, NullLaws, Pooled, Rule, Samples};
+use liftsim::lanes::{LANES, Vectors, Wide};
 use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
 use liftsim::rng::Stream;
 use liftsim::run;
 use liftsim::signal::{Law, Noise, Sensor};
-use liftsim::whiten::{Fit, Fitter, Whitening, whiten};
+use liftsim::whiten::{Fit, Fitter, Whitening};
 use std::hint::black_box;
 
-const RECORD: usize = 72 + 256 + 36;
+const TRAINING: usize = 256;
+const RECORD: usize = TRAINING + 36;
 
-fn kernels(criterion: &mut Criterion) {
+/// Eight trials side by side; divide by eight.
+fn wide(criterion: &mut Criterion) {
     let mut generator = Stream::new(1, "noise", "bench").at(0);
     let noise = Noise::new(Law::Normal).expect("a law");
     let sensor = Sensor::adxl105();
-    let mut record = vec![0.0; RECORD];
+    let mut record = vec![Wide::<LANES>::default(); RECORD];
 
-    // Goal: 4 ns a sample.
-    criterion.bench_function("364 normals", |b| {
+    // Goal: 3 ns a normal, 7 us.
+    criterion.bench_function("8 x 292 normals", |b| {
         b.iter(|| noise.fill(&mut generator, black_box(&mut record)))
     });
 
-    // Goal: 600 ns; the recursion waits for its own last value.
+    // Goal: 800 ns; the recursion waits for its own last value.
     let white = record.clone();
-    criterion.bench_function("colour 364", |b| {
+    criterion.bench_function("colour 8 x 292", |b| {
         b.iter(|| {
             record.copy_from_slice(&white);
-            sensor.colour(black_box(&mut record));
+            Vectors::widest().run(
+                #[inline(always)]
+                || sensor.colour_stationary(black_box(&mut record)),
+            );
         });
     });
 
-    // Goal: 300 ns.
-    let whitening = Whitening::new(2, Fit::LeastSquares, 256, false, 2).expect("a filter");
+    // Goal: 800 ns.
+    let whitening = Whitening::new(2, Fit::LeastSquares, TRAINING, false, 2).expect("a filter");
     let mut fitter = Fitter::new(whitening, &[]);
-    criterion.bench_function("fit order 2 on 256", |b| {
-        b.iter(|| black_box(fitter.fit(black_box(&record[72..328]))[0]));
-    });
-
-    // Goal: 50 ns.
-    let mut whitened = vec![0.0; 36];
-    criterion.bench_function("whiten 36", |b| {
+    criterion.bench_function("fit order 2 on 8 x 256", |b| {
         b.iter(|| {
-            whiten(
-                sensor.ar(),
-                black_box(&record),
-                328,
-                black_box(&mut whitened),
+            Vectors::widest().run(
+                #[inline(always)]
+                || black_box(fitter.fit(black_box(&record[..TRAINING])))[0],
             )
         });
     });
+}
+
+/// One trial.
+fn narrow(criterion: &mut Criterion) {
+    let mut samples = [0.0; 36];
+    let mut generator = Stream::new(1, "noise", "bench").at(1);
+    Noise::new(Law::Normal)
+        .expect("a law")
+        .fill(&mut generator, &mut samples);
 
     // Goal: 100 ns.
     let pooled = Pooled {
-        reference: &whitened[..12],
-        shift: &whitened[12..24],
-        scale: &whitened[24..],
+        reference: &samples[..12],
+        shift: &samples[12..24],
+        scale: &samples[24..],
     };
     criterion.bench_function("W and T at 12/12/12", |b| {
         b.iter(|| black_box(pooled).statistics(|| unreachable!("no ties")));
     });
+
+    // Goal: 600 ns at 31 values of delta, 900 ns at 301.
+    let mut step = [3.287; 12];
+    step[..2].copy_from_slice(&[1.0, 2.5365]);
+    let mut after = [0.0; 12];
+    after[..2].copy_from_slice(&[2.287, 0.751]);
+    for points in [31, 301] {
+        let deltas = (0..points).map(|i| 3.0 * f64::from(i) / f64::from(points - 1));
+        let mut crossings = Crossings::new(Vectors::widest(), deltas.collect());
+        let lines = |base, slope| Lines { base, slope };
+        criterion.bench_function(&format!("crossings along {points} values"), |b| {
+            b.iter(|| {
+                let (shift, scale) = (lines(pooled.shift, &step), lines(pooled.scale, &after));
+                black_box(crossings.count(black_box(pooled.reference), shift, scale)).is_some()
+            });
+        });
+    }
 }
 
-/// Goal: 200 ns a trial and point, all of Fig. 6 in one family.
+/// Goal: 40 ns a trial and point, all of Fig. 6 in one family.
 fn family(criterion: &mut Criterion) {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/configs/fig6.toml");
     let config = Config::load(path.as_ref()).expect("a config");
@@ -94,5 +118,5 @@ fn design(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, kernels, family, design);
+criterion_group!(benches, wide, narrow, family, design);
 criterion_main!(benches);

@@ -71,13 +71,14 @@ impl<const N: usize> Wide<N> {
         Self([value; N])
     }
 
-    /// Lane by lane.
+    /// Lane by lane, in a loop that compilers turn into vectors more readily than the methods of arrays.
     #[inline(always)]
     fn zip(self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
-        Self(std::array::from_fn(
-            #[inline(always)]
-            |lane| operation(self.0[lane], other.0[lane]),
-        ))
+        let mut result = self;
+        for lane in 0..N {
+            result.0[lane] = operation(self.0[lane], other.0[lane]);
+        }
+        result
     }
 
     /// The smaller number of each lane; that of `other` where one is NaN.
@@ -103,19 +104,21 @@ impl<const N: usize> Wide<N> {
     /// Without the signs.
     #[inline(always)]
     pub fn abs(self) -> Self {
-        Self(self.0.map(
+        self.zip(
+            self,
             #[inline(always)]
-            |x| x.abs(),
-        ))
+            |x, _| x.abs(),
+        )
     }
 
     /// The lowest 32 bits of each number.
     #[inline(always)]
     pub fn low_bits(self) -> [u32; N] {
-        self.0.map(
-            #[inline(always)]
-            |x| x.to_bits() as u32,
-        )
+        let mut bits = [0; N];
+        for lane in 0..N {
+            bits[lane] = self.0[lane].to_bits() as u32;
+        }
+        bits
     }
 }
 

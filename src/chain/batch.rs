@@ -7,7 +7,7 @@ use super::family::{Branch, Family, Source};
 use crate::lanes::{LANES, Value, Vectors, Wide};
 use crate::rng::Generator;
 use crate::signal::Digitiser;
-use crate::whiten::{Fitter, whiten};
+use crate::whiten::{Fitter, step};
 use rand::Rng;
 
 /// The noise of one batch of trials, and every branch's view of it.
@@ -138,19 +138,24 @@ fn see(
     whitened: &mut [Wide],
     rest: &mut Rest,
 ) {
-    observe(
-        &branch.digitiser,
-        source.samples.decimation(),
-        record,
-        observed,
-    );
+    let decimation = source.samples.decimation();
+    let observed = match decimation == 1 && branch.digitiser.is_transparent() {
+        true => record,
+        false => {
+            observe(&branch.digitiser, decimation, record, observed);
+            &*observed
+        }
+    };
     let end = match branch.whitening.includes_reference() {
         true => source.rest(),
         false => source.lead,
     };
     let training = &observed[end - branch.whitening.training()..end];
     let coefficients = rest.fitter.fit(training);
-    whiten(coefficients, observed, source.lead, whitened);
+    let order = coefficients.len();
+    for (i, y) in (source.lead..).zip(whitened.iter_mut()) {
+        *y = step(coefficients, &observed[i - order..i], observed[i]);
+    }
     deal(coefficients, &mut rest.coefficients);
     deal(whitened, &mut rest.whitened);
 }
@@ -163,10 +168,6 @@ pub(super) fn observe<V: Value>(
     raw: &[V],
     observed: &mut [V],
 ) {
-    if decimation == 1 && digitiser.is_transparent() {
-        observed.copy_from_slice(&raw[..observed.len()]);
-        return;
-    }
     let scale = digitiser.unit() / decimation as f64;
     for (mean, block) in observed.iter_mut().zip(raw.chunks_exact(decimation)) {
         let mut sum = V::default();

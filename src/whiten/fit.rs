@@ -2,13 +2,13 @@
 
 use super::{Fit, Whitening};
 use crate::lanes::Value;
+use std::ops::Range;
 
 /// Fits coefficients without allocating: a [`Whitening`] with its scratch space.
 #[derive(Clone, Debug)]
 pub struct Fitter<V: Value = f64> {
     whitening: Whitening,
     coefficients: Vec<V>,
-    centred: Vec<V>,
     products: Vec<V>,
     solver: Solver,
 }
@@ -36,7 +36,6 @@ impl<V: Value> Fitter<V> {
         Self {
             whitening,
             coefficients,
-            centred: vec![V::default(); whitening.training],
             products: vec![V::default(); (order + 1) * (order + 1)],
             solver: Solver {
                 coefficients: vec![0.0; order],
@@ -55,44 +54,38 @@ impl<V: Value> Fitter<V> {
         if matches!(self.whitening.fit, Fit::Known | Fit::None) {
             return &self.coefficients;
         }
-        let mut mean = V::default();
-        for x in training {
-            mean = mean + *x;
-        }
+        let mut mean = sum(training);
         let length = training.len() as f64;
         mean.lanes_mut().iter_mut().for_each(|sum| *sum /= length);
-        for (centred, x) in self.centred.iter_mut().zip(training) {
-            *centred = *x - mean;
-        }
         if self.whitening.fit == Fit::LeastSquares {
-            covariances(&self.centred, self.whitening.order, &mut self.products);
+            covariances(training, mean, self.whitening.order, &mut self.products);
         }
-        for lane in 0..V::default().lanes().len() {
-            self.solve(lane);
+        for lane in 0..mean.lanes().len() {
+            self.solve(training, mean, lane);
         }
         &self.coefficients
     }
 
-    fn solve(&mut self, lane: usize) {
+    fn solve(&mut self, training: &[V], mean: V, lane: usize) {
         let solver = &mut self.solver;
-        let take = |from: &[V], to: &mut [f64]| {
-            let values = from.iter().map(|value| value.lanes()[lane]);
-            to.iter_mut()
-                .zip(values)
-                .for_each(|(to, value)| *to = value);
-        };
+        let centred = training
+            .iter()
+            .map(|x| x.lanes()[lane] - mean.lanes()[lane]);
+        let centre =
+            |forward: &mut [f64]| forward.iter_mut().zip(centred).for_each(|(f, x)| *f = x);
         match self.whitening.fit {
             Fit::Known | Fit::None => {}
             Fit::LeastSquares => {
-                take(&self.products, &mut solver.normal);
+                let products = self.products.iter().map(|product| product.lanes()[lane]);
+                (solver.normal.iter_mut().zip(products)).for_each(|(to, product)| *to = product);
                 solver.least_squares();
             }
             Fit::YuleWalker => {
-                take(&self.centred, &mut solver.forward);
+                centre(&mut solver.forward);
                 solver.yule_walker();
             }
             Fit::Burg => {
-                take(&self.centred, &mut solver.forward);
+                centre(&mut solver.forward);
                 solver.burg();
             }
         }
@@ -113,7 +106,7 @@ impl Solver {
         let order = self.coefficients.len();
         let correlation = &mut self.normal[..=order];
         for (lag, r) in correlation.iter_mut().enumerate() {
-            *r = lagged_product(&self.forward, lag, lag..self.forward.len());
+            *r = lagged_product(&self.forward, 0.0, lag, lag..self.forward.len());
         }
         self.coefficients.fill(0.0);
         let mut error = correlation[0];
@@ -165,9 +158,25 @@ fn extend(coefficients: &mut [f64], scratch: &mut [f64], m: usize, reflection: f
     coefficients[m] = reflection;
 }
 
-/// Σ x_i x_{i−lag} over `range`, in four sums that need not wait for each other.
+/// Σ x_i in four sums that need not wait for each other.
 #[inline(always)]
-fn lagged_product<V: Value>(x: &[V], lag: usize, range: std::ops::Range<usize>) -> V {
+fn sum<V: Value>(x: &[V]) -> V {
+    let (fours, rest) = x.as_chunks::<4>();
+    let mut sums = [V::default(); 4];
+    for four in fours {
+        for (sum, x) in sums.iter_mut().zip(four) {
+            *sum = *sum + *x;
+        }
+    }
+    for x in rest {
+        sums[0] = sums[0] + *x;
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
+
+/// Σ (x_i − mean)(x_{i−lag} − mean) over `range`, in four sums that need not wait for each other.
+#[inline(always)]
+fn lagged_product<V: Value>(x: &[V], mean: V, lag: usize, range: Range<usize>) -> V {
     let late = &x[range.clone()];
     let early = &x[range.start - lag..range.end - lag];
     let (late, last) = late.as_chunks::<4>();
@@ -175,11 +184,11 @@ fn lagged_product<V: Value>(x: &[V], lag: usize, range: std::ops::Range<usize>) 
     let mut sums = [V::default(); 4];
     for (late, early) in late.iter().zip(early) {
         for (sum, (a, b)) in sums.iter_mut().zip(late.iter().zip(early)) {
-            *sum = *sum + *a * *b;
+            *sum = *sum + (*a - mean) * (*b - mean);
         }
     }
     for (a, b) in last.iter().zip(first) {
-        sums[0] = sums[0] + *a * *b;
+        sums[0] = sums[0] + (*a - mean) * (*b - mean);
     }
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
@@ -187,13 +196,13 @@ fn lagged_product<V: Value>(x: &[V], lag: usize, range: std::ops::Range<usize>) 
 /// c_jk for j, k = 0…m, row by row. Products of one lag share the middle of the record and differ
 /// only at its ends, so that m + 1 sums over the record serve all of them, and nothing is subtracted.
 #[inline(always)]
-fn covariances<V: Value>(x: &[V], order: usize, products: &mut [V]) {
+fn covariances<V: Value>(x: &[V], mean: V, order: usize, products: &mut [V]) {
     let length = x.len();
     for lag in 0..=order {
-        let middle = lagged_product(x, lag, order..length - order);
+        let middle = lagged_product(x, mean, lag, order..length - order);
         for j in 0..=order - lag {
-            let head = lagged_product(x, lag, order - j..order);
-            let tail = lagged_product(x, lag, length - order..length - j);
+            let head = lagged_product(x, mean, lag, order - j..order);
+            let tail = lagged_product(x, mean, lag, length - order..length - j);
             let sum = head + middle + tail;
             let k = j + lag;
             products[j * (order + 1) + k] = sum;
@@ -321,7 +330,7 @@ mod tests {
         let training = record(&[-1.5365, -0.75056], 60, 3);
         let mean = training.iter().sum::<f64>() / 60.0;
         let x: Vec<f64> = training.iter().map(|x| x - mean).collect();
-        let r = |k: usize| lagged_product(&x, k, k..60);
+        let r = |k: usize| lagged_product(&x, 0.0, k, k..60);
         let a = fit(Fit::YuleWalker, 4, &training);
         for j in 1..=4usize {
             let sum: f64 = (1..=4usize).map(|k| a[k - 1] * r(j.abs_diff(k))).sum();

@@ -162,10 +162,9 @@ pub fn step<V: Value>(coefficients: &[V], past: &[V], sample: V) -> V {
     rest
 }
 
-/// Whitens `record[start..]` into `whitened`; what precedes the record counts as zero. One coefficient
-/// after the other, over all samples: those need not wait for each other.
-#[inline(always)]
-pub fn whiten<V: Value>(coefficients: &[V], record: &[V], start: usize, whitened: &mut [V]) {
+/// Whitens `record[start..]` into `whitened`; what precedes the record counts as zero. The same as one
+/// [`step`] after the other, but one coefficient after the other, over all samples at once.
+pub fn whiten(coefficients: &[f64], record: &[f64], start: usize, whitened: &mut [f64]) {
     let length = whitened.len().min(record.len() - start);
     whitened[..length].copy_from_slice(&record[start..start + length]);
     for (back, a) in (1..).zip(coefficients) {
@@ -173,7 +172,7 @@ pub fn whiten<V: Value>(coefficients: &[V], record: &[V], start: usize, whitened
         let missing = length.min(back - back.min(start));
         let past = &record[start + missing - back.min(start + missing)..];
         for (y, r) in whitened[missing..length].iter_mut().zip(past) {
-            *y = *y - *a * *r;
+            *y -= a * r;
         }
     }
 }
