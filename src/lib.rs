@@ -74,6 +74,7 @@
 #![warn(missing_docs)]
 
 pub mod binomial;
+pub mod campaign;
 pub mod chain;
 pub mod claim;
 pub mod config;
@@ -82,6 +83,7 @@ pub mod ensemble;
 pub mod exhibit;
 pub mod figure;
 pub mod gate;
+pub mod ledger;
 pub mod numeral;
 pub mod pilot;
 pub mod plan;

@@ -87,6 +87,32 @@ impl Plan {
         Self::of(config, |hypothesis| hypothesis == Hypothesis::H0)
     }
 
+    /// The same with some of its points alone.
+    pub fn subset(&self, points: &[usize]) -> Self {
+        let points: Vec<Point> = points.iter().map(|&at| self.points[at].clone()).collect();
+        let ensemble = Ensemble::new(
+            points.iter().map(|point| &point.scenario),
+            self.ensemble.trials,
+            self.seed,
+            Purpose::Results,
+            self.common_random_numbers,
+        );
+        Self {
+            points,
+            ensemble: ensemble.expect("the records fitted in memory with more points"),
+            ..*self
+        }
+    }
+
+    /// Of every point the family it belongs to: points of one family share their noise.
+    pub fn families(&self) -> Vec<usize> {
+        let mut family_of = vec![0; self.points.len()];
+        for (index, family) in self.ensemble.families.iter().enumerate() {
+            family.places().for_each(|place| family_of[place] = index);
+        }
+        family_of
+    }
+
     fn of(config: &Config, wanted: impl Fn(Hypothesis) -> bool) -> Result<Self, ConfigError> {
         let mut designer = Designer::default();
         let mut points: Vec<Point> = Vec::new();

@@ -1,6 +1,10 @@
 //! Runs a plan: what every point decides, counted; and for pairs of points that share their noise, how
 //! often only the one of them decided for H₁.
 
+mod counting;
+
+pub use counting::{Lack, Lacks, Subject, Watch};
+
 use crate::chain::{Decision, Observation};
 use crate::ensemble::Sink;
 use crate::plan::Plan;
@@ -41,10 +45,7 @@ pub fn run(
 
 /// For each family the pairs that lie within it.
 fn pairs_by_family(plan: &Plan, pairs: &[[usize; 2]]) -> Vec<Vec<usize>> {
-    let mut family_of = vec![0; plan.points.len()];
-    for (index, family) in plan.ensemble.families.iter().enumerate() {
-        family.places().for_each(|place| family_of[place] = index);
-    }
+    let family_of = plan.families();
     let mut pairs_of = vec![Vec::new(); plan.ensemble.families.len()];
     for (pair, [first, second]) in pairs.iter().enumerate() {
         if family_of[*first] == family_of[*second] {
