@@ -46,7 +46,8 @@ impl Held {
     fn finished(directory: &Directory) -> Result<Option<Self>, ResultsError> {
         let manifest = directory.manifest()?;
         let origin = Origin::from(&manifest);
-        if let Ok(Experiment::Exhibit(config)) = Experiment::parse(&origin.config_name, &origin.config)
+        if let Ok(Experiment::Exhibit(config)) =
+            Experiment::parse(&origin.config_name, &origin.config)
         {
             return Err(ResultsError::Different {
                 path: directory.path().to_owned(),
@@ -95,7 +96,11 @@ impl Held {
             return Ok(());
         }
         let key = |place: usize| {
-            let Origin { seed, common_random_numbers, .. } = self.state.origin;
+            let Origin {
+                seed,
+                common_random_numbers,
+                ..
+            } = self.state.origin;
             self.rows[place].key(seed, common_random_numbers)
         };
         for (pair, comparison) in pairs.iter().zip(&comparisons) {
@@ -179,7 +184,9 @@ impl Held {
             .or_else(|| differs("it", &shard(&self.state), &shard(here)))
             .or_else(|| differs("trials of a shard", &trials?, &origin.trials))
             .or_else(|| self.odd_point(plan, wanted))
-            .or_else(|| differs("results version", &there.results, &origin.results).filter(|_| !is_finished))
+            .or_else(|| {
+                differs("results version", &there.results, &origin.results).filter(|_| !is_finished)
+            })
     }
 
     /// How a point that is held and not wanted differs from the most similar one that is.
@@ -190,7 +197,11 @@ impl Held {
         if points.all(|(key, _)| known.contains(key)) {
             return None;
         }
-        let Origin { seed, common_random_numbers, .. } = self.state.origin;
+        let Origin {
+            seed,
+            common_random_numbers,
+            ..
+        } = self.state.origin;
         let rows = match self.rows.is_empty() {
             false => self.rows.clone(),
             true => match self.plan() {
@@ -213,12 +224,17 @@ impl Held {
         let mut cells = there.iter().zip(&here);
         let ((name, there), (_, here)) =
             cells.find(|(there, here)| there.1 != here.1 && !is_place(&there.0))?;
-        Some(format!("{name} is {there} there, {here} here, in curve {}", odd.curve))
+        Some(format!(
+            "{name} is {there} there, {here} here, in curve {}",
+            odd.curve
+        ))
     }
 }
 
 fn rows_of(plan: &Plan) -> impl Iterator<Item = Row> + '_ {
-    plan.points.iter().map(|point| Row::new(point, None, NOTHING, 0.5))
+    plan.points
+        .iter()
+        .map(|point| Row::new(point, None, NOTHING, 0.5))
 }
 
 fn rows(plan: &Plan) -> Vec<Row> {

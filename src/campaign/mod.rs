@@ -184,7 +184,10 @@ impl Campaign {
         let plan = self.plan.subset(&needed);
         Some(Rest {
             lacks: Lacks::new(&plan, &lacks),
-            keys: (needed.iter().map(|&place| self.wanted.points[place].clone())).collect(),
+            keys: (needed
+                .iter()
+                .map(|&place| self.wanted.points[place].clone()))
+            .collect(),
             plan,
         })
     }

@@ -39,7 +39,8 @@ impl Check {
             )));
         }
         let (config, plan) = self.simulation.prepare(Plan::at_rest)?;
-        let (decisions, outcome) = progress::simulate(&plan, &Reporter::new(quiet, &self.progress, ""))?;
+        let (decisions, outcome) =
+            progress::simulate(&plan, &Reporter::new(quiet, &self.progress, ""))?;
         let findings = gate::judge(&plan.points, &outcome.tallies, self.nominal);
         print(&report(&config, &plan, &decisions, &findings))?;
         Ok(ExitCode::from(match gate::overall(&findings) {

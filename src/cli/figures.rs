@@ -293,6 +293,10 @@ impl Task<'_> {
         let is_redrawn = held.is_some();
         let (counts, _lock) = campaign.counts();
         let written = sweep::write(directory, config, &counts, held)?;
-        Ok(if is_redrawn { "redrawn" } else { written.note() })
+        Ok(if is_redrawn {
+            "redrawn"
+        } else {
+            written.note()
+        })
     }
 }

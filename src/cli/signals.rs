@@ -80,7 +80,10 @@ impl Flags {
 /// The command that goes on where this one stopped: the same, but not afresh.
 fn same_command() -> String {
     let words = std::env::args().filter(|word| word != "--fresh");
-    words.map(|word| quoted(&word)).collect::<Vec<_>>().join(" ")
+    words
+        .map(|word| quoted(&word))
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 /// As a shell reads it back.

@@ -36,7 +36,14 @@ impl StatusCommand {
             rows.extend(each.map(|shard| row(shard, &Status::of(&Directory::new(shard)))));
         }
         let header = [
-            "directory", "experiment", "shard", "points", "trials", "of", "%", "state",
+            "directory",
+            "experiment",
+            "shard",
+            "points",
+            "trials",
+            "of",
+            "%",
+            "state",
         ];
         print(&table(&header, &rows))?;
         Ok(ExitCode::SUCCESS)
@@ -59,21 +66,37 @@ fn shards(directory: &Path) -> Vec<PathBuf> {
 }
 
 fn row(directory: &Path, status: &Status) -> Vec<String> {
-    let Status { points, done, wanted, .. } = status;
+    let Status {
+        points,
+        done,
+        wanted,
+        ..
+    } = status;
     let numbers = match status.experiment {
         Some(_) => {
             let percent = match wanted {
                 0 => 100.0,
                 _ => *done as f64 / *wanted as f64 * 100.0,
             };
-            [points.to_string(), done.to_string(), wanted.to_string(), format!("{percent:.1}")]
+            [
+                points.to_string(),
+                done.to_string(),
+                wanted.to_string(),
+                format!("{percent:.1}"),
+            ]
         }
         None => [const { String::new() }; 4],
     };
-    let shard = status.shard.map_or(String::new(), |shard| shard.to_string());
-    [directory.display().to_string(), status.experiment.clone().unwrap_or_default(), shard]
-        .into_iter()
-        .chain(numbers)
-        .chain([status.state.name().to_owned()])
-        .collect()
+    let shard = status
+        .shard
+        .map_or(String::new(), |shard| shard.to_string());
+    [
+        directory.display().to_string(),
+        status.experiment.clone().unwrap_or_default(),
+        shard,
+    ]
+    .into_iter()
+    .chain(numbers)
+    .chain([status.state.name().to_owned()])
+    .collect()
 }

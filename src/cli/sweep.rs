@@ -67,8 +67,8 @@ impl Sweep {
             true => Terms::Fresh,
             false => Terms::Continue,
         };
-        let mut campaign = Campaign::open(&config, plan, directory, self.shard, terms)
-            .map_err(Failure::input)?;
+        let mut campaign =
+            Campaign::open(&config, plan, directory, self.shard, terms).map_err(Failure::input)?;
         let reporter = Reporter::new(quiet, &self.progress, "");
         progress::work_off(&mut campaign, &reporter)?;
         print(&finish(&config, campaign, self.shard)?)?;
@@ -95,7 +95,9 @@ pub(super) fn finish(
     let directory = campaign.directory().clone();
     if let Some(shard) = shard {
         let counts = line(&directory, "counts.json", true);
-        return Ok(format!("shard {shard}: {points} points of {trials} trials\n{counts}"));
+        return Ok(format!(
+            "shard {shard}: {points} points of {trials} trials\n{counts}"
+        ));
     }
     let held = campaign.made_by().cloned();
     if let Some(held) = &held

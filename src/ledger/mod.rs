@@ -26,7 +26,12 @@ impl Key {
     pub fn of(text: &str) -> Self {
         // 96 bits: a billion counters collide with a probability of 1e-11.
         let hash = Sha256::digest(text.as_bytes());
-        Self(hash[..12].iter().map(|byte| format!("{byte:02x}")).collect())
+        Self(
+            hash[..12]
+                .iter()
+                .map(|byte| format!("{byte:02x}"))
+                .collect(),
+        )
     }
 
     /// The key of two counters compared trial by trial.
@@ -99,7 +104,8 @@ impl Ledger {
     pub fn expect(&mut self, key: &Key, counts: usize) {
         if !self.counters.contains_key(key) {
             let (trials, counts) = (Ranges::default(), vec![0; counts]);
-            self.counters.insert(key.clone(), Counter { trials, counts });
+            self.counters
+                .insert(key.clone(), Counter { trials, counts });
         }
     }
 

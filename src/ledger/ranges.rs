@@ -100,7 +100,10 @@ impl From<Range<u64>> for Ranges {
 
 impl From<Ranges> for Vec<[u64; 2]> {
     fn from(ranges: Ranges) -> Self {
-        ranges.iter().map(|range| [range.start, range.end]).collect()
+        ranges
+            .iter()
+            .map(|range| [range.start, range.end])
+            .collect()
     }
 }
 
@@ -125,8 +128,11 @@ mod tests {
     const MOST: u64 = 60;
 
     fn stretches() -> impl Strategy<Value = Vec<Range<u64>>> {
-        proptest::collection::vec((0..MOST, 0..12u64), 0..12)
-            .prop_map(|all| all.into_iter().map(|(from, len)| from..from + len).collect())
+        proptest::collection::vec((0..MOST, 0..12u64), 0..12).prop_map(|all| {
+            all.into_iter()
+                .map(|(from, len)| from..from + len)
+                .collect()
+        })
     }
 
     /// Adds what can be added, in ranges and in a plain set.

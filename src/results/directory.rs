@@ -264,7 +264,9 @@ impl Directory {
             return Ok(false);
         }
         let replaced = self.replace(name, bytes);
-        replaced.map(|()| true).map_err(|error| self.unwritable(error))
+        replaced
+            .map(|()| true)
+            .map_err(|error| self.unwritable(error))
     }
 
     /// Puts a file in the place of another. The temporary name is always the same, so that a process that

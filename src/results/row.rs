@@ -148,9 +148,8 @@ impl Row {
     /// What the counts here are known by: every parameter that they depend on, which its place among
     /// the curves is none of.
     pub fn key(&self, seed: u64, common_random_numbers: bool) -> Key {
-        let mut text = format!(
-            "results {RESULTS} seed {seed} common_random_numbers {common_random_numbers}"
-        );
+        let mut text =
+            format!("results {RESULTS} seed {seed} common_random_numbers {common_random_numbers}");
         for (name, value) in self.parameters() {
             if name != "curve" && name != "hypothesis" {
                 text += &format!(" {name} {value}");

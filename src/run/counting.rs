@@ -231,9 +231,14 @@ mod tests {
     #[test]
     fn stretches_are_cut_at_multiples_of_the_block() {
         let stretch = 1000..3 * BLOCK + 1;
-        let pieces: Vec<_> = (0..blocks(&stretch)).map(|i| block_of(&stretch, i)).collect();
+        let pieces: Vec<_> = (0..blocks(&stretch))
+            .map(|i| block_of(&stretch, i))
+            .collect();
         let (first, last) = (1000..BLOCK, 3 * BLOCK..3 * BLOCK + 1);
-        assert_eq!(pieces, [first, BLOCK..2 * BLOCK, 2 * BLOCK..3 * BLOCK, last]);
+        assert_eq!(
+            pieces,
+            [first, BLOCK..2 * BLOCK, 2 * BLOCK..3 * BLOCK, last]
+        );
         assert_eq!(blocks(&(5..5)), 0, "no trials have no block");
     }
 }

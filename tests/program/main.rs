@@ -6,6 +6,8 @@ mod exhibits;
 mod figures;
 mod gate;
 mod results;
+mod shards;
+mod survival;
 
 use assert_cmd::Command;
 use std::path::{Path, PathBuf};
