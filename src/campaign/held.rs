@@ -1,6 +1,7 @@
 //! What a directory holds, as counts; and whether they are those of an experiment.
 
-use super::{NOTHING, Terms, Wanted};
+use super::wanted::Wanted;
+use super::{NOTHING, Terms};
 use crate::claim;
 use crate::config::{Config, Experiment};
 use crate::ledger::{Key, Ledger};
@@ -218,7 +219,13 @@ impl Held {
             let here = row.parameters();
             there.iter().zip(&here).filter(|(a, b)| a.1 != b.1).count()
         };
-        let nearest = rows_of(plan).min_by_key(|row| (distance(row), row.curve != odd.curve))?;
+        // What is here and there is no counterpart of it.
+        let is_new = |row: &Row| {
+            let key = row.key(seed, common_random_numbers);
+            self.state.counters.get(&key).is_none()
+        };
+        let nearest = rows_of(plan)
+            .min_by_key(|row| (!is_new(row), distance(row), row.curve != odd.curve))?;
         let is_place = |name: &str| ["curve", "hypothesis"].contains(&name);
         let here = nearest.parameters();
         let mut cells = there.iter().zip(&here);

@@ -169,7 +169,7 @@ impl Joined {
         campaign.made_by = None;
         campaign.state = self.state;
         campaign.wanted.expect_in(&mut campaign.state.counters);
-        campaign.directory.save(&campaign.state)?;
+        campaign.save()?;
         Ok((config, campaign))
     }
 }

@@ -8,7 +8,9 @@
 mod counts;
 mod held;
 mod merge;
+mod saver;
 mod status;
+mod wanted;
 
 pub use counts::Counts;
 pub use merge::{Joined, MergeError, Missing, join};
@@ -20,13 +22,15 @@ use crate::config::Config;
 use crate::ledger::{Key, Ledger};
 use crate::plan::Plan;
 use crate::results::{Checkpoint, Directory, Lock, Manifest, Origin, ResultsError, Row, Shard};
-use crate::run::{Lack, Lacks, Subject, Watch};
+use crate::run::{Lacks, Subject};
 use crate::tally::Tally;
 use held::Held;
+use saver::Saver;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
+use wanted::{Compared, Wanted};
 
 /// What becomes of what a directory holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,26 +56,6 @@ pub struct Campaign {
     /// What made the results that all counts come from, as long as nothing is added to them.
     made_by: Option<Manifest>,
     lock: Lock,
-}
-
-/// The counters of a plan.
-#[derive(Clone, Debug)]
-struct Wanted {
-    /// Of every point.
-    points: Vec<Key>,
-    /// Of every pair.
-    pairs: Vec<Compared>,
-}
-
-/// How two points are compared.
-#[derive(Clone, Debug)]
-enum Compared {
-    /// They are the same and never differ.
-    Itself,
-    /// By the trials of the noise they share.
-    Paired(Key, [usize; 2]),
-    /// By their rates alone.
-    Apart,
 }
 
 /// What is still to be simulated.
@@ -235,6 +219,14 @@ impl Campaign {
         Ok(self.wanted.lacks(&self.state).is_empty())
     }
 
+    /// Saves the counts, be they none.
+    ///
+    /// # Errors
+    /// Where they cannot be written.
+    pub fn save(&self) -> Result<(), ResultsError> {
+        self.directory.save(&self.state)
+    }
+
     /// What it all came to, and the lock under which it can be written.
     ///
     /// # Panics
@@ -272,101 +264,5 @@ impl Rest {
     }
 }
 
-impl Wanted {
-    fn new(plan: &Plan, pairs: &[Pair]) -> Self {
-        let key = |row: &Row| row.key(plan.seed, plan.common_random_numbers);
-        let rows = plan.points.iter().map(|p| Row::new(p, None, NOTHING, 0.5));
-        let points: Vec<Key> = rows.map(|row| key(&row)).collect();
-        let family_of = plan.families();
-        let compared = |pair: &Pair| {
-            let places = [pair.first, pair.second];
-            let keys = places.map(|place| &points[place]);
-            let [first, second] = places.map(|place| family_of[place]);
-            match (keys[0] == keys[1], first == second) {
-                (true, _) => Compared::Itself,
-                (_, true) => Compared::Paired(Key::pair(keys), places),
-                _ => Compared::Apart,
-            }
-        };
-        Self {
-            pairs: pairs.iter().map(compared).collect(),
-            points,
-        }
-    }
-
-    /// Every counter once, and what it counts.
-    fn subjects(&self) -> BTreeMap<&Key, Subject> {
-        let points = self.points.iter().enumerate();
-        let points = points.map(|(place, key)| (key, Subject::Point(place)));
-        let pairs = self.pairs.iter().filter_map(|pair| match pair {
-            Compared::Paired(key, places) => Some((key, Subject::Pair(*places))),
-            Compared::Itself | Compared::Apart => None,
-        });
-        points.chain(pairs).collect()
-    }
-
-    /// What is not counted yet.
-    fn lacks(&self, state: &Checkpoint) -> Vec<Lack> {
-        let lack = |(key, subject): (&Key, Subject)| Lack {
-            trials: state.counters.missing(key, state.wanted()),
-            key: key.clone(),
-            subject,
-        };
-        let lacks = self.subjects().into_iter().map(lack);
-        lacks.filter(|lack| !lack.trials.is_empty()).collect()
-    }
-
-    /// Enters every counter, so that a ledger tells how much there is to do.
-    fn expect_in(&self, ledger: &mut Ledger) {
-        for (key, subject) in self.subjects() {
-            ledger.expect(key, subject.counts());
-        }
-    }
-}
-
 const NOTHING: Tally = Tally { hits: 0, trials: 1 };
 const NO_PANIC: &str = "nobody panics with the lock";
-
-/// Saves a run while it goes on.
-struct Saver<'a, W> {
-    directory: &'a Directory,
-    /// All but the counters.
-    state: &'a Checkpoint,
-    start: Instant,
-    period: Duration,
-    last: Mutex<Instant>,
-    failed: AtomicBool,
-    error: Mutex<Option<ResultsError>>,
-    witness: &'a W,
-}
-
-impl<W: Witness> Watch for Saver<'_, W> {
-    fn counted(&self, work: u64, ledger: &Mutex<Ledger>) {
-        self.witness.counted(work);
-        // Whoever finds another at it goes on simulating.
-        let Ok(mut last) = self.last.try_lock() else {
-            return;
-        };
-        if last.elapsed() < self.period || self.failed.load(Ordering::Relaxed) {
-            return;
-        }
-        let counters = ledger.lock().expect(NO_PANIC).clone();
-        let saved = self.directory.save(&Checkpoint {
-            counters,
-            seconds: self.state.seconds + self.start.elapsed().as_secs_f64(),
-            ..self.state.clone()
-        });
-        *last = Instant::now();
-        match saved {
-            Ok(()) => self.witness.saved(),
-            Err(error) => {
-                *self.error.lock().expect(NO_PANIC) = Some(error);
-                self.failed.store(true, Ordering::Relaxed);
-            }
-        }
-    }
-
-    fn is_stopped(&self) -> bool {
-        self.failed.load(Ordering::Relaxed) || self.witness.is_stopped()
-    }
-}

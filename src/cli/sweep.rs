@@ -94,7 +94,12 @@ pub(super) fn finish(
     let (points, trials) = (campaign.plan().points.len(), campaign.trials());
     let directory = campaign.directory().clone();
     if let Some(shard) = shard {
-        let counts = line(&directory, "counts.json", true);
+        // A share of no trials is one, too.
+        let is_new = !directory.has_counts();
+        if is_new {
+            campaign.save().map_err(Failure::run)?;
+        }
+        let counts = line(&directory, "counts.json", is_new);
         return Ok(format!(
             "shard {shard}: {points} points of {trials} trials\n{counts}"
         ));

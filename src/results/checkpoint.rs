@@ -135,7 +135,7 @@ mod tests {
             for number in 1..=count {
                 let share = Shard { number, count }.trials(trials);
                 prop_assert_eq!(share.start, next);
-                prop_assert!(share.end % BLOCK == 0 || share.end == trials);
+                prop_assert!(share.end.is_multiple_of(BLOCK) || share.end == trials);
                 next = share.end;
             }
             prop_assert_eq!(next, trials);
