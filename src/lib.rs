@@ -33,14 +33,14 @@
 //! | floor | modules |
 //! |---|---|
 //! | 0 | [`rng`]: coordinates → generator · [`binomial`]: exact tails · [`numeral`]: numbers in print · [`lanes`]: trials side by side |
-//! | 1 | [`tally`]: counts and what may be concluded from them |
+//! | 1 | [`tally`]: counts and what may be concluded from them · [`ledger`]: which trials have been counted |
 //! | 2 | [`signal`]: sensor, noise, impulses, motion · [`whiten`]: filters · [`detect`]: W, T, their laws, regions |
 //! | 3 | [`chain`]: one trial, every stage |
 //! | 4 | [`config`]: what the author wrote · [`ensemble`]: blocks of trials in parallel |
 //! | 5 | [`plan`]: what it comes to |
 //! | 6 | [`pilot`]: decisions that no law gives · [`run`]: counts · [`gate`]: the false-alarm test · [`results`]: files |
 //! | 7 | [`exhibit`]: experiments that are no sweep · [`claim`]: verdicts |
-//! | 8 | [`figure`]: pictures · [`report`]: the report |
+//! | 8 | [`figure`]: pictures · [`report`]: the report · [`campaign`]: what a directory holds, lacks and comes to |
 //!
 //! # Laws
 //! - A trial cannot fail: what can go wrong goes wrong when the plan is made.
@@ -74,6 +74,7 @@
 #![warn(missing_docs)]
 
 pub mod binomial;
+pub mod campaign;
 pub mod chain;
 pub mod claim;
 pub mod config;
@@ -83,6 +84,7 @@ pub mod exhibit;
 pub mod figure;
 pub mod gate;
 pub mod lanes;
+pub mod ledger;
 pub mod numeral;
 pub mod pilot;
 pub mod plan;

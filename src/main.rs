@@ -11,6 +11,10 @@ fn main() -> ExitCode {
         Ok(code) => code,
         Err(Failure::Input(error)) => report(&error, 2),
         Err(Failure::Run(error)) => report(&error, 1),
+        Err(Failure::Stopped { code, message }) => {
+            eprintln!("{message}");
+            ExitCode::from(code)
+        }
     }
 }
 

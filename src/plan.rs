@@ -87,24 +87,30 @@ impl Plan {
         Self::of(config, |hypothesis| hypothesis == Hypothesis::H0)
     }
 
-    /// The same experiment with one of its points alone, whose draws are what they were.
-    ///
-    /// # Panics
-    /// Where there is no such point.
-    pub fn of_point(&self, index: usize) -> Self {
-        let point = self.points[index].clone();
+    /// The same with some of its points alone.
+    pub fn subset(&self, points: &[usize]) -> Self {
+        let points: Vec<Point> = points.iter().map(|&at| self.points[at].clone()).collect();
         let ensemble = Ensemble::new(
-            [&point.scenario],
+            points.iter().map(|point| &point.scenario),
             self.ensemble.trials,
             self.seed,
             Purpose::Results,
             self.common_random_numbers,
         );
         Self {
-            points: vec![point],
-            ensemble: ensemble.expect("it fits in memory beside others"),
+            points,
+            ensemble: ensemble.expect("the records fitted in memory with more points"),
             ..*self
         }
+    }
+
+    /// Of every point the family it belongs to: points of one family share their noise.
+    pub fn families(&self) -> Vec<usize> {
+        let mut family_of = vec![0; self.points.len()];
+        for (index, family) in self.ensemble.families.iter().enumerate() {
+            family.places().for_each(|place| family_of[place] = index);
+        }
+        family_of
     }
 
     fn of(config: &Config, wanted: impl Fn(Hypothesis) -> bool) -> Result<Self, ConfigError> {

@@ -7,14 +7,14 @@ use std::path::{Path, PathBuf};
 /// Each module of the library and its floor.
 const FLOORS: [&[&str]; 9] = [
     &["rng", "binomial", "numeral", "lanes"],
-    &["tally"],
+    &["tally", "ledger"],
     &["signal", "whiten", "detect"],
     &["chain"],
     &["config", "ensemble"],
     &["plan"],
     &["pilot", "run", "gate", "results"],
     &["exhibit", "claim"],
-    &["figure", "report"],
+    &["figure", "report", "campaign"],
 ];
 
 fn source() -> PathBuf {

@@ -1,6 +1,7 @@
 //! `liftsim check CONFIG`: the false-alarm gate.
 
-use super::{Failure, Outcome, Simulation, print, progress, table};
+use super::progress::{self, Progress, Reporter};
+use super::{Failure, Outcome, Simulation, print, table};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::chain::Decision;
@@ -23,6 +24,8 @@ pub struct Check {
     /// Test against this rate, while the regions keep the config's alpha.
     #[arg(long, value_name = "A")]
     nominal: Option<f64>,
+    #[command(flatten)]
+    progress: Progress,
 }
 
 impl Check {
@@ -36,7 +39,8 @@ impl Check {
             )));
         }
         let (config, plan) = self.simulation.prepare(Plan::at_rest)?;
-        let (decisions, outcome) = progress::simulate(&plan, &[], "", quiet)?;
+        let (decisions, outcome) =
+            progress::simulate(&plan, &Reporter::new(quiet, &self.progress, ""))?;
         let findings = gate::judge(&plan.points, &outcome.tallies, self.nominal);
         print(&report(&config, &plan, &decisions, &findings))?;
         Ok(ExitCode::from(match gate::overall(&findings) {

@@ -1,17 +1,18 @@
 //! Experiments that are no sweep: computed and written, or drawn again from what was written.
 
-use super::store::{Origin, Written, file_name, manifest, write_all};
+use super::store::{Written, manifest, write_all};
 use super::{Failure, Outcome, print, table};
 use liftsim::config::ExhibitConfig;
 use liftsim::exhibit::{self, Exhibit, Rows, independence};
 use liftsim::figure::{self, Drawing};
 use liftsim::report::Section;
-use liftsim::results::{self, Directory, Manifest};
+use liftsim::results::{self, Directory, Manifest, Origin, file_name};
 use std::process::ExitCode;
 use std::time::Instant;
 
 /// Computes an exhibit and writes it into `directory`, unless that holds something else.
 pub fn run(config: &ExhibitConfig, directory: &Directory, fresh: bool) -> Outcome {
+    let _lock = directory.lock().map_err(Failure::input)?;
     (directory.admit_exhibit(config, fresh)).map_err(Failure::input)?;
     rehearse(config)?;
     let (made, seconds) = compute(config)?;

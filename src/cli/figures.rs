@@ -1,15 +1,14 @@
 //! `liftsim figures`: every config's results, and the report on all of them.
 
-use super::store::{self, Origin};
-use super::sweep::{self, Counts};
-use super::{Failure, Outcome, exhibit, print, table};
+use super::progress::{self, Progress, Reporter};
+use super::{Failure, Outcome, exhibit, print, store, sweep, table};
 use anyhow::anyhow;
 use clap::Args;
-use liftsim::claim;
+use liftsim::campaign::{Campaign, Terms};
 use liftsim::config::{Config, ExhibitConfig, Experiment};
 use liftsim::plan::Plan;
 use liftsim::report::{self, Section};
-use liftsim::results::{Comparison, Directory, Manifest, RESULTS};
+use liftsim::results::{Directory, Lock, Manifest, Origin};
 use liftsim::tally::MOST_TRIALS;
 use std::ffi::OsStr;
 use std::fs;
@@ -40,6 +39,8 @@ pub struct Figures {
     /// Simulate again what is complete, too, and replace whatever stands in its place.
     #[arg(long)]
     fresh: bool,
+    #[command(flatten)]
+    progress: Progress,
 }
 
 /// An experiment and where its results go.
@@ -51,13 +52,8 @@ struct Entry {
 
 /// An experiment that must be written, ready to run.
 enum Task<'a> {
-    Sweep {
-        config: &'a Config,
-        plan: Box<Plan>,
-        /// Counts of the same plan, and how they came about.
-        held: Option<Box<(Counts, Manifest)>>,
-    },
-    Exhibit(&'a ExhibitConfig),
+    Sweep(&'a Config, Box<Campaign>),
+    Exhibit(&'a ExhibitConfig, Lock),
 }
 
 impl Figures {
@@ -82,7 +78,8 @@ impl Figures {
             done += 1;
             let start = Instant::now();
             let prefix = format!("{} ({done} of {work})  ", entry.name);
-            let note = task.run(&entry.directory, &prefix, quiet)?;
+            let reporter = Reporter::new(quiet, &self.progress, &prefix);
+            let note = task.run(&entry.directory, &reporter)?;
             let seconds = format!("{:.1}", start.elapsed().as_secs_f64());
             lines.push(vec![entry.name.clone(), note.into(), seconds]);
         }
@@ -137,27 +134,32 @@ impl Figures {
         if !self.fresh && entry.complete().is_some() {
             return Ok(None);
         }
-        let directory = &entry.directory;
-        if self.fresh {
-            directory.check_writable().map_err(Failure::input)?;
-        } else {
-            directory.admit_any().map_err(Failure::input)?;
+        if !self.fresh {
             self.check_trials(entry)?;
         }
-        let config = match &entry.experiment {
-            Experiment::Sweep(config) => config,
-            Experiment::Exhibit(config) => {
-                exhibit::rehearse(config)?;
-                return Ok(Some(Task::Exhibit(config)));
+        let directory = &entry.directory;
+        match &entry.experiment {
+            Experiment::Sweep(config) => {
+                let plan = Plan::new(config).map_err(Failure::input)?;
+                sweep::rehearse(config, &plan)?;
+                let terms = match self.fresh {
+                    true => Terms::Fresh,
+                    false => Terms::Adopt,
+                };
+                let campaign = Campaign::open(config, plan, directory.clone(), None, terms);
+                let campaign = campaign.map_err(Failure::input)?;
+                Ok(Some(Task::Sweep(config, Box::new(campaign))))
             }
-        };
-        let plan = Box::new(Plan::new(config).map_err(Failure::input)?);
-        sweep::rehearse(config, &plan)?;
-        let held = entry
-            .held(config, &plan)
-            .filter(|_| !self.fresh)
-            .map(Box::new);
-        Ok(Some(Task::Sweep { config, plan, held }))
+            Experiment::Exhibit(config) => {
+                let lock = directory.lock().map_err(Failure::input)?;
+                directory.check_writable().map_err(Failure::input)?;
+                if !self.fresh {
+                    directory.admit_any().map_err(Failure::input)?;
+                }
+                exhibit::rehearse(config)?;
+                Ok(Some(Task::Exhibit(config, lock)))
+            }
+        }
     }
 
     /// A quick look, or a config cut short, must not cost a long run.
@@ -200,6 +202,7 @@ impl Figures {
         // A config directory may say what the report is about.
         let preface = fs::read_to_string(self.configs.join("preface.md")).unwrap_or_default();
         let text = report::markdown(sections, &configs, &preface).map_err(Failure::input)?;
+        let _lock = directory.lock().map_err(Failure::input)?;
         let is_new = directory.write("README.md", &text).map_err(Failure::run)?;
         print(&store::line(&directory, "README.md", is_new))
     }
@@ -233,7 +236,7 @@ fn in_short(names: &[&str]) -> String {
 }
 
 impl Entry {
-    fn origin(&self) -> Origin<'_> {
+    fn origin(&self) -> Origin {
         match &self.experiment {
             Experiment::Sweep(config) => Origin::from(&**config),
             Experiment::Exhibit(config) => Origin::from(&**config),
@@ -243,47 +246,10 @@ impl Entry {
     /// What made the results here, if they are those of this config, whole.
     fn complete(&self) -> Option<Manifest> {
         let manifest = self.directory.manifest().ok()?;
-        let is_complete = self.origin().made(&manifest) && self.directory.is_intact(&manifest);
+        let is_complete = self.origin().made(&manifest)
+            && self.directory.is_intact(&manifest)
+            && !self.directory.has_counts();
         is_complete.then_some(manifest)
-    }
-
-    /// Counts of the same plan, if the directory has them with every comparison that is wanted.
-    fn held(&self, config: &Config, plan: &Plan) -> Option<(Counts, Manifest)> {
-        let manifest = self.directory.manifest().ok()?;
-        if manifest.results != RESULTS {
-            return None;
-        }
-        let rows = self.directory.rows_of(plan, &manifest)?;
-        let before = Config::parse(&manifest.config_name, &manifest.config).ok()?;
-        let compared = claim::pairs(&before, &plan.points);
-        let comparisons = self.directory.comparisons(&manifest).ok()?;
-        if compared.len() != comparisons.len() {
-            return None;
-        }
-        let discordant = |comparison: &Comparison| {
-            let Comparison {
-                first_only,
-                second_only,
-                ..
-            } = comparison;
-            first_only.zip(*second_only).map(|(a, b)| [a, b])
-        };
-        let pairs = claim::pairs(config, &plan.points);
-        let find = |pair: &claim::Pair| {
-            let is_same =
-                |other: &claim::Pair| (other.first, other.second) == (pair.first, pair.second);
-            let index = compared.iter().position(is_same)?;
-            Some(discordant(&comparisons[index]))
-        };
-        let counts = Counts {
-            rows: (rows.iter().zip(&plan.points))
-                .map(|(row, point)| row.told_again(point, config.confidence))
-                .collect(),
-            discordant: pairs.iter().map(find).collect::<Option<_>>()?,
-            pairs,
-            seconds: manifest.seconds,
-        };
-        Some((counts, manifest))
     }
 
     /// For the report, from the files.
@@ -313,36 +279,24 @@ impl Entry {
 }
 
 impl Task<'_> {
-    /// Simulates and writes, or only writes where the counts are there.
-    fn run(
-        self,
-        directory: &Directory,
-        prefix: &str,
-        quiet: bool,
-    ) -> Result<&'static str, Failure> {
-        let written = match self {
-            Self::Exhibit(config) => {
+    /// Simulates what is missing, and writes.
+    fn run(self, directory: &Directory, reporter: &Reporter) -> Result<&'static str, Failure> {
+        let (config, mut campaign) = match self {
+            Self::Sweep(config, campaign) => (config, *campaign),
+            Self::Exhibit(config, _lock) => {
                 let (made, seconds) = exhibit::compute(config)?;
-                exhibit::write(directory, config, &made, seconds)?
-            }
-            Self::Sweep { config, plan, held } => {
-                let Some((counts, held)) = held.map(|held| *held) else {
-                    let counts = Counts::simulate(config, &plan, prefix, quiet)?;
-                    let manifest = store::manifest(&Origin::from(config), counts.seconds);
-                    let written = sweep::write(directory, config, &counts, manifest)?;
-                    return Ok(written.note());
-                };
-                // The counts are as old as they were.
-                let manifest = Manifest {
-                    revision: held.revision,
-                    threads: held.threads,
-                    architecture: held.architecture,
-                    ..store::manifest(&Origin::from(config), counts.seconds)
-                };
-                sweep::write(directory, config, &counts, manifest)?;
-                return Ok("redrawn");
+                return Ok(exhibit::write(directory, config, &made, seconds)?.note());
             }
         };
-        Ok(written.note())
+        progress::work_off(&mut campaign, reporter)?;
+        let held = campaign.made_by().cloned();
+        let is_redrawn = held.is_some();
+        let (counts, _lock) = campaign.counts();
+        let written = sweep::write(directory, config, &counts, held)?;
+        Ok(if is_redrawn {
+            "redrawn"
+        } else {
+            written.note()
+        })
     }
 }

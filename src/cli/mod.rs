@@ -6,10 +6,13 @@ mod completions;
 mod exhibit;
 mod figures;
 mod man;
+mod merge;
 mod plan;
 mod plot;
 mod progress;
 mod replay;
+mod signals;
+mod status;
 mod store;
 mod sweep;
 mod threshold;
@@ -31,7 +34,7 @@ use std::process::ExitCode;
 #[command(version, propagate_version = true, arg_required_else_help = true)]
 #[command(after_help = "Start with: liftsim sweep configs/fig6.toml\n\n\
     Exit codes: 0 done; 1 a run failed, or a gate did not hold; 2 bad usage, config or input; \
-    3 a gate was inconclusive.")]
+    3 a gate was inconclusive; 130 stopped by Ctrl-C, 143 by SIGTERM.")]
 pub struct Arguments {
     /// Show no progress.
     #[arg(long, short, global = true)]
@@ -43,6 +46,8 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Sweep(sweep::Sweep),
+    Merge(merge::Merge),
+    Status(status::StatusCommand),
     Plot(plot::Plot),
     Check(check::Check),
     Figures(figures::Figures),
@@ -59,6 +64,13 @@ pub enum Failure {
     Input(anyhow::Error),
     /// The run itself failed: exit 1.
     Run(anyhow::Error),
+    /// A signal stopped it: that of the shell for the signal.
+    Stopped {
+        /// The exit code.
+        code: u8,
+        /// How to go on.
+        message: String,
+    },
 }
 
 /// What a verb comes to.
@@ -79,6 +91,8 @@ impl Arguments {
     pub fn run(self) -> Outcome {
         match self.command {
             Command::Sweep(verb) => verb.run(self.quiet),
+            Command::Merge(verb) => verb.run(),
+            Command::Status(verb) => verb.run(),
             Command::Plot(verb) => verb.run(),
             Command::Check(verb) => verb.run(self.quiet),
             Command::Figures(verb) => verb.run(self.quiet),

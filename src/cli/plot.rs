@@ -20,6 +20,8 @@ impl Plot {
     /// Runs the command.
     pub fn run(self) -> Outcome {
         let directory = Directory::new(self.directory);
+        directory.manifest().map_err(Failure::input)?;
+        let _lock = directory.lock().map_err(Failure::input)?;
         let mut manifest = directory.manifest().map_err(Failure::input)?;
         let experiment =
             Experiment::parse(&manifest.config_name, &manifest.config).map_err(Failure::input)?;

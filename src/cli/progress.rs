@@ -1,35 +1,196 @@
-//! Simulation with a bar on standard error: done, time left. Off a terminal it stays silent.
+//! Simulation, and what is to be seen of it on standard error: a bar on a terminal, lines of JSON for
+//! machines, or nothing.
 
 use super::Failure;
+use super::signals::Signals;
+use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use liftsim::campaign::{Campaign, Witness};
 use liftsim::chain::Decision;
 use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
 use liftsim::run::{self, Outcome};
+use serde_json::json;
 use std::fmt::Write;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 
-/// Runs the plan's pilots, then the plan itself. `prefix` stands before the bar.
-pub fn simulate(
-    plan: &Plan,
-    pairs: &[[usize; 2]],
-    prefix: &str,
-    quiet: bool,
-) -> Result<(Vec<Decision>, Outcome), Failure> {
-    let pilots = Pilots::new(plan).map_err(Failure::input)?;
-    let pilot_bar = bar(prefix, "pilots", pilots.work(), plan.pilot, quiet);
-    let decisions = pilots.decide(|work| pilot_bar.inc(work));
-    pilot_bar.finish_and_clear();
-    let decisions = decisions.map_err(Failure::input)?;
+/// How progress is shown.
+#[derive(Debug, Args)]
+pub struct Progress {
+    /// Say how far it is in lines of JSON on standard error, for machines.
+    #[arg(long)]
+    json: bool,
+}
 
+/// Tells somebody how a run gets on.
+pub struct Reporter {
+    is_json: bool,
+    is_bar: bool,
+    /// Stands before the bar.
+    prefix: String,
+}
+
+impl Reporter {
+    /// As the command line has it.
+    pub fn new(quiet: bool, progress: &Progress, prefix: &str) -> Self {
+        Self {
+            is_json: progress.json && !quiet,
+            is_bar: !progress.json && !quiet,
+            prefix: prefix.to_owned(),
+        }
+    }
+
+    /// An event for machines.
+    fn say(&self, event: &serde_json::Value) {
+        if self.is_json {
+            eprintln!("{event}");
+        }
+    }
+
+    /// `work` trial-points are to be done, `trials` of each.
+    fn stage(&self, name: &'static str, work: u64, trials: u64) -> Stage<'_> {
+        let now = Instant::now();
+        Stage {
+            reporter: self,
+            bar: bar(&self.prefix, name, work, trials, self.is_bar),
+            name,
+            work,
+            done: AtomicU64::new(0),
+            start: now,
+            last: Mutex::new(now),
+        }
+    }
+}
+
+/// One part of a run.
+struct Stage<'a> {
+    reporter: &'a Reporter,
+    bar: ProgressBar,
+    name: &'static str,
+    work: u64,
+    done: AtomicU64,
+    start: Instant,
+    last: Mutex<Instant>,
+}
+
+/// Between two lines of JSON.
+const LINE: Duration = Duration::from_millis(500);
+
+impl Stage<'_> {
+    fn inc(&self, work: u64) {
+        self.bar.inc(work);
+        let done = self.done.fetch_add(work, Ordering::Relaxed) + work;
+        if let Ok(mut last) = self.last.try_lock()
+            && last.elapsed() >= LINE
+        {
+            *last = Instant::now();
+            self.say(done);
+        }
+    }
+
+    fn say(&self, done: u64) {
+        let seconds = self.start.elapsed().as_secs_f64();
+        let remaining = seconds / done.max(1) as f64 * self.work.saturating_sub(done) as f64;
+        self.reporter.say(&json!({
+            "event": "progress", "stage": self.name, "done": done, "total": self.work,
+            "seconds": seconds, "remaining": remaining,
+        }));
+    }
+
+    fn finish(&self) {
+        self.bar.finish_and_clear();
+        if self.work > 0 {
+            self.say(self.done.load(Ordering::Relaxed));
+        }
+    }
+}
+
+/// Between two saves, in seconds; tests have less patience.
+const SAVE_EVERY: (&str, f64) = ("LIFTSIM_SAVE_EVERY", 5.0);
+
+/// Runs what is missing of a campaign, saving as it goes.
+pub fn work_off(campaign: &mut Campaign, reporter: &Reporter) -> Result<(), Failure> {
+    let directory = campaign.directory().path().display().to_string();
+    let rest = campaign.rest();
+    let work = rest.as_ref().map_or(0, |rest| rest.work());
+    reporter.say(&json!({
+        "event": "started", "directory": directory, "points": campaign.plan().points.len(),
+        "trials": campaign.trials(), "total": work,
+    }));
+    if let Some(rest) = rest {
+        let pilots = Pilots::new(&rest.plan).map_err(Failure::input)?;
+        let decisions = pilot(&pilots, &rest.plan, reporter)?;
+        let signals = Signals::watch().map_err(Failure::run)?;
+        let follower = Follower {
+            stage: reporter.stage("points", work, campaign.trials()),
+            signals: &signals,
+        };
+        let counted = campaign.count(&rest, &decisions, period(), &follower);
+        follower.stage.finish();
+        let is_done = counted.map_err(Failure::run)?;
+        if !is_done {
+            return Err(signals.stopped(&directory));
+        }
+    }
+    reporter.say(&json!({ "event": "finished", "directory": directory, "total": work }));
+    Ok(())
+}
+
+fn period() -> Duration {
+    let (name, default) = SAVE_EVERY;
+    let given = std::env::var(name).ok().and_then(|text| text.parse().ok());
+    let seconds = given.filter(|seconds| (0.0..1e6).contains(seconds));
+    Duration::from_secs_f64(seconds.unwrap_or(default))
+}
+
+struct Follower<'a> {
+    stage: Stage<'a>,
+    signals: &'a Signals,
+}
+
+impl Witness for Follower<'_> {
+    fn counted(&self, work: u64) {
+        self.stage.inc(work);
+    }
+
+    fn saved(&self) {
+        let done = self.stage.done.load(Ordering::Relaxed);
+        let saved = json!({ "event": "saved", "done": done, "total": self.stage.work });
+        self.stage.reporter.say(&saved);
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.signals.came().is_some()
+    }
+}
+
+/// Runs the plan's pilots, then the plan itself, and saves nothing.
+pub fn simulate(plan: &Plan, reporter: &Reporter) -> Result<(Vec<Decision>, Outcome), Failure> {
     let ensemble = &plan.ensemble;
-    let bar = bar(prefix, "points", ensemble.work(), ensemble.trials, quiet);
-    let outcome = run::run(plan, &decisions, pairs, |work| bar.inc(work));
-    bar.finish_and_clear();
+    reporter.say(&json!({
+        "event": "started", "points": plan.points.len(), "trials": ensemble.trials,
+        "total": ensemble.work(),
+    }));
+    let pilots = Pilots::new(plan).map_err(Failure::input)?;
+    let decisions = pilot(&pilots, plan, reporter)?;
+    let stage = reporter.stage("points", ensemble.work(), ensemble.trials);
+    let outcome = run::run(plan, &decisions, &[], |work| stage.inc(work));
+    stage.finish();
+    reporter.say(&json!({ "event": "finished", "total": ensemble.work() }));
     Ok((decisions, outcome))
 }
 
+fn pilot(pilots: &Pilots, plan: &Plan, reporter: &Reporter) -> Result<Vec<Decision>, Failure> {
+    let stage = reporter.stage("pilots", pilots.work(), plan.pilot);
+    let decisions = pilots.decide(|work| stage.inc(work));
+    stage.finish();
+    decisions.map_err(Failure::input)
+}
+
 /// A bar for `work` trial-points, `trials` of each, to be told of finished work by `inc`.
-fn bar(prefix: &str, name: &'static str, work: u64, trials: u64, quiet: bool) -> ProgressBar {
+fn bar(prefix: &str, name: &'static str, work: u64, trials: u64, is_shown: bool) -> ProgressBar {
     let points = work as f64 / trials as f64;
     let speed = move |state: &ProgressState, text: &mut dyn Write| {
         // An estimate that cannot be written is not worth stopping for.
@@ -40,9 +201,9 @@ fn bar(prefix: &str, name: &'static str, work: u64, trials: u64, quiet: bool) ->
     )
     .expect("the template is fixed")
     .with_key("speed", speed);
-    let target = match quiet || work == 0 {
-        true => ProgressDrawTarget::hidden(),
-        false => ProgressDrawTarget::stderr_with_hz(5),
+    let target = match is_shown && work > 0 {
+        true => ProgressDrawTarget::stderr_with_hz(5),
+        false => ProgressDrawTarget::hidden(),
     };
     let bar = ProgressBar::with_draw_target(Some(work), target).with_style(style);
     bar.with_prefix(prefix.to_owned()).with_message(name)

@@ -47,7 +47,7 @@ impl ReplayCommand {
                 self.trial
             )));
         }
-        let alone = plan.of_point(self.point as usize - 1);
+        let alone = plan.subset(&[self.point as usize - 1]);
         let decisions = Pilots::new(&alone).and_then(|pilots| pilots.decide(|_| {}));
         let decision = &decisions.map_err(Failure::input)?[0];
         let replay = Replay::new(

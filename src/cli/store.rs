@@ -1,83 +1,17 @@
 //! From results to files: what every verb that writes a result directory shares.
 
 use super::Failure;
-use liftsim::config::{Config, DEFAULT_PILOT_TRIALS, ExhibitConfig};
-use liftsim::results::{self, Directory, Manifest, RESULTS};
+use liftsim::results::{self, Directory, Manifest, Origin};
 use std::collections::BTreeMap;
-use std::path::Path;
-
-/// What a manifest says of an experiment before it is run.
-pub struct Origin<'a> {
-    pub name: &'a str,
-    pub text: &'a str,
-    pub seed: u64,
-    pub trials: u64,
-    pub pilot: u64,
-    pub common_random_numbers: bool,
-}
-
-impl<'a> From<&'a Config> for Origin<'a> {
-    fn from(config: &'a Config) -> Self {
-        Self {
-            name: config.name(),
-            text: config.text(),
-            seed: config.seed,
-            trials: config.trials,
-            pilot: config.pilot,
-            common_random_numbers: config.common_random_numbers,
-        }
-    }
-}
-
-impl<'a> From<&'a ExhibitConfig> for Origin<'a> {
-    fn from(config: &'a ExhibitConfig) -> Self {
-        Self {
-            name: config.name(),
-            text: config.text(),
-            seed: config.seed,
-            trials: config.trials,
-            pilot: DEFAULT_PILOT_TRIALS,
-            common_random_numbers: true,
-        }
-    }
-}
-
-impl Origin<'_> {
-    /// Whether results with this manifest are those of this experiment, by a version that gives the same bytes.
-    pub fn made(&self, manifest: &Manifest) -> bool {
-        manifest.config == self.text
-            && manifest.config_name == file_name(self.name)
-            && manifest.seed == self.seed
-            && manifest.trials == self.trials
-            && manifest.pilot == self.pilot
-            && manifest.results == RESULTS
-    }
-
-    /// The command that makes the same results, wherever the files are.
-    fn command_line(&self) -> String {
-        let Self {
-            seed,
-            trials,
-            pilot,
-            ..
-        } = self;
-        let name = file_name(self.name);
-        let command = format!("liftsim sweep {name} --seed {seed} --trials {trials}");
-        match *pilot {
-            DEFAULT_PILOT_TRIALS => command,
-            pilot => format!("{command} --pilot {pilot}"),
-        }
-    }
-}
 
 /// How results came about that took `seconds`; no file is vouched for yet.
 pub fn manifest(origin: &Origin, seconds: f64) -> Manifest {
     Manifest {
-        config_name: file_name(origin.name),
-        config: origin.text.to_owned(),
-        config_sha256: results::sha256(origin.text.as_bytes()),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        results: RESULTS,
+        config_name: origin.config_name.clone(),
+        config: origin.config.clone(),
+        config_sha256: results::sha256(origin.config.as_bytes()),
+        version: origin.version.clone(),
+        results: origin.results,
         revision: env!("LIFTSIM_REVISION").to_owned(),
         command: origin.command_line(),
         seed: origin.seed,
@@ -147,12 +81,6 @@ pub fn store(
 pub fn line(directory: &Directory, name: &str, is_new: bool) -> String {
     let note = if is_new { "written" } else { "unchanged" };
     format!("{}  {note}\n", directory.path().join(name).display())
-}
-
-/// Without the way to it.
-pub fn file_name(path: &str) -> String {
-    let name = Path::new(path).file_name();
-    name.map_or(path.to_owned(), |name| name.to_string_lossy().into_owned())
 }
 
 /// The processor family, and which vector instructions it offers.

@@ -1,18 +1,18 @@
 //! `liftsim sweep CONFIG`: runs every point, or draws what is no sweep, and writes results and figure.
 
-use super::store::{Origin, Written, file_name, manifest, write_all};
-use super::{Failure, Outcome, Simulation, exhibit, print, progress};
+use super::progress::{self, Progress, Reporter};
+use super::store::{Written, line, manifest, write_all};
+use super::{Failure, Outcome, Simulation, exhibit, print};
 use clap::Args;
-use liftsim::claim::{self, Evidence, Pair};
+use liftsim::campaign::{Campaign, Counts, Terms};
+use liftsim::claim::{self, Evidence};
 use liftsim::config::{Config, Experiment};
 use liftsim::figure;
 use liftsim::plan::Plan;
 use liftsim::report::Section;
-use liftsim::results::{self, Comparison, Directory, Manifest, Quantity, Row};
-use liftsim::tally::Tally;
+use liftsim::results::{self, Directory, Manifest, Origin, Quantity, Shard, file_name};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Instant;
 
 /// Run every point of an experiment; write points.csv, the figure and run.json.
 ///
@@ -20,6 +20,10 @@ use std::time::Instant;
 /// with single numbers in quantities.csv where it has any.
 ///
 /// The same config and seed give the same bytes on any machine, with any number of threads.
+///
+/// What is counted is saved in counts.json every few seconds. However a run ends, the same command goes
+/// on from there. What a directory holds is never simulated again: more trials, a further curve or
+/// claim take only what is missing.
 #[derive(Debug, Args)]
 pub struct Sweep {
     #[command(flatten)]
@@ -30,118 +34,101 @@ pub struct Sweep {
     /// Start over, replacing whatever experiment the directory holds.
     #[arg(long)]
     fresh: bool,
+    /// Run share I of N of the trials, into results/<name>/shards/<I>-of-<N>/ by default; `merge` joins
+    /// them.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    #[command(flatten)]
+    progress: Progress,
 }
 
 impl Sweep {
     /// Runs the command.
     pub fn run(self, quiet: bool) -> Outcome {
-        let directory = Directory::new(
-            self.out
-                .clone()
-                .unwrap_or_else(|| default_directory(&self.simulation.config)),
-        );
         let path = &self.simulation.config;
+        let out = self.out.clone();
+        let directory = Directory::new(out.unwrap_or_else(|| self.default_directory()));
         let config = match Experiment::load(path).map_err(Failure::input)? {
             Experiment::Sweep(config) => *config,
-            Experiment::Exhibit(config) => {
+            Experiment::Exhibit(config) if self.shard.is_none() => {
                 let config = self.simulation.exhibit(*config)?;
                 return exhibit::run(&config, &directory, self.fresh);
             }
+            Experiment::Exhibit(_) => {
+                return Err(Failure::Input(anyhow::anyhow!(
+                    "{}: --shard is for sweeps (run it whole)",
+                    path.display()
+                )));
+            }
         };
         let (config, plan) = self.simulation.plan(config, Plan::new)?;
-        directory.admit(&plan, self.fresh).map_err(Failure::input)?;
-
         rehearse(&config, &plan)?;
-
-        let counts = Counts::simulate(&config, &plan, "", quiet)?;
-        let manifest = manifest(&Origin::from(&config), counts.seconds);
-        let written = write(&directory, &config, &counts, manifest)?;
-        let Config { trials, .. } = config;
-        let (points, seconds) = (plan.points.len(), counts.seconds);
-        print(&format!(
-            "{points} points of {trials} trials in {seconds:.1} s\n{}",
-            written.files
-        ))?;
+        let terms = match self.fresh {
+            true => Terms::Fresh,
+            false => Terms::Continue,
+        };
+        let mut campaign =
+            Campaign::open(&config, plan, directory, self.shard, terms).map_err(Failure::input)?;
+        let reporter = Reporter::new(quiet, &self.progress, "");
+        progress::work_off(&mut campaign, &reporter)?;
+        print(&finish(&config, campaign, self.shard)?)?;
         Ok(ExitCode::SUCCESS)
     }
-}
 
-/// What a plan came to.
-pub(super) struct Counts {
-    /// One per point.
-    pub rows: Vec<Row>,
-    /// Pairs of points that claims compare.
-    pub pairs: Vec<Pair>,
-    /// One per pair: trials in which the first alone and the second alone decided for H1, where the
-    /// two share their noise.
-    pub discordant: Vec<Option<[u64; 2]>>,
-    /// Wall clock of the simulation.
-    pub seconds: f64,
-}
-
-impl Counts {
-    /// Runs every trial, with `prefix` before the bar.
-    pub fn simulate(
-        config: &Config,
-        plan: &Plan,
-        prefix: &str,
-        quiet: bool,
-    ) -> Result<Self, Failure> {
-        let pairs = claim::pairs(config, &plan.points);
-        let places: Vec<[usize; 2]> =
-            (pairs.iter().map(|pair| [pair.first, pair.second])).collect();
-        let start = Instant::now();
-        let (decisions, outcome) = progress::simulate(plan, &places, prefix, quiet)?;
-        let points = plan.points.iter().zip(&decisions).zip(outcome.tallies);
-        Ok(Self {
-            rows: points
-                .map(|((point, decision), tally)| {
-                    Row::new(point, Some(decision), tally, config.confidence)
-                })
-                .collect(),
-            pairs,
-            discordant: outcome.discordant,
-            seconds: start.elapsed().as_secs_f64(),
-        })
-    }
-
-    /// What would be counted in one trial in which nothing happens.
-    fn empty(config: &Config, plan: &Plan) -> Self {
-        let pairs = claim::pairs(config, &plan.points);
-        let nothing = Tally { hits: 0, trials: 1 };
-        let points = plan.points.iter();
-        Self {
-            rows: points
-                .map(|point| Row::new(point, None, nothing, config.confidence))
-                .collect(),
-            discordant: vec![None; pairs.len()],
-            pairs,
-            seconds: 0.0,
+    /// results/<file stem>, and a place in it for each shard.
+    fn default_directory(&self) -> PathBuf {
+        let directory = default_directory(&self.simulation.config);
+        match self.shard {
+            Some(Shard { number, count }) => directory.join(format!("shards/{number}-of-{count}")),
+            None => directory,
         }
     }
+}
 
-    fn comparisons(&self, config: &Config) -> Vec<Comparison> {
-        let claims = &config.narrative.claims;
-        let tallies: Vec<Tally> = self.rows.iter().map(Row::tally).collect();
-        claim::comparisons(claims, &self.pairs, &tallies, &self.discordant)
+/// Writes what a campaign came to, and says so. A shard has written all it has.
+pub(super) fn finish(
+    config: &Config,
+    campaign: Campaign,
+    shard: Option<Shard>,
+) -> Result<String, Failure> {
+    let (points, trials) = (campaign.plan().points.len(), campaign.trials());
+    let directory = campaign.directory().clone();
+    if let Some(shard) = shard {
+        // A share of no trials is one, too.
+        let is_new = !directory.has_counts();
+        if is_new {
+            campaign.save().map_err(Failure::run)?;
+        }
+        let counts = line(&directory, "counts.json", is_new);
+        return Ok(format!(
+            "shard {shard}: {points} points of {trials} trials\n{counts}"
+        ));
     }
-
-    fn quantities(&self, config: &Config) -> Result<Vec<Quantity>, Failure> {
-        let evidence = Evidence {
-            axis: Some(&config.axis),
-            rows: &self.rows,
-            comparisons: &[],
-            quantities: &[],
-        };
-        claim::gains(&config.narrative.claims, &evidence).map_err(Failure::input)
+    let held = campaign.made_by().cloned();
+    if let Some(held) = &held
+        && Origin::from(config).made(held)
+        && directory.is_intact(held)
+    {
+        let place = directory.path().display();
+        return Ok(format!(
+            "{points} points of {trials} trials are complete in {place}: nothing to simulate\n"
+        ));
     }
+    let (counts, lock) = campaign.counts();
+    let seconds = counts.seconds;
+    let written = write(&directory, config, &counts, held)?;
+    drop(lock);
+    Ok(format!(
+        "{points} points of {trials} trials in {seconds:.1} s\n{}",
+        written.files
+    ))
 }
 
 /// Judges the claims and fills the text once on empty counts, so that what they name is known to be
 /// there before anything is simulated.
 pub(super) fn rehearse(config: &Config, plan: &Plan) -> Result<(), Failure> {
     let empty = Counts::empty(config, plan);
-    let quantities = empty.quantities(config)?;
+    let quantities = quantities(&empty, config)?;
     let section = Section {
         name: String::new(),
         config: file_name(config.name()),
@@ -157,24 +144,46 @@ pub(super) fn rehearse(config: &Config, plan: &Plan) -> Result<(), Failure> {
 }
 
 /// results/<file stem>.
-fn default_directory(config: &Path) -> PathBuf {
+pub(super) fn default_directory(config: &Path) -> PathBuf {
     Path::new("results").join(config.file_stem().unwrap_or(config.as_os_str()))
 }
 
-/// Writes counts, then pictures, then the manifest that vouches for both.
+/// The numbers that claims of gains ask for.
+fn quantities(counts: &Counts, config: &Config) -> Result<Vec<Quantity>, Failure> {
+    let evidence = Evidence {
+        axis: Some(&config.axis),
+        rows: &counts.rows,
+        comparisons: &[],
+        quantities: &[],
+    };
+    claim::gains(&config.narrative.claims, &evidence).map_err(Failure::input)
+}
+
+/// Writes counts, then pictures, then the manifest that vouches for both. Counts that are only written
+/// anew are as old as they were: `held` has made them.
 pub(super) fn write(
     directory: &Directory,
     config: &Config,
     counts: &Counts,
-    manifest: Manifest,
+    held: Option<Manifest>,
 ) -> Result<Written, Failure> {
+    let now = manifest(&Origin::from(config), counts.seconds);
+    let manifest = match held {
+        Some(held) => Manifest {
+            revision: held.revision,
+            threads: held.threads,
+            architecture: held.architecture,
+            ..now
+        },
+        None => now,
+    };
     let drawing = figure::sweep(config, &counts.rows, &manifest).map_err(Failure::run)?;
     let mut files = vec![("points.csv", results::csv_bytes(&counts.rows))];
     if !counts.pairs.is_empty() {
         let comparisons = results::csv_bytes(&counts.comparisons(config));
         files.push(("comparisons.csv", comparisons));
     }
-    let quantities = counts.quantities(config)?;
+    let quantities = quantities(counts, config)?;
     if !quantities.is_empty() {
         files.push(("quantities.csv", results::csv_bytes(&quantities)));
     }

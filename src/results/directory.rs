@@ -1,10 +1,9 @@
 //! The directory of one experiment: what it holds, what may replace it, how files get there.
 
-use super::{Comparison, Manifest, Quantity, Row, sha256};
+use super::{Checkpoint, Comparison, Manifest, Quantity, ResultsError, Row, sha256};
 use crate::config::{ExhibitConfig, Experiment};
-use crate::plan::Plan;
-use crate::tally::Tally;
 use serde::de::DeserializeOwned;
+use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -14,79 +13,21 @@ pub struct Directory {
     path: PathBuf,
 }
 
-/// Why results cannot be read or written.
-#[derive(Debug, thiserror::Error)]
-pub enum ResultsError {
-    /// A file is missing or unreadable.
-    #[error("{}: cannot be read: {error} (run `liftsim sweep` first)", path.display())]
-    Unreadable {
-        /// Which.
-        path: PathBuf,
-        /// Why.
-        error: io::Error,
-    },
-    /// Files that no `sweep` has put there.
-    #[error(
-        "{}: holds {name}, but no run.json that tells where it comes from \
-         (choose another directory, or --fresh to replace it)",
-        path.display()
-    )]
-    Foreign {
-        /// Which directory.
-        path: PathBuf,
-        /// What it holds.
-        name: &'static str,
-    },
-    /// A file is not what this program writes.
-    #[error("{}: not a result of liftsim: {error} (simulate again with --fresh)", path.display())]
-    Damaged {
-        /// Which.
-        path: PathBuf,
-        /// Why.
-        error: String,
-    },
-    /// Something else lives there.
-    #[error(
-        "{}: holds the result of a different experiment: {difference} \
-         (choose another directory, or --fresh to replace it)",
-        path.display()
-    )]
-    Different {
-        /// Which directory.
-        path: PathBuf,
-        /// The first thing that differs.
-        difference: String,
-    },
-    /// More has been done than is asked for.
-    #[error(
-        "{}: holds {held} trials per point, more than the {asked} asked for \
-         (choose another directory, or --fresh to replace them)",
-        path.display()
-    )]
-    FewerTrials {
-        /// Which directory.
-        path: PathBuf,
-        /// Trials there.
-        held: u64,
-        /// Trials asked for.
-        asked: u64,
-    },
-    /// Nothing can be written there.
-    #[error("{}: cannot be written: {error} (choose another place)", path.display())]
-    Unwritable {
-        /// Which.
-        path: PathBuf,
-        /// Why.
-        error: io::Error,
-    },
-}
-
 const MANIFEST: &str = "run.json";
 const POINTS: &str = "points.csv";
 const COMPARISONS: &str = "comparisons.csv";
 const QUANTITIES: &str = "quantities.csv";
+const COUNTS: &str = "counts.json";
+const TEMPORARY: &str = ".liftsim-part";
 /// What a run may leave beside its manifest.
-const FILES: [&str; 5] = [POINTS, COMPARISONS, QUANTITIES, "figure.png", "figure.svg"];
+const FILES: [&str; 6] = [
+    POINTS,
+    COMPARISONS,
+    QUANTITIES,
+    "figure.png",
+    "figure.svg",
+    COUNTS,
+];
 
 impl Directory {
     /// The directory at `path`, whether it exists or not.
@@ -99,52 +40,16 @@ impl Directory {
         &self.path
     }
 
-    /// Finds out, before anything is simulated, whether the results of `plan` may go here:
-    /// the place can be written, and holds no other experiment and no more trials, unless a `fresh`
-    /// start was asked for.
+    /// Whether what a run would replace has been made by one, so far as its files tell.
     ///
     /// # Errors
-    /// Where not.
-    pub fn admit(&self, plan: &Plan, fresh: bool) -> Result<(), ResultsError> {
-        self.check_writable()?;
-        let Some(name) = self.held().filter(|_| !fresh) else {
-            return Ok(());
-        };
-        self.check_origin(name)?;
-        let held = self.manifest()?;
-        if let Some(kind) = exhibit_in(&held) {
-            let path = self.path.clone();
-            let difference = format!("[{kind}] there, a sweep here");
-            return Err(ResultsError::Different { path, difference });
-        }
-        let rows = self.rows(&held)?;
-        if let Some(difference) = difference(&held, &rows, plan) {
-            let path = self.path.clone();
-            return Err(ResultsError::Different { path, difference });
-        }
-        let asked = plan.ensemble.trials;
-        if held.trials > asked {
-            return Err(ResultsError::FewerTrials {
-                path: self.path.clone(),
-                held: held.trials,
-                asked,
-            });
-        }
-        Ok(())
-    }
-
-    /// As [`Directory::admit`], but for a place that belongs to the experiment by its name: results of
-    /// another version of it may be replaced, files of unknown origin may not.
-    ///
-    /// # Errors
-    /// Where not.
+    /// Where files are of unknown origin.
     pub fn admit_any(&self) -> Result<(), ResultsError> {
-        self.check_writable()?;
         self.held().map_or(Ok(()), |name| self.check_origin(name))
     }
 
     fn check_origin(&self, name: &'static str) -> Result<(), ResultsError> {
-        match self.path.join(MANIFEST).exists() {
+        match self.holds(MANIFEST) || self.holds(COUNTS) {
             true => Ok(()),
             false => {
                 let path = self.path.clone();
@@ -153,7 +58,9 @@ impl Directory {
         }
     }
 
-    /// The same as [`Directory::admit`] for an experiment that is no sweep.
+    /// Finds out, before anything is computed, whether the results of an experiment that is no sweep may
+    /// go here: the place can be written, and holds no other experiment and no more trials, unless a
+    /// `fresh` start was asked for.
     ///
     /// # Errors
     /// Where its results may not go here.
@@ -164,6 +71,10 @@ impl Directory {
         };
         self.check_origin(name)?;
         let path = self.path.clone();
+        if self.holds(COUNTS) {
+            let difference = format!("a sweep there, [{}] here", config.kind.name());
+            return Err(ResultsError::Different { path, difference });
+        }
         let held = self.manifest()?;
         self.points(&held)?;
         if let Some(difference) = exhibit_difference(&held, config) {
@@ -182,7 +93,48 @@ impl Directory {
     /// A file that a run would replace.
     fn held(&self) -> Option<&'static str> {
         let mut names = [MANIFEST].into_iter().chain(FILES);
-        names.find(|name| self.path.join(name).exists())
+        names.find(|name| self.holds(name))
+    }
+
+    fn holds(&self, name: &str) -> bool {
+        self.path.join(name).exists()
+    }
+
+    /// Whether there are finished results here.
+    pub fn is_finished(&self) -> bool {
+        self.holds(MANIFEST)
+    }
+
+    /// Whether there are the counts of a run that is not over.
+    pub fn has_counts(&self) -> bool {
+        self.holds(COUNTS)
+    }
+
+    /// The counts so far of a run that is not over.
+    ///
+    /// # Errors
+    /// Where they are unreadable or damaged.
+    pub fn checkpoint(&self) -> Result<Option<Checkpoint>, ResultsError> {
+        if !self.holds(COUNTS) {
+            return Ok(None);
+        }
+        let (path, bytes) = self.read(COUNTS)?;
+        let checkpoint = Checkpoint::from_json(&bytes);
+        checkpoint
+            .map(Some)
+            .map_err(|error| ResultsError::Checkpoint { path, error })
+    }
+
+    /// Saves the counts so far. Whatever happens, what was saved before or these are there.
+    ///
+    /// # Errors
+    /// Where they cannot be written.
+    pub fn save(&self, checkpoint: &Checkpoint) -> Result<(), ResultsError> {
+        let saved = self.replace(COUNTS, &checkpoint.to_json());
+        saved.map_err(|error| ResultsError::Unsaved {
+            path: self.path.join(COUNTS),
+            error,
+        })
     }
 
     /// Whether a file can be made here, or a directory where this one is to be.
@@ -192,9 +144,8 @@ impl Directory {
     pub fn check_writable(&self) -> Result<(), ResultsError> {
         let existing = self.path.ancestors().find(|path| path.exists());
         let place = existing.unwrap_or(Path::new("."));
-        tempfile::Builder::new()
-            .prefix(".liftsim-")
-            .tempfile_in(place)
+        // It has no name, so that nothing is left behind whenever the process ends.
+        tempfile::tempfile_in(place)
             .map(drop)
             .map_err(|error| self.unwritable(error))
     }
@@ -217,14 +168,6 @@ impl Directory {
             std::fs::read(self.path.join(name)).is_ok_and(|bytes| *hash == sha256(&bytes))
         };
         !manifest.files.is_empty() && manifest.files.iter().all(is_whole)
-    }
-
-    /// The rows here, where they are whole and those of `plan` with as many trials.
-    pub fn rows_of(&self, plan: &Plan, manifest: &Manifest) -> Option<Vec<Row>> {
-        let rows = self.rows(manifest).ok()?;
-        let is_same =
-            manifest.trials == plan.ensemble.trials && difference(manifest, &rows, plan).is_none();
-        is_same.then_some(rows)
     }
 
     /// The rows of `points.csv`, which must be the file that `manifest` vouches for.
@@ -317,24 +260,32 @@ impl Directory {
     /// # Errors
     /// Where it cannot be written.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<bool, ResultsError> {
-        let path = self.path.join(name);
-        if std::fs::read(&path).is_ok_and(|held| held == bytes) {
+        if std::fs::read(self.path.join(name)).is_ok_and(|held| held == bytes) {
             return Ok(false);
         }
-        let replace = || -> io::Result<()> {
-            std::fs::create_dir_all(&self.path)?;
-            let mut file = tempfile::Builder::new()
-                .prefix(".liftsim-")
-                .tempfile_in(&self.path)?;
-            file.write_all(bytes)?;
-            file.as_file().sync_all()?;
-            make_readable(file.as_file())?;
-            file.persist(&path)?;
-            Ok(())
-        };
-        replace()
+        let replaced = self.replace(name, bytes);
+        replaced
             .map(|()| true)
             .map_err(|error| self.unwritable(error))
+    }
+
+    /// Puts a file in the place of another. The temporary name is always the same, so that a process that
+    /// is killed here leaves nothing that the next one does not use again; the lock keeps two from using
+    /// it at once.
+    fn replace(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
+        std::fs::create_dir_all(&self.path)?;
+        let temporary = self.path.join(TEMPORARY);
+        let written = File::create(&temporary).and_then(|mut file| {
+            file.write_all(bytes)?;
+            file.sync_all()
+        });
+        let renamed = written.and_then(|()| std::fs::rename(&temporary, self.path.join(name)));
+        if renamed.is_err() {
+            // A full disk has no room for half a file.
+            let _ = std::fs::remove_file(&temporary);
+        }
+        renamed?;
+        sync(&self.path)
     }
 
     /// Takes away what an earlier run left and `manifest` does not vouch for.
@@ -343,7 +294,7 @@ impl Directory {
     /// Where a file is there and cannot be taken away.
     pub fn remove_stale(&self, manifest: &Manifest) -> Result<(), ResultsError> {
         let is_stale = |name: &&str| !manifest.files.contains_key(*name);
-        for name in FILES.into_iter().filter(is_stale) {
+        for name in FILES.into_iter().chain([TEMPORARY]).filter(is_stale) {
             match std::fs::remove_file(self.path.join(name)) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => {
                     return Err(self.unwritable(error));
@@ -360,24 +311,16 @@ impl Directory {
     }
 }
 
-/// A temporary file is its owner's alone; a result is for everybody.
+/// Makes a rename last.
 #[cfg(unix)]
-fn make_readable(file: &std::fs::File) -> io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    file.set_permissions(std::fs::Permissions::from_mode(0o644))
+fn sync(directory: &Path) -> io::Result<()> {
+    File::open(directory)?.sync_all()
 }
 
+/// A directory cannot be opened here, and need not be.
 #[cfg(not(unix))]
-fn make_readable(_: &std::fs::File) -> io::Result<()> {
+fn sync(_: &Path) -> io::Result<()> {
     Ok(())
-}
-
-/// The exhibit that a manifest's config draws, if it is one.
-fn exhibit_in(held: &Manifest) -> Option<&'static str> {
-    match Experiment::parse(&held.config_name, &held.config) {
-        Ok(Experiment::Exhibit(config)) => Some(config.kind.name()),
-        _ => None,
-    }
 }
 
 /// The first thing that keeps held results from being those of `config`; the question and the number
@@ -398,36 +341,4 @@ fn exhibit_difference(held: &Manifest, config: &ExhibitConfig) -> Option<String>
         return Some(format!("[{here}] says something else there"));
     }
     (there.scenario != config.scenario).then(|| "the sections say something else there".to_owned())
-}
-
-/// The first thing that keeps held results from being those of `plan`; labels, captions and
-/// the number of trials do not count.
-fn difference(held: &Manifest, rows: &[Row], plan: &Plan) -> Option<String> {
-    if held.seed != plan.seed {
-        return Some(format!("seed is {} there, {} here", held.seed, plan.seed));
-    }
-    if held.common_random_numbers != plan.common_random_numbers {
-        let (there, here) = (held.common_random_numbers, plan.common_random_numbers);
-        return Some(format!(
-            "common_random_numbers is {there} there, {here} here"
-        ));
-    }
-    let points = &plan.points;
-    if rows.len() != points.len() {
-        return Some(format!(
-            "{} points there, {} here",
-            rows.len(),
-            points.len()
-        ));
-    }
-    let nothing = Tally { hits: 0, trials: 1 };
-    rows.iter().zip(points).find_map(|(row, point)| {
-        let here = Row::new(point, None, nothing, row.confidence).parameters();
-        let mut cells = row.parameters().into_iter().zip(here);
-        let ((name, there), (_, here)) = cells.find(|((_, there), (_, here))| there != here)?;
-        Some(format!(
-            "{name} is {there} there, {here} here, in curve {}",
-            row.curve
-        ))
-    })
 }

@@ -3,16 +3,25 @@
 //!
 //! The CSV holds counts and every resolved parameter, and no clock or host, so that the same config
 //! and seed give the same bytes anywhere. Files are written beside their place and renamed into it,
-//! all after the last trial: a run that fails leaves what was there before.
+//! all after the last trial. Until then the counts so far are in `counts.json`, see [`Checkpoint`]; a
+//! shard of a run has that file alone.
 
+mod checkpoint;
 mod comparison;
 mod directory;
+mod error;
+mod lock;
 mod manifest;
+mod origin;
 mod quantity;
 mod row;
 
+pub use checkpoint::{Checkpoint, NoShard, Shard};
 pub use comparison::{Comparison, Place};
-pub use directory::{Directory, ResultsError};
+pub use directory::Directory;
+pub use error::ResultsError;
+pub use lock::Lock;
 pub use manifest::{Manifest, RESULTS, sha256};
+pub use origin::{Origin, file_name};
 pub use quantity::Quantity;
-pub use row::{Row, csv_bytes, eight_digits};
+pub use row::{Row, Told, csv_bytes, eight_digits};

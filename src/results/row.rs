@@ -1,7 +1,9 @@
 //! `points.csv`: one row per point and hypothesis.
 
+use super::RESULTS;
 use crate::chain::Decision;
 use crate::config::Parameter;
+use crate::ledger::Key;
 use crate::plan::{Hypothesis, Point};
 use crate::signal::{Impulses, Motion};
 use crate::tally::Tally;
@@ -53,6 +55,15 @@ pub struct Row {
     pub calibrate: String,
     pub stated: String,
     pub pilot: u64,
+    pub threshold: Option<f64>,
+    pub reachable: Option<f64>,
+}
+
+/// What a row says of how its point decides.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "the columns are the row's own")]
+pub struct Told {
+    pub size: Option<f64>,
     pub threshold: Option<f64>,
     pub reachable: Option<f64>,
 }
@@ -115,14 +126,36 @@ impl Row {
         }
     }
 
-    /// The same counts of the same point in the words of a new config.
-    pub fn told_again(&self, point: &Point, confidence: f64) -> Self {
+    /// The row of a point whose decision is known by what was told of it.
+    pub fn retold(point: &Point, told: &Told, tally: Tally, confidence: f64) -> Self {
         Self {
+            size: told.size,
+            threshold: told.threshold,
+            reachable: told.reachable,
+            ..Self::new(point, None, tally, confidence)
+        }
+    }
+
+    /// What it says of the decision.
+    pub fn told(&self) -> Told {
+        Told {
             size: self.size,
             threshold: self.threshold,
             reachable: self.reachable,
-            ..Self::new(point, None, self.tally(), confidence)
         }
+    }
+
+    /// What the counts here are known by: every parameter that they depend on, which its place among
+    /// the curves is none of.
+    pub fn key(&self, seed: u64, common_random_numbers: bool) -> Key {
+        let mut text =
+            format!("results {RESULTS} seed {seed} common_random_numbers {common_random_numbers}");
+        for (name, value) in self.parameters() {
+            if name != "curve" && name != "hypothesis" {
+                text += &format!(" {name} {value}");
+            }
+        }
+        Key::of(&text)
     }
 
     /// The number that an axis of this parameter would have here; none where there is none.
@@ -169,7 +202,7 @@ impl Row {
     }
 
     /// The parameters alone, by column.
-    pub(super) fn parameters(&self) -> Vec<(String, String)> {
+    pub fn parameters(&self) -> Vec<(String, String)> {
         const DERIVED: [&str; 10] = [
             "label",
             "trials",

@@ -7,6 +7,8 @@ mod figures;
 mod gate;
 mod replay;
 mod results;
+mod shards;
+mod survival;
 
 use assert_cmd::Command;
 use std::path::{Path, PathBuf};

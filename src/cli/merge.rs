@@ -1,0 +1,69 @@
+//! `liftsim merge DIR…`: shards into one result.
+
+use super::{Failure, Outcome, print, sweep};
+use clap::Args;
+use liftsim::campaign::{self, MergeError, Missing};
+use liftsim::results::{Directory, Shard};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Join the shards of one experiment into the files of the whole run.
+///
+/// The bytes are those of a run without shards. Where shards are missing or unfinished, what is there is
+/// joined in counts.json, from which `liftsim sweep` goes on, and the rest is named. The shards are left
+/// as they are.
+#[derive(Debug, Args)]
+pub struct Merge {
+    /// Directories that `liftsim sweep --shard` has written.
+    #[arg(required = true, value_name = "DIR")]
+    directories: Vec<PathBuf>,
+    /// Where to write; results/<name of the config>/ by default.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+impl Merge {
+    /// Runs the command.
+    pub fn run(self) -> Outcome {
+        let directories: Vec<Directory> =
+            self.directories.into_iter().map(Directory::new).collect();
+        let joined = campaign::join(&directories).map_err(Failure::input)?;
+        let name = Path::new(&joined.state.origin.config_name);
+        let out = self.out.unwrap_or_else(|| sweep::default_directory(name));
+        let missing = joined.missing.clone();
+        let (config, campaign) = joined.settle(Directory::new(&out)).map_err(failure)?;
+        if campaign.rest().is_none() {
+            print(&sweep::finish(&config, campaign, None)?)?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        print(&incomplete(&missing, &out))?;
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+fn failure(error: MergeError) -> Failure {
+    match error {
+        MergeError::Results(liftsim::results::ResultsError::Unsaved { .. }) => Failure::run(error),
+        error => Failure::input(error),
+    }
+}
+
+/// What is missing, in words.
+fn incomplete(missing: &Missing, out: &Path) -> String {
+    let mut text = String::from("incomplete:\n");
+    if !missing.absent.is_empty() {
+        let shards = missing.absent.iter().map(Shard::to_string);
+        let shards = shards.collect::<Vec<_>>().join(", ");
+        text += &format!("  no directory of shard {shards}\n");
+    }
+    for (directory, trials) in &missing.unfinished {
+        let directory = directory.display();
+        text += &format!("  {directory}: {trials} trials of each point are missing\n");
+    }
+    let counts = out.join("counts.json");
+    let (counts, out) = (counts.display(), out.display());
+    text + &format!(
+        "{counts}  written\nmerge again when they are there, or `liftsim sweep CONFIG --out {out}` \
+         simulates them\n"
+    )
+}

@@ -1,0 +1,383 @@
+//! A run that ends however it ends goes on where it stopped, and comes to the same bytes.
+
+use super::{liftsim, outcome};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// Two families, a calibrated curve, and claims that compare points.
+pub const TINY: &str = r#"
+question = "Does it survive?"
+seed = 11
+trials = 15_000
+pilot = 5000
+[detector]
+alpha = 0.05
+[whitening]
+training = 64
+[axis]
+delta = [0.5, 1.0]
+[[curve]]
+label = "plain"
+[[curve]]
+label = "calibrated"
+detector = { calibrate = true }
+[[curve]]
+label = "laplace"
+noise = { law = "laplace" }
+[[claim]]
+claim = "The promise costs power"
+test = { exceeds = { first = "plain", second = "calibrated" } }
+[[claim]]
+claim = "D grows"
+test = { grows = { curves = ["laplace"] } }
+"#;
+
+pub const FILES: [&str; 4] = ["points.csv", "comparisons.csv", "figure.png", "figure.svg"];
+
+/// A directory with a config.
+pub struct Bench(TempDir);
+
+impl Bench {
+    pub fn new(text: &str) -> Self {
+        let bench = Self(tempfile::tempdir().unwrap());
+        bench.write(text);
+        bench
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    pub fn write(&self, text: &str) {
+        fs::write(self.path("tiny.toml"), text).unwrap();
+    }
+
+    /// Runs `liftsim` here.
+    pub fn run(&self, arguments: &[&str]) -> (i32, String, String) {
+        outcome(liftsim().current_dir(self.0.path()).args(arguments))
+    }
+
+    /// Sweeps into `out`; how many trial-points were simulated.
+    pub fn sweep(&self, out: &str, more: &[&str]) -> u64 {
+        let arguments = [&["sweep", "tiny.toml", "--json", "--out", out], more].concat();
+        let (code, _, err) = self.run(&arguments);
+        assert_eq!(code, 0, "{err}");
+        let first: serde_json::Value = serde_json::from_str(err.lines().next().unwrap()).unwrap();
+        assert_eq!(first["event"], "started");
+        first["total"].as_u64().unwrap()
+    }
+
+    /// Starts a sweep and leaves it to itself.
+    pub fn start(&self, out: &str, more: &[&str]) -> Child {
+        Command::new(assert_cmd::cargo::cargo_bin("liftsim"))
+            .current_dir(self.0.path())
+            .env("LIFTSIM_SAVE_EVERY", "0.01")
+            .args(["sweep", "tiny.toml", "--quiet", "--out", out])
+            .args(more)
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap()
+    }
+
+    pub fn files(&self, out: &str) -> Vec<Vec<u8>> {
+        let read = |name: &&str| fs::read(self.path(out).join(name)).unwrap();
+        FILES.iter().map(read).collect()
+    }
+
+    pub fn names(&self, out: &str) -> BTreeSet<String> {
+        let entries = fs::read_dir(self.path(out)).unwrap();
+        let name = |entry: std::io::Result<fs::DirEntry>| entry.unwrap().file_name();
+        entries.map(|e| name(e).into_string().unwrap()).collect()
+    }
+}
+
+/// Waits for a file, as long as anybody would.
+fn wait_for(path: &Path) {
+    let start = Instant::now();
+    while !path.exists() {
+        assert!(start.elapsed() < Duration::from_secs(30), "{path:?}");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+fn signal(child: &Child, name: &str) {
+    let sent = Command::new("kill")
+        .args([name, &child.id().to_string()])
+        .status();
+    assert!(sent.unwrap().success());
+}
+
+/// Fifty kills at instants of a fixed seed, spread over the whole of a run; after each the same command.
+#[test]
+fn a_killed_run_comes_to_the_same_bytes() {
+    let start = Instant::now();
+    let bench = Bench::new(TINY);
+    let run = Instant::now();
+    assert!(bench.start("whole", &[]).wait().unwrap().success());
+    let length = run.elapsed().as_secs_f64();
+    let (expected, names) = (bench.files("whole"), bench.names("whole"));
+    let (mut state, mut in_time, mut after_a_save) = (2014u64, 0, 0);
+    for kill in 0..50 {
+        // Knuth's generator.
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        let instant = length * (state >> 40) as f64 / (1u64 << 24) as f64;
+        let mut child = bench.start("killed", &[]);
+        std::thread::sleep(Duration::from_secs_f64(instant));
+        child.kill().unwrap();
+        in_time += u32::from(!child.wait().unwrap().success());
+        after_a_save += u32::from(bench.path("killed/counts.json").exists());
+        let out = bench.start("killed", &[]).wait_with_output().unwrap();
+        assert!(
+            out.status.success(),
+            "{}",
+            String::from_utf8_lossy(&out.stderr)
+        );
+        assert!(
+            bench.files("killed") == expected,
+            "kill {kill} at {instant:.3} s"
+        );
+        assert_eq!(bench.names("killed"), names, "no litter");
+        fs::remove_dir_all(bench.path("killed")).unwrap();
+    }
+    let seconds = start.elapsed().as_secs_f64();
+    println!(
+        "50 kills of a run of {length:.2} s: {in_time} in time, {after_a_save} after a save, {seconds:.1} s"
+    );
+    assert!(in_time > 25 && after_a_save > 10);
+}
+
+/// What is there is not simulated again, and what is added comes to the bytes of a run of its own.
+#[test]
+fn only_what_is_missing_is_simulated() {
+    let bench = Bench::new(TINY);
+    let check = |text: &str, more: &[&str], expected: u64| {
+        bench.write(text);
+        assert_eq!(bench.sweep("out", more), expected);
+        let _ = fs::remove_dir_all(bench.path("own"));
+        bench.sweep("own", more);
+        assert!(bench.files("out") == bench.files("own"));
+    };
+    // Of each of two families a point at rest and two in motion; the calibrated ones see the same.
+    check(TINY, &["--trials", "3000"], 6 * 3000);
+    check(TINY, &["--trials", "3000"], 0);
+    check(TINY, &["--trials", "5000"], 6 * 2000);
+    let told = TINY
+        .replace("\"plain\"", "\"simple\"")
+        .replace("costs power", "is dear");
+    let told = told.replace("survive?", "live on?");
+    check(&told, &["--trials", "5000"], 0);
+    let point = told.replace("[0.5, 1.0]", "[0.5, 1.0, 1.5]");
+    // "D grows" compares the new point with the old ones, which run again for that.
+    check(&point, &["--trials", "5000"], 4 * 5000);
+    let curve = point + "[[curve]]\nlabel = \"new\"\nnoise = { law = \"uniform\" }\n";
+    check(&curve, &["--trials", "5000"], 4 * 5000);
+    // The pairs of a new claim are counted; the points they are of run again, and are not counted twice.
+    let claim = "[[claim]]\nclaim = \"?\"\ntest = { grows = { curves = [\"new\"] } }\n";
+    check(&(curve + claim), &["--trials", "5000"], 3 * 5000);
+}
+
+#[test]
+fn what_changes_results_is_refused() {
+    let bench = Bench::new(TINY);
+    let trials = ["--trials", "3000"];
+    bench.sweep("finished", &trials);
+    bench.sweep(
+        "half/shards/1-of-2",
+        &[&trials[..], &["--shard", "1/2"]].concat(),
+    );
+    let (code, out, _) = bench.run(&["merge", "half/shards/1-of-2", "--out", "unfinished"]);
+    assert_eq!(code, 0);
+    assert!(out.contains("no directory of shard 2/2"), "{out}");
+    let seed = ["--trials", "3000", "--seed", "12"];
+    let cases: [(&str, &[&str], &str); 5] = [
+        (TINY, &seed, "seed is 11 there, 12 here"),
+        (
+            TINY,
+            &["--trials", "2999"],
+            "3000 trials per point, more than the 2999",
+        ),
+        (
+            &TINY.replace("1.0]", "1.5]"),
+            &trials,
+            "delta is 1.0 there, 1.5 here",
+        ),
+        (
+            &TINY.replace("= 5000", "= 6000"),
+            &trials,
+            "pilot is 5000 there, 6000 here",
+        ),
+        (
+            &format!("common_random_numbers = false\n{TINY}"),
+            &trials,
+            "common_random_numbers is true there, false here",
+        ),
+    ];
+    for (text, more, message) in cases {
+        bench.write(text);
+        for out in ["finished", "unfinished"] {
+            let before = bench.names(out);
+            let (code, _, err) = bench.run(&[&["sweep", "tiny.toml", "--out", out], more].concat());
+            assert_eq!(code, 2, "{err}");
+            assert!(err.contains(message) && err.contains("--fresh"), "{err}");
+            assert_eq!(bench.names(out), before);
+        }
+    }
+    bench.write(TINY);
+    assert!(bench.sweep("unfinished", &trials) < 6 * 3000);
+    assert!(bench.files("unfinished") == bench.files("finished"));
+}
+
+#[test]
+fn damaged_counts_are_refused() {
+    let bench = Bench::new(TINY);
+    bench.sweep("out", &["--trials", "3000", "--shard", "1/2"]);
+    let path = bench.path("out/counts.json");
+    let whole = fs::read(&path).unwrap();
+    let mut edited = whole.clone();
+    let digit = edited.iter().rposition(|&byte| byte == b'[').unwrap() + 1;
+    edited[digit] = if edited[digit] == b'1' { b'2' } else { b'1' };
+    for damaged in [&whole[..whole.len() / 2], &edited, b""] {
+        fs::write(&path, damaged).unwrap();
+        for verb in [
+            &[
+                "sweep",
+                "tiny.toml",
+                "--trials",
+                "3000",
+                "--shard",
+                "1/2",
+                "--out",
+            ][..],
+            &["merge"],
+        ] {
+            let (code, _, err) = bench.run(&[verb, &["out"]].concat());
+            assert_eq!(code, 2, "{err}");
+            assert!(
+                err.contains("counts.json: damaged") && err.contains("restore"),
+                "{err}"
+            );
+        }
+        assert_eq!(fs::read(&path).unwrap(), damaged, "nothing is lost");
+        assert!(bench.run(&["status", "out"]).1.contains("damaged"));
+    }
+    bench.sweep("out", &["--trials", "3000", "--shard", "1/2", "--fresh"]);
+    assert!(bench.run(&["status", "out"]).1.contains("finished"));
+}
+
+const LONG: [&str; 2] = ["--trials", "2000000000"];
+
+/// One run at a time; a signal stops it in order, and the same command goes on.
+#[test]
+fn a_stopped_run_says_how_to_go_on() {
+    let bench = Bench::new(TINY);
+    for (name, code, out) in [("-INT", 130, "out"), ("-TERM", 143, "other")] {
+        let child = bench.start(out, &[&LONG[..], &["--fresh"]].concat());
+        wait_for(&bench.path(out).join("counts.json"));
+        std::thread::sleep(Duration::from_millis(200));
+        let (second, _, err) = bench.run(&["sweep", "tiny.toml", "--out", out]);
+        assert_eq!(second, 2);
+        let message = "another run of liftsim is writing here (wait";
+        assert!(err.contains(message), "{err}");
+        assert!(bench.run(&["status", out]).1.contains("running"));
+        signal(&child, name);
+        let output = child.wait_with_output().unwrap();
+        let err = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(code), "{err}");
+        let is_told = err.contains("to go on:") && !err.contains("--fresh");
+        assert!(is_told, "{err}");
+        let left = BTreeSet::from(["counts.json".to_owned()]);
+        assert_eq!(bench.names(out), left);
+        let status = bench.run(&["status", out]).1;
+        assert!(status.contains("unfinished"), "{status}");
+    }
+}
+
+/// A file system of its own, if this user may have one.
+struct Disk<'a>(&'a Path);
+
+impl<'a> Disk<'a> {
+    fn mount(place: &'a Path) -> Option<Self> {
+        fs::create_dir_all(place).unwrap();
+        let mut mount = Command::new("mount");
+        mount
+            .args(["-t", "tmpfs", "-o", "size=96k", "tmpfs"])
+            .arg(place);
+        match mount.stderr(Stdio::null()).status() {
+            Ok(status) if status.success() => Some(Self(place)),
+            _ => {
+                println!("skipped: this user may mount no tmpfs");
+                None
+            }
+        }
+    }
+}
+
+impl Drop for Disk<'_> {
+    fn drop(&mut self) {
+        let _ = Command::new("umount").arg(self.0).status();
+    }
+}
+
+/// Nothing that was saved is lost, and nothing is counted twice.
+#[test]
+fn a_full_or_read_only_disk_is_a_clear_error() {
+    let bench = Bench::new(TINY);
+    let place = bench.path("disk");
+    let Some(_disk) = Disk::mount(&place) else {
+        return;
+    };
+    let child = bench.start("disk/out", &LONG);
+    wait_for(&place.join("out/counts.json"));
+    std::thread::sleep(Duration::from_millis(200));
+    // As much as there is room for.
+    while fs::write(place.join("filler"), vec![0; 96 << 10]).is_ok() {}
+    let output = child.wait_with_output().unwrap();
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{err}");
+    assert!(
+        err.contains("counts.json: cannot be written") && err.contains("make room"),
+        "{err}"
+    );
+    let status = bench.run(&["status", "disk/out"]).1;
+    assert!(status.contains("unfinished"), "{status}");
+
+    let (code, _, err) = bench.run(&["sweep", "tiny.toml", "--out", "disk/other"]);
+    assert_eq!(code, 1, "{err}");
+    fs::remove_file(place.join("filler")).unwrap();
+    let saved = fs::read(place.join("out/counts.json")).unwrap();
+    let mut readonly = Command::new("mount");
+    assert!(
+        readonly
+            .args(["-o", "remount,ro"])
+            .arg(&place)
+            .status()
+            .unwrap()
+            .success()
+    );
+    let (code, _, err) = bench.run(&["sweep", "tiny.toml", "--out", "disk/out", LONG[0], LONG[1]]);
+    assert_eq!(code, 2);
+    assert!(err.contains("cannot be written"), "{err}");
+    assert_eq!(fs::read(place.join("out/counts.json")).unwrap(), saved);
+    let mut writable = Command::new("mount");
+    assert!(
+        writable
+            .args(["-o", "remount,rw"])
+            .arg(&place)
+            .status()
+            .unwrap()
+            .success()
+    );
+    let child = bench.start("disk/out", &LONG);
+    while fs::read(place.join("out/counts.json")).unwrap() == saved {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    signal(&child, "-INT");
+    assert_eq!(child.wait_with_output().unwrap().status.code(), Some(130));
+}
