@@ -7,6 +7,7 @@ use liftsim::pilot::Pilots;
 use liftsim::plan::{Hypothesis, Plan};
 use liftsim::run;
 use liftsim::tally::Tally;
+use serde_json::json;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
@@ -15,6 +16,9 @@ use std::time::{Duration, Instant};
 pub struct PlanCommand {
     #[command(flatten)]
     simulation: Simulation,
+    /// Say it in JSON; the time is in seconds.
+    #[arg(long)]
+    json: bool,
 }
 
 impl PlanCommand {
@@ -33,6 +37,18 @@ impl PlanCommand {
             let (low, high) = tally(hits).interval(config.confidence);
             (high - low) / 2.0
         };
+        let time = expected_time(&plan, &pilots);
+        if self.json {
+            let facts = json!({
+                "question": config.question, "points": plan.points.len(), "at_rest": at_rest,
+                "trials": trials, "work": plan.ensemble.work(), "pilots": pilots.work(),
+                "families": plan.ensemble.families.len(),
+                "half_width": half_width(trials / 2), "confidence": config.confidence,
+                "seconds": time.as_secs_f64(), "threads": rayon::current_num_threads(),
+            });
+            print(&format!("{facts}\n"))?;
+            return Ok(ExitCode::SUCCESS);
+        }
         print(&format!(
             "{}\n\n\
              points       {} in motion, {at_rest} at rest, of {} curves\n\
@@ -52,25 +68,32 @@ impl PlanCommand {
             half_width(trials / 2),
             half_width(trials / 100),
             config.confidence * 100.0,
-            in_words(expected_time(&plan, &pilots)),
+            in_words(time),
             rayon::current_num_threads(),
         ))?;
         Ok(ExitCode::SUCCESS)
     }
 }
 
-/// Scales up the time of a short run of the same points; its counts are thrown away.
+/// Scales up the time of a short run of the same points, long enough to be measured; its counts are
+/// thrown away.
 fn expected_time(plan: &Plan, pilots: &Pilots) -> Duration {
+    const LONG_ENOUGH: Duration = Duration::from_millis(300);
     let decisions = pilots.stand_ins();
     let mut short = plan.clone();
     let wanted = plan.ensemble.trials;
     short.ensemble.trials = wanted.min(BLOCK * rayon::current_num_threads() as u64);
-    run::run(&short, &decisions, &[], |_| {});
-    let start = Instant::now();
-    run::run(&short, &decisions, &[], |_| {});
     // A trial-point of a pilot costs about as much as one of the run.
     let work = (plan.ensemble.work() + pilots.work()) as f64;
-    start.elapsed().mul_f64(work / short.ensemble.work() as f64)
+    loop {
+        let start = Instant::now();
+        run::run(&short, &decisions, &[], |_| {});
+        let time = start.elapsed();
+        if time >= LONG_ENOUGH || short.ensemble.trials == wanted {
+            return time.mul_f64(work / short.ensemble.work() as f64);
+        }
+        short.ensemble.trials = wanted.min(4 * short.ensemble.trials);
+    }
 }
 
 fn in_words(time: Duration) -> String {
