@@ -3,13 +3,26 @@
 use super::{Directory, ResultsError};
 use std::fs::{self, File, TryLockError};
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Held by a run as long as it may write into its directory; the system takes it back when the process
 /// ends, however it ends.
 #[derive(Debug)]
 pub struct Lock {
     _handle: Option<File>,
+    /// The directories that were not there before, innermost first.
+    made: Vec<PathBuf>,
+}
+
+impl Drop for Lock {
+    /// A run that is refused leaves no empty directory.
+    fn drop(&mut self) {
+        for path in &self.made {
+            if fs::remove_dir(path).is_err() {
+                break;
+            }
+        }
+    }
 }
 
 impl Directory {
@@ -23,16 +36,23 @@ impl Directory {
             path: self.path().to_owned(),
             error,
         };
+        let paths = self.path().ancestors();
+        let is_new = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
+        let made = paths.take_while(is_new).map(Path::to_owned).collect();
         fs::create_dir_all(self.path()).map_err(unwritable)?;
         let handle = handle(self.path()).map_err(unwritable)?;
         match handle.try_lock() {
             Ok(()) => Ok(Lock {
                 _handle: Some(handle),
+                made,
             }),
             Err(TryLockError::WouldBlock) => Err(ResultsError::Locked {
                 path: self.path().to_owned(),
             }),
-            Err(TryLockError::Error(_)) => Ok(Lock { _handle: None }),
+            Err(TryLockError::Error(_)) => Ok(Lock {
+                _handle: None,
+                made,
+            }),
         }
     }
 
