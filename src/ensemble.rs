@@ -77,7 +77,11 @@ impl Ensemble {
     pub fn run_block(&self, index: usize, trials: std::ops::Range<u64>, sink: &mut impl Sink) {
         let mut trial = Trial::new(&self.families[index]);
         for number in trials {
-            trial.run(number, |place, observation| sink.take(place, observation));
+            trial.run(
+                number,
+                #[inline(always)]
+                |place, observation| sink.take(place, observation),
+            );
             sink.end_trial(index);
         }
         sink.end_block();

@@ -51,7 +51,7 @@ impl<'a, 'k> Observation<'a, 'k> {
     }
 
     /// W and T.
-    #[inline]
+    #[inline(always)]
     pub fn statistics(&mut self, ties: Ties) -> Statistics {
         match ties {
             Ties::Random => {
@@ -102,6 +102,7 @@ impl Score {
     }
 
     /// Its value; negative infinity where it has none, as in a record of one value.
+    #[inline(never)]
     pub fn of(&self, observation: &mut Observation) -> f64 {
         let Pooled {
             reference,
@@ -193,11 +194,28 @@ pub enum Decision {
 
 impl Decision {
     /// Whether it decides H₁.
-    #[inline]
+    #[inline(always)]
     pub fn is_h1(&self, observation: &mut Observation) -> bool {
         match self {
             Self::Region { region, ties } => region.contains(observation.statistics(*ties)),
             Self::Threshold { score, threshold } => score.of(observation) > *threshold,
+        }
+    }
+
+    /// Whether both are one and the same.
+    pub fn is_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Region { region, ties }, Self::Region { region: r, ties: t }) => {
+                Arc::ptr_eq(region, r) && ties == t
+            }
+            (
+                Self::Threshold { score, threshold },
+                Self::Threshold {
+                    score: s,
+                    threshold: t,
+                },
+            ) => Arc::ptr_eq(score, s) && threshold == t,
+            _ => false,
         }
     }
 

@@ -2,7 +2,7 @@
 //! allocated once.
 
 use super::batch::{Batch, observe};
-use super::family::{Branch, Course, Family, Source, Stage};
+use super::family::{Branch, Course, Family, Source};
 use super::observation::{Observation, Scratch};
 use crate::detect::{Crossings, Lines, Pooled, Samples, Statistics};
 use crate::lanes::Vectors;
@@ -19,7 +19,7 @@ pub struct Trial<'a> {
     record: Record,
     pub(super) motion: Motion,
     /// Of every course of every branch, where W and T are worth counting along Δ.
-    crossings: Vec<Option<Crossings>>,
+    curves: Vec<Option<Curve>>,
     pub(super) keys: Keys<'a>,
     scratch: Scratch,
 }
@@ -47,6 +47,14 @@ pub(super) struct Motion {
     impulse: Vec<f64>,
     without_step: Vec<f64>,
     pub whitened: Vec<f64>,
+}
+
+/// What counts W and T along Δ, and who is to see them.
+struct Curve {
+    crossings: Crossings,
+    /// Each place, after the number of its stage: on a fine grid there are many, so they are kept short
+    /// and together.
+    places: Vec<[u32; 2]>,
 }
 
 /// Keys for a trial's ties; random ones are drawn when first asked for.
@@ -89,8 +97,8 @@ impl<'a> Trial<'a> {
                 without_step: vec![0.0; after],
                 whitened: vec![0.0; after],
             },
-            crossings: courses
-                .map(|(branch, course)| crossings(branch, course))
+            curves: courses
+                .map(|(branch, course)| Curve::new(branch, course))
                 .collect(),
             keys: Keys {
                 stream: &family.ties,
@@ -112,13 +120,13 @@ impl<'a> Trial<'a> {
             batch,
             record,
             motion,
-            crossings,
+            curves,
             keys,
             scratch,
         } = self;
         let source = &family.source;
         keys.start(index);
-        let mut crossings = crossings.iter_mut();
+        let mut curves = curves.iter_mut();
         for (number, branch) in family.branches.iter().enumerate() {
             let (coefficients, rest) = batch.rest(number, lane);
             let is_linear = branch.digitiser.is_transparent();
@@ -126,23 +134,18 @@ impl<'a> Trial<'a> {
                 record.observe(batch.raw(lane), branch, source);
             }
             for course in &branch.courses {
-                let crossings = crossings.next().expect("one for each course");
+                let curve = curves.next().expect("one for each course");
                 motion.draw_impulses(course, batch.impulses(lane), source);
                 if is_linear {
                     motion.respond(course, coefficients, source, rest);
                 }
-                let counted = crossings
-                    .as_mut()
-                    .and_then(|crossings| motion.count(crossings, &source.samples, rest));
-                if let Some(counted) = counted
-                    && !course.needs_samples
+                if let Some(Curve { crossings, places }) = curve
+                    && let Some(counted) = motion.count(crossings, &source.samples, rest)
                 {
                     let mut observation = Observation::new(&source.samples, keys, scratch);
-                    for (stage, statistics) in course.stages.iter().zip(counted) {
-                        observation.statistics = Some(*statistics);
-                        for &place in &stage.places {
-                            show(place, &mut observation);
-                        }
+                    for &[stage, place] in &*places {
+                        observation.statistics = Some(counted[stage as usize]);
+                        show(place as usize, &mut observation);
                     }
                     continue;
                 }
@@ -181,11 +184,24 @@ impl<'a> Trial<'a> {
     }
 }
 
-/// What counts W and T along Δ, where the whitened samples are lines in it and there are enough of them.
-fn crossings(branch: &Branch, course: &Course) -> Option<Crossings> {
-    let pays = course.stages.len() >= CROSSINGS_PAY && branch.digitiser.is_transparent();
-    let deltas = || course.stages.iter().map(|stage: &Stage| stage.delta);
-    pays.then(|| Crossings::new(Vectors::widest(), deltas().collect()))
+impl Curve {
+    /// Where the whitened samples are lines in Δ, there are enough values of it, and nobody looks at more
+    /// than W and T.
+    fn new(branch: &Branch, course: &Course) -> Option<Self> {
+        let pays = course.stages.len() >= CROSSINGS_PAY;
+        if !pays || course.needs_samples || !branch.digitiser.is_transparent() {
+            return None;
+        }
+        let deltas = course.stages.iter().map(|stage| stage.delta).collect();
+        let stages = (0..).zip(&course.stages);
+        let short = |place: usize| u32::try_from(place).expect("fewer points than 2^32");
+        Some(Self {
+            crossings: Crossings::new(Vectors::widest(), deltas),
+            places: stages
+                .flat_map(|(number, stage)| stage.places.iter().map(move |&at| [number, short(at)]))
+                .collect(),
+        })
+    }
 }
 
 impl Record {

@@ -38,7 +38,7 @@ pub(super) const NEVER: u64 = u64::MAX;
 
 impl Region {
     /// δ(W, T) of eq. (10): whether this observation decides H₁.
-    #[inline]
+    #[inline(always)]
     pub fn contains(&self, statistics: Statistics) -> bool {
         let score = self.alternative.score(statistics.rank_sum, self.twice_mean);
         score >= self.critical[statistics.exceedances]

@@ -1,6 +1,6 @@
 //! Counts what a ledger lacks, and nothing else.
 
-use super::{Counts, Families};
+use super::{Counts, Decisions, Families};
 use crate::chain::Decision;
 use crate::ensemble::BLOCK;
 use crate::ledger::{Key, Ledger, Ranges};
@@ -115,9 +115,8 @@ impl Lacks {
     /// Adds to `ledger` all that is missing, block by block on the current thread pool, each point of the
     /// plan deciding by its place in `decisions`.
     pub fn count(&self, decisions: &[Decision], ledger: &Mutex<Ledger>, watch: &impl Watch) {
-        let of_jobs: Vec<Vec<Decision>> = (self.jobs.iter())
-            .map(|job| (job.places.iter().map(|&at| decisions[at].clone())).collect())
-            .collect();
+        let of_job = |job: &Job| Decisions::new(job.places.iter().map(|&at| decisions[at].clone()));
+        let of_jobs: Vec<Decisions> = self.jobs.iter().map(of_job).collect();
         let end = |stretch: &Stretch| stretch.before + blocks(&stretch.trials);
         let all = self.stretches.last().map_or(0, end);
         (0..all).into_par_iter().for_each(|block| {

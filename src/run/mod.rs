@@ -48,7 +48,8 @@ pub fn run(
     progress: impl Fn(u64) + Sync,
 ) -> Outcome {
     let families = Families::new(plan, pairs.to_vec());
-    let new = || Counts::new(decisions, &families);
+    let decisions = Decisions::new(decisions.iter().cloned());
+    let new = || Counts::new(&decisions, &families);
     let counts = plan.ensemble.run(new, progress);
     let trials = plan.ensemble.trials;
     let tallies = counts.hits.iter();
@@ -94,10 +95,38 @@ impl Families {
     }
 }
 
+/// The decision of every point, those that points share kept once: a curve has one, and a trial goes through
+/// all of its points.
+#[derive(Clone, Debug)]
+struct Decisions {
+    distinct: Vec<Decision>,
+    of: Vec<u32>,
+}
+
+impl Decisions {
+    fn new(decisions: impl IntoIterator<Item = Decision>) -> Self {
+        let mut distinct: Vec<Decision> = Vec::new();
+        let mut of = Vec::new();
+        for decision in decisions {
+            let known = distinct.iter().position(|known| known.is_same(&decision));
+            of.push(known.unwrap_or(distinct.len()) as u32);
+            if known.is_none() {
+                distinct.push(decision);
+            }
+        }
+        Self { distinct, of }
+    }
+
+    #[inline(always)]
+    fn at(&self, place: usize) -> &Decision {
+        &self.distinct[self.of[place] as usize]
+    }
+}
+
 /// Counts that add. Decisions of [`WORD`] trials are gathered as bits of a word before they are counted,
 /// so that a pair of points is compared once a word and not once a trial.
 struct Counts<'a> {
-    decisions: &'a [Decision],
+    decisions: &'a Decisions,
     families: &'a Families,
     /// What each point decided in the trials since the last count, the first in the lowest bit.
     decided: Vec<u64>,
@@ -113,14 +142,15 @@ struct Counts<'a> {
 const WORD: u32 = u64::BITS;
 
 impl<'a> Counts<'a> {
-    fn new(decisions: &'a [Decision], families: &'a Families) -> Self {
+    fn new(decisions: &'a Decisions, families: &'a Families) -> Self {
+        let points = decisions.of.len();
         Self {
             decisions,
             families,
-            decided: vec![0; decisions.len()],
+            decided: vec![0; points],
             gathered: 0,
             family: 0,
-            hits: vec![0; decisions.len()],
+            hits: vec![0; points],
             discordant: vec![[0; 2]; families.pairs.len()],
         }
     }
@@ -141,9 +171,9 @@ impl<'a> Counts<'a> {
 }
 
 impl Sink for Counts<'_> {
-    #[inline]
+    #[inline(always)]
     fn take(&mut self, place: usize, observation: &mut Observation) {
-        let is_h1 = self.decisions[place].is_h1(observation);
+        let is_h1 = self.decisions.at(place).is_h1(observation);
         self.decided[place] |= u64::from(is_h1) << self.gathered;
     }
 
