@@ -115,8 +115,8 @@ impl<const N: usize> Wide<N> {
     #[inline(always)]
     pub fn low_bits(self) -> [u32; N] {
         let mut bits = [0; N];
-        for lane in 0..N {
-            bits[lane] = self.0[lane].to_bits() as u32;
+        for (bits, x) in bits.iter_mut().zip(&self.0) {
+            *bits = x.to_bits() as u32;
         }
         bits
     }

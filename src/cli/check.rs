@@ -89,15 +89,18 @@ fn report(config: &Config, plan: &Plan, decisions: &[Decision], findings: &[Find
 
 fn row(config: &Config, point: &Point, decision: &Decision, finding: &Finding) -> Vec<String> {
     let row = Row::new(point, Some(decision), finding.tally, config.confidence);
+    // Four digits of the nominal rate, and six decimals at least.
+    let decimals = (3.0 - finding.nominal.log10().floor()).max(6.0) as usize;
+    let digits = |rate: f64| format!("{rate:.decimals$}");
     vec![
         scenario(config, &row),
         row.rule_name().to_owned(),
         finding.nominal.to_string(),
-        row.size.map_or(String::new(), |size| format!("{size:.6}")),
+        row.size.map_or(String::new(), digits),
         row.trials.to_string(),
         row.detections.to_string(),
-        format!("{:.6}", row.rate),
-        format!("[{:.6}, {:.6}]", row.low, row.high),
+        digits(row.rate),
+        format!("[{}, {}]", digits(row.low), digits(row.high)),
         p_value(finding.p_value),
         match finding.verdict {
             Verdict::Pass => "pass",
