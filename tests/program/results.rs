@@ -44,6 +44,7 @@ fn same_bytes_in_another_environment() {
         .env("RAYON_NUM_THREADS", "1")
         .env("TZ", "Pacific/Kiritimati")
         .env("LC_ALL", "ru_RU.UTF-8")
+        .env("LIFTSIM_VECTORS", "baseline")
         .args(["sweep", "--trials", "4000", "--out", "."])
         .arg(project().join("configs/fig6.toml"));
     assert_eq!(outcome(&mut elsewhere).0, 0);
