@@ -4,7 +4,7 @@
 //! trial's draws are addressed by its own index, and what a [`Sink`] gathers of them must add up to the
 //! same in any order, so neither the blocks nor the number of threads leave a trace.
 
-use crate::chain::{Family, Observation, Purpose, RecordTooLong, Scenario, Trial};
+use crate::chain::{Family, Purpose, RecordTooLong, Scenario, Trial, View};
 use rayon::prelude::*;
 
 /// Trials in a block.
@@ -20,10 +20,7 @@ pub struct Ensemble {
 }
 
 /// What becomes of the trials.
-pub trait Sink: Send {
-    /// A trial as the scenario at `place` sees it.
-    fn take(&mut self, place: usize, observation: &mut Observation);
-
+pub trait Sink: View + Send {
     /// The trial of family `family` is over: all its places have been shown.
     fn end_trial(&mut self, _family: usize) {}
 
@@ -77,11 +74,7 @@ impl Ensemble {
     pub fn run_block(&self, index: usize, trials: std::ops::Range<u64>, sink: &mut impl Sink) {
         let mut trial = Trial::new(&self.families[index]);
         for number in trials {
-            trial.run(
-                number,
-                #[inline(always)]
-                |place, observation| sink.take(place, observation),
-            );
+            trial.run(number, sink);
             sink.end_trial(index);
         }
         sink.end_block();

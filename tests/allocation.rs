@@ -1,6 +1,6 @@
 //! No allocation inside a trial: a block of many trials allocates as often as a block of one.
 
-use liftsim::chain::Trial;
+use liftsim::chain::{Observation, Trial};
 use liftsim::config::Config;
 use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
@@ -77,7 +77,7 @@ fn trials_do_not_allocate() {
             let before = allocations();
             let mut trial = Trial::new(family);
             for index in 0..trials {
-                trial.run(index, |place, observation| {
+                trial.run(index, &mut |place: usize, observation: &mut Observation| {
                     counts[place] += u64::from(decisions[place].is_h1(observation));
                 });
             }

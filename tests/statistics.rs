@@ -1,6 +1,6 @@
 //! Statistical tests of whole runs. Seeds are fixed; every test states its false-failure rate.
 
-use liftsim::chain::{Decision, Trial};
+use liftsim::chain::{Decision, Observation, Trial};
 use liftsim::config::Config;
 use liftsim::detect::{NullLaw, Samples};
 use liftsim::pilot::Pilots;
@@ -301,7 +301,7 @@ fn discordant_trials_are_those_on_which_two_points_differ() {
     for family in &plan.ensemble.families {
         let mut trial = Trial::new(family);
         for index in 0..3000 {
-            trial.run(index, |place, observation| {
+            trial.run(index, &mut |place: usize, observation: &mut Observation| {
                 decided[place][index as usize] = decisions[place].is_h1(observation);
             });
         }

@@ -22,7 +22,7 @@ mod tests;
 mod trial;
 
 pub use family::{Family, Purpose, RecordTooLong};
-pub use observation::{Decision, Observation, Score};
+pub use observation::{Decision, Observation, Score, View};
 pub use replay::Replay;
 pub use scenario::{Calibration, Detector, Scenario};
 pub use trial::Trial;

@@ -32,6 +32,32 @@ pub(super) struct Scratch {
     forward: Forward,
 }
 
+/// Who looks at a trial.
+pub trait View {
+    /// The point at `place` is shown what it sees.
+    fn look(&mut self, place: usize, observation: &mut Observation);
+
+    /// Points along Δ are shown what they see, all of whom look at W and T alone: each place comes after
+    /// the number of its `statistics`.
+    fn look_along(
+        &mut self,
+        points: &[[u32; 2]],
+        statistics: &[Statistics],
+        observation: &mut Observation,
+    ) {
+        for &[number, place] in points {
+            observation.statistics = Some(statistics[number as usize]);
+            self.look(place as usize, observation);
+        }
+    }
+}
+
+impl<F: FnMut(usize, &mut Observation)> View for F {
+    fn look(&mut self, place: usize, observation: &mut Observation) {
+        self(place, observation);
+    }
+}
+
 impl<'a, 'k> Observation<'a, 'k> {
     /// Nothing seen yet.
     pub(super) fn new(

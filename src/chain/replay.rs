@@ -2,7 +2,7 @@
 
 use super::batch::observe;
 use super::family::{Family, Purpose, RecordTooLong};
-use super::observation::Decision;
+use super::observation::{Decision, Observation};
 use super::scenario::Scenario;
 use super::trial::Trial;
 use crate::detect::{Samples, Statistics, Ties};
@@ -54,7 +54,7 @@ impl Replay {
         let family = &families.map_err(|(_, refusal)| refusal)?[0];
         let mut trial = Trial::new(family);
         let mut decided = None;
-        trial.run(index, |_, observation| {
+        trial.run(index, &mut |_: usize, observation: &mut Observation| {
             let statistics = observation.statistics(scenario.detector.ties);
             decided = Some((statistics, decision.is_h1(observation)));
         });

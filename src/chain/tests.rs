@@ -2,7 +2,7 @@
 //! no linearity, nothing shared between points, ranks by sorting.
 
 use super::scenario::{Calibration, Detector, Scenario};
-use super::{Decision, Family, Purpose, Score, Trial};
+use super::{Decision, Family, Observation, Purpose, Score, Trial};
 use crate::detect::{
     Alternative, Baseline, Clairvoyant, Forward, Method, NullLaws, Region, Rule, Samples,
     Statistics, Ties,
@@ -116,7 +116,7 @@ fn counts(scenarios: &[Scenario], families: &[Family], trials: Range<u64>) -> Ve
     for family in families {
         let mut trial = Trial::new(family);
         for index in trials.clone() {
-            trial.run(index, |place, observation| {
+            trial.run(index, &mut |place: usize, observation: &mut Observation| {
                 counts[place] += u64::from(decisions[place].is_h1(observation));
             });
         }

@@ -3,7 +3,7 @@
 
 use super::batch::{Batch, observe};
 use super::family::{Branch, Course, Family, Source};
-use super::observation::{Observation, Scratch};
+use super::observation::{Observation, Scratch, View};
 use crate::detect::{Crossings, Lines, Pooled, Samples, Statistics};
 use crate::lanes::Vectors;
 use crate::rng::Stream;
@@ -113,7 +113,7 @@ impl<'a> Trial<'a> {
 
     /// Draws the noise of trial `index` and shows every point of the family, by its place, what it
     /// gives there. Consecutive trials are cheapest.
-    pub fn run(&mut self, index: u64, mut show: impl FnMut(usize, &mut Observation)) {
+    pub fn run(&mut self, index: u64, view: &mut impl View) {
         let lane = self.batch.seek(index);
         let Self {
             family,
@@ -143,10 +143,7 @@ impl<'a> Trial<'a> {
                     && let Some(counted) = motion.count(crossings, &source.samples, rest)
                 {
                     let mut observation = Observation::new(&source.samples, keys, scratch);
-                    for &[stage, place] in &*places {
-                        observation.statistics = Some(counted[stage as usize]);
-                        show(place as usize, &mut observation);
-                    }
+                    view.look_along(places, counted, &mut observation);
                     continue;
                 }
                 for stage in &course.stages {
@@ -176,7 +173,7 @@ impl<'a> Trial<'a> {
                         ..Observation::new(&source.samples, keys, scratch)
                     };
                     for &place in &stage.places {
-                        show(place, &mut observation);
+                        view.look(place, &mut observation);
                     }
                 }
             }

@@ -8,7 +8,7 @@
 //! Δ, either end is missed only if the interval at one of the two neighbours of the true point misses,
 //! so it covers that point with the stated confidence.
 
-use crate::chain::{Observation, Purpose, RecordTooLong, Scenario};
+use crate::chain::{Observation, Purpose, RecordTooLong, Scenario, View};
 use crate::config::{ExhibitConfig, Problem, Search};
 use crate::detect::{Method, NullLaws, Region, RegionError, Samples, Ties};
 use crate::ensemble::{Ensemble, Sink};
@@ -264,12 +264,14 @@ impl<'a> Counts<'a> {
     }
 }
 
-impl Sink for Counts<'_> {
-    fn take(&mut self, place: usize, observation: &mut Observation) {
+impl View for Counts<'_> {
+    fn look(&mut self, place: usize, observation: &mut Observation) {
         let is_h1 = self.region.contains(observation.statistics(self.ties));
         self.hits[place] += u64::from(is_h1);
     }
+}
 
+impl Sink for Counts<'_> {
     fn merge(&mut self, other: Self) {
         for (sum, more) in self.hits.iter_mut().zip(other.hits) {
             *sum += more;

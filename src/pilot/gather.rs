@@ -1,6 +1,6 @@
 //! What a pilot looks at, and what it keeps of it: a histogram of (W, T), or the largest scores.
 
-use crate::chain::{Observation, Score};
+use crate::chain::{Observation, Score, View};
 use crate::detect::{Histogram, Region, Ties};
 use crate::ensemble::Sink;
 use std::sync::Arc;
@@ -87,8 +87,8 @@ pub(super) struct Gatherer<'a> {
     pub gathered: Vec<Gathered>,
 }
 
-impl Sink for Gatherer<'_> {
-    fn take(&mut self, place: usize, observation: &mut Observation) {
+impl View for Gatherer<'_> {
+    fn look(&mut self, place: usize, observation: &mut Observation) {
         match (&self.gauges[place], &mut self.gathered[place]) {
             (Gauge::Statistics(ties), Gathered::Statistics(histogram)) => {
                 histogram.add(observation.statistics(*ties));
@@ -99,7 +99,9 @@ impl Sink for Gatherer<'_> {
             _ => unreachable!("what is gathered is what the gauge shows"),
         }
     }
+}
 
+impl Sink for Gatherer<'_> {
     fn merge(&mut self, other: Self) {
         for (sum, more) in self.gathered.iter_mut().zip(other.gathered) {
             match (sum, more) {

@@ -24,7 +24,8 @@ mod counting;
 
 pub use counting::{Lack, Lacks, Subject, Watch};
 
-use crate::chain::{Decision, Observation};
+use crate::chain::{Decision, Observation, View};
+use crate::detect::{Region, Statistics};
 use crate::ensemble::Sink;
 use crate::plan::Plan;
 use crate::tally::Tally;
@@ -116,11 +117,6 @@ impl Decisions {
         }
         Self { distinct, of }
     }
-
-    #[inline(always)]
-    fn at(&self, place: usize) -> &Decision {
-        &self.distinct[self.of[place] as usize]
-    }
 }
 
 /// Counts that add. Decisions of [`WORD`] trials are gathered as bits of a word before they are counted,
@@ -170,13 +166,45 @@ impl<'a> Counts<'a> {
     }
 }
 
-impl Sink for Counts<'_> {
-    #[inline(always)]
-    fn take(&mut self, place: usize, observation: &mut Observation) {
-        let is_h1 = self.decisions.at(place).is_h1(observation);
+impl View for Counts<'_> {
+    fn look(&mut self, place: usize, observation: &mut Observation) {
+        let decision = &self.decisions.distinct[self.decisions.of[place] as usize];
+        let is_h1 = decision.is_h1(observation);
         self.decided[place] |= u64::from(is_h1) << self.gathered;
     }
 
+    fn look_along(&mut self, points: &[[u32; 2]], statistics: &[Statistics], _: &mut Observation) {
+        let alike = |a: &[u32; 2], b: &[u32; 2]| {
+            self.decisions.of[a[1] as usize] == self.decisions.of[b[1] as usize]
+        };
+        for points in points.chunk_by(alike) {
+            let decision = self.decisions.of[points[0][1] as usize];
+            match &self.decisions.distinct[decision as usize] {
+                Decision::Region { region, .. } => {
+                    decide(region, points, statistics, self.gathered, &mut self.decided);
+                }
+                Decision::Threshold { .. } => unreachable!("a score looks at the samples"),
+            }
+        }
+    }
+}
+
+/// Sets bit `trial` of each point whose W and T lie in the region.
+#[inline(never)]
+fn decide(
+    region: &Region,
+    points: &[[u32; 2]],
+    statistics: &[Statistics],
+    trial: u32,
+    decided: &mut [u64],
+) {
+    for &[number, place] in points {
+        let is_h1 = region.contains(statistics[number as usize]);
+        decided[place as usize] |= u64::from(is_h1) << trial;
+    }
+}
+
+impl Sink for Counts<'_> {
     fn end_trial(&mut self, family: usize) {
         self.family = family;
         self.gathered += 1;
