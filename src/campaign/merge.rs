@@ -163,7 +163,7 @@ impl Joined {
         let config = self.state.origin.sweep()?;
         let plan = Plan::new(&config)?;
         let mut campaign = Campaign::open(&config, plan, directory, None, Terms::Continue)?;
-        if !self.state.counters.covers(&campaign.state.counters) && campaign.made_by.is_none() {
+        if !self.state.counters.covers(&campaign.state.counters) {
             return Err(MergeError::More(campaign.directory.path().to_owned()));
         }
         campaign.made_by = None;

@@ -75,7 +75,7 @@ impl Status {
             },
             experiment: Some(held.origin.config_name.clone()),
             shard: held.shard,
-            points: points(&held).count(),
+            points: points(&held),
             done: wanted - lacking,
             wanted,
         }
@@ -93,27 +93,26 @@ impl Status {
     }
 }
 
-/// How many trials each point has counted of those wanted.
-fn points(state: &Checkpoint) -> impl Iterator<Item = u64> + '_ {
-    let wanted = state.wanted();
-    let counters = state.counters.iter().map(|(_, counter)| counter);
-    let points = counters.filter(|counter| counter.counts.len() == 1);
-    points.map(move |counter| {
-        let missing = counter.trials.missing(wanted.clone()).len();
-        wanted.end - wanted.start - missing
-    })
+/// How many points are counted.
+fn points(state: &Checkpoint) -> usize {
+    let counters = state.counters.iter();
+    counters
+        .filter(|(_, counter)| counter.counts.len() == 1)
+        .count()
 }
 
-/// Trials of a point that are wanted and not there: on average, rounded up, so that none means that
-/// nothing is missing.
+/// Trials that are wanted and not there: of all counters, those of pairs among them, on average and rounded
+/// up, so that none means that nothing is missing.
 pub(super) fn lacking(state: &Checkpoint) -> u64 {
     let wanted = state.wanted();
-    let wanted = wanted.end - wanted.start;
-    let (number, done) = points(state).fold((0u128, 0u128), |(number, sum), done| {
-        (number + 1, sum + u128::from(done))
-    });
+    let mut number = 0u128;
+    let mut missing = 0u128;
+    for (_, counter) in state.counters.iter() {
+        number += 1;
+        missing += u128::from(counter.trials.missing(wanted.clone()).len());
+    }
     match number {
-        0 => wanted,
-        _ => (number * u128::from(wanted) - done).div_ceil(number) as u64,
+        0 => wanted.end - wanted.start,
+        _ => missing.div_ceil(number) as u64,
     }
 }

@@ -14,6 +14,7 @@ use crate::whiten::Whitening;
 pub struct Family {
     pub(super) source: Source,
     subject: String,
+    gigabytes: f64,
     pub(super) noise: Stream,
     pub(super) impulses: Stream,
     pub(super) ties: Stream,
@@ -114,7 +115,7 @@ impl Family {
         let mut families: Vec<Self> = Vec::new();
         for (place, scenario) in scenarios.into_iter().enumerate() {
             let source = Source::new(scenario);
-            source
+            let gigabytes = source
                 .check_memory(scenario)
                 .map_err(|refusal| (place, refusal))?;
             let subject = match common_random_numbers {
@@ -127,6 +128,7 @@ impl Family {
                 |family| family.subject == subject && family.source.disturbance == disturbance,
                 || Self::new(source, seed, purpose, &subject),
             );
+            family.gigabytes = family.gigabytes.max(gigabytes);
             family.insert(scenario, place);
         }
         Ok(families)
@@ -144,6 +146,7 @@ impl Family {
         Self {
             source,
             subject: subject.to_owned(),
+            gigabytes: 0.0,
             noise: stream("noise"),
             impulses: stream("impulses"),
             ties: stream("ties"),
@@ -157,6 +160,11 @@ impl Family {
         let stages = |course: &Course| course.stages.len();
         let courses = self.branches.iter().flat_map(|branch| &branch.courses);
         courses.map(stages).sum()
+    }
+
+    /// Memory of the buffers of its trials, in GB; every thread has its own.
+    pub fn gigabytes(&self) -> f64 {
+        self.gigabytes
     }
 
     /// Whether anything in it vibrates.
@@ -275,7 +283,7 @@ impl Source {
 
     /// Refuses a trial whose buffers would not fit in memory: raw noise, what is observed and whitened
     /// of it, the same again for the motion, and the fit.
-    fn check_memory(&self, scenario: &Scenario) -> Result<(), RecordTooLong> {
+    fn check_memory(&self, scenario: &Scenario) -> Result<f64, RecordTooLong> {
         let decimation = self.samples.decimation() as f64;
         let span = self.samples.span() as f64;
         let after = span - self.samples.reference() as f64;
@@ -293,7 +301,7 @@ impl Source {
                 gigabytes,
                 limit: MEMORY_LIMIT,
             }),
-            false => Ok(()),
+            false => Ok(gigabytes),
         }
     }
 }

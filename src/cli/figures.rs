@@ -291,6 +291,8 @@ impl Task<'_> {
         progress::work_off(&mut campaign, reporter)?;
         let held = campaign.made_by().cloned();
         let is_redrawn = held.is_some();
+        // Until the last file vouches for the others, the counts are what a run goes on from.
+        campaign.save().map_err(Failure::run)?;
         let (counts, _lock) = campaign.counts();
         let written = sweep::write(directory, config, &counts, held)?;
         Ok(if is_redrawn {

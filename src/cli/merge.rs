@@ -10,8 +10,8 @@ use std::process::ExitCode;
 /// Join the shards of one experiment into the files of the whole run.
 ///
 /// The bytes are those of a run without shards. Where shards are missing or unfinished, what is there is
-/// joined in counts.json, from which `liftsim sweep` goes on, and the rest is named. The shards are left
-/// as they are.
+/// joined in counts.json, from which `liftsim sweep` goes on, and the rest is named; the exit code is 0 then,
+/// too, and no points.csv is written. The shards are left as they are.
 #[derive(Debug, Args)]
 pub struct Merge {
     /// Directories that `liftsim sweep --shard` has written.
@@ -31,12 +31,13 @@ impl Merge {
         let name = Path::new(&joined.state.origin.config_name);
         let out = self.out.unwrap_or_else(|| sweep::default_directory(name));
         let missing = joined.missing.clone();
+        let command = joined.state.origin.command_line();
         let (config, campaign) = joined.settle(Directory::new(&out)).map_err(failure)?;
         if campaign.rest().is_none() {
             print(&sweep::finish(&config, campaign, None)?)?;
             return Ok(ExitCode::SUCCESS);
         }
-        print(&incomplete(&missing, &out))?;
+        print(&incomplete(&missing, &command, &out))?;
         Ok(ExitCode::SUCCESS)
     }
 }
@@ -49,7 +50,7 @@ fn failure(error: MergeError) -> Failure {
 }
 
 /// What is missing, in words.
-fn incomplete(missing: &Missing, out: &Path) -> String {
+fn incomplete(missing: &Missing, command: &str, out: &Path) -> String {
     let mut text = String::from("incomplete:\n");
     if !missing.absent.is_empty() {
         let shards = missing.absent.iter().map(Shard::to_string);
@@ -63,7 +64,7 @@ fn incomplete(missing: &Missing, out: &Path) -> String {
     let counts = out.join("counts.json");
     let (counts, out) = (counts.display(), out.display());
     text + &format!(
-        "{counts}  written\nmerge again when they are there, or `liftsim sweep CONFIG --out {out}` \
+        "{counts}  written\nmerge again when they are there, or `{command} --out {out}` \
          simulates them\n"
     )
 }

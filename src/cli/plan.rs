@@ -2,6 +2,7 @@
 
 use super::{Failure, Outcome, Simulation, print};
 use clap::Args;
+use liftsim::chain::Family;
 use liftsim::ensemble::BLOCK;
 use liftsim::pilot::Pilots;
 use liftsim::plan::{Hypothesis, Plan};
@@ -38,13 +39,16 @@ impl PlanCommand {
             (high - low) / 2.0
         };
         let time = expected_time(&plan, &pilots);
+        let families = plan.ensemble.families.iter();
+        let threads = rayon::current_num_threads();
+        let megabytes = 1e3 * threads as f64 * families.map(Family::gigabytes).fold(0.0, f64::max);
         if self.json {
             let facts = json!({
                 "question": config.question, "points": plan.points.len(), "at_rest": at_rest,
                 "trials": trials, "work": plan.ensemble.work(), "pilots": pilots.work(),
                 "families": plan.ensemble.families.len(),
                 "half_width": half_width(trials / 2), "confidence": config.confidence,
-                "seconds": time.as_secs_f64(), "threads": rayon::current_num_threads(),
+                "seconds": time.as_secs_f64(), "threads": threads, "megabytes": megabytes,
             });
             print(&format!("{facts}\n"))?;
             return Ok(ExitCode::SUCCESS);
@@ -55,7 +59,8 @@ impl PlanCommand {
              trials       {trials} per point, {} trial-points in all\n\
              noise        {} independent sets of realisations\n\
              {}half-width   {:.5} at a rate of 1/2, {:.5} at 0.01, of the {} % interval\n\
-             time         about {} on {} threads\n",
+             memory       {megabytes:.1} MB for trials, beside what the program and its figure take\n\
+             time         about {} on {threads} threads\n",
             config.question,
             plan.points.len() - at_rest,
             config.curves.len(),
@@ -69,7 +74,6 @@ impl PlanCommand {
             half_width(trials / 100),
             config.confidence * 100.0,
             in_words(time),
-            rayon::current_num_threads(),
         ))?;
         Ok(ExitCode::SUCCESS)
     }

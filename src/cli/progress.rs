@@ -120,11 +120,13 @@ pub fn work_off(campaign: &mut Campaign, reporter: &Reporter) -> Result<(), Fail
         "trials": campaign.trials(), "total": work,
     }));
     if let Some(rest) = rest {
+        // On average over the points.
+        let missing = work.div_ceil(campaign.plan().points.len() as u64);
         let pilots = Pilots::new(&rest.plan).map_err(Failure::input)?;
         let decisions = pilot(&pilots, &rest.plan, reporter)?;
         let signals = Signals::watch().map_err(Failure::run)?;
         let follower = Follower {
-            stage: reporter.stage("points", work, campaign.trials()),
+            stage: reporter.stage("points", work, missing),
             signals: &signals,
         };
         let counted = campaign.count(&rest, &decisions, period(), &follower);

@@ -12,11 +12,11 @@ use std::process::ExitCode;
 
 /// Lay open every stage of one trial, as CSV: what was drawn, written down, fitted, ranked and decided.
 ///
-/// Columns are stage, sample, index and value. Stages: innovation (the draws behind the noise), noise, acceleration, impulse
-/// (one for each raw sample), record (as observed), coefficient (of the filter, from 1), whitened, rank,
-/// rank_sum (W), exceedances (T), critical (the smallest W that decides H1 at this T, as a score), threshold
-/// (of a score) and h1 (1 where the decision is H1). The decision is the one that a sweep with this
-/// config, seed and number of pilot trials counts.
+/// Columns are stage, sample, index and value. Stages: innovation (the draws behind the noise), noise, acceleration and
+/// impulse (one for each raw sample), record (as observed), coefficient (of the filter, from 1), whitened,
+/// rank, rank_sum (W), exceedances (T), critical (the smallest W that decides H1 at this T) and
+/// critical_below (the largest, where small ones do), threshold (of a score) and h1 (1 where the decision is
+/// H1). The decision is the one that a sweep with this config, seed and number of pilot trials counts.
 #[derive(Debug, Args)]
 pub struct ReplayCommand {
     #[command(flatten)]

@@ -94,11 +94,9 @@ pub(super) fn finish(
     let (points, trials) = (campaign.plan().points.len(), campaign.trials());
     let directory = campaign.directory().clone();
     if let Some(shard) = shard {
-        // A share of no trials is one, too.
+        // A share of no trials is one, too; and whoever joins it compares the words of the config.
         let is_new = !directory.has_counts();
-        if is_new {
-            campaign.save().map_err(Failure::run)?;
-        }
+        campaign.save().map_err(Failure::run)?;
         let counts = line(&directory, "counts.json", is_new);
         return Ok(format!(
             "shard {shard}: {points} points of {trials} trials\n{counts}"
@@ -114,6 +112,8 @@ pub(super) fn finish(
             "{points} points of {trials} trials are complete in {place}: nothing to simulate\n"
         ));
     }
+    // Until the last file vouches for the others, the counts are what a run goes on from.
+    campaign.save().map_err(Failure::run)?;
     let (counts, lock) = campaign.counts();
     let seconds = counts.seconds;
     let written = write(&directory, config, &counts, held)?;

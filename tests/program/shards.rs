@@ -104,6 +104,25 @@ fn shards_that_do_not_go_together_are_named() {
     refused(&[&a, "nowhere"], &["nowhere", "no counts.json"]);
 }
 
+/// A finished shard learns new words; one that lacks a pair is not finished; and few counts are not put in the
+/// place of many.
+#[test]
+fn shards_follow_their_config() {
+    let bench = Bench::new(TINY);
+    let trials = ["--trials", "3000"];
+    let (a, b) = (shard(&bench, 1, 2, &trials), shard(&bench, 2, 2, &trials));
+    bench.write(&TINY.replace("Does it survive?", "Does it?"));
+    assert_eq!(bench.run(&["merge", &a, &b, "--out", "out"]).0, 0);
+    shard(&bench, 1, 2, &trials);
+    assert_eq!(bench.run(&["merge", &a, &b, "--out", "mixed"]).0, 2);
+    shard(&bench, 2, 2, &trials);
+    assert_eq!(bench.run(&["merge", &a, &b, "--out", "new"]).0, 0);
+
+    let (code, _, err) = bench.run(&["merge", &a, "--out", "new"]);
+    assert_eq!(code, 2, "{err}");
+    assert!(bench.path("new/points.csv").exists() && !bench.path("new/counts.json").exists());
+}
+
 /// Trials that nobody has are named, and a sweep there does them.
 #[test]
 fn missing_shards_are_named() {

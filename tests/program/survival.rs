@@ -153,6 +153,36 @@ fn a_killed_run_comes_to_the_same_bytes() {
     assert!(in_time > 25 && after_a_save > 10);
 }
 
+/// A result that is only to be drawn anew, and whose run ends between the first file and the manifest that
+/// vouches for it: here because no file may grow beyond what the counts need and the picture does not.
+#[test]
+fn an_interrupted_redraw_loses_nothing() {
+    let bench = Bench::new(TINY);
+    bench.sweep("out", &[]);
+    bench.write(
+        &TINY
+            .replace("label = \"laplace\"", "label = \"heavy\"")
+            .replace("[\"laplace\"]", "[\"heavy\"]"),
+    );
+    let program = assert_cmd::cargo::cargo_bin("liftsim");
+    let sweep = format!(
+        "ulimit -f 40; exec {} --quiet sweep tiny.toml --out out",
+        program.display()
+    );
+    let mut shell = Command::new("sh");
+    shell.args(["-c", &sweep]).current_dir(bench.path("."));
+    assert!(
+        !shell.output().unwrap().status.success(),
+        "the picture fits"
+    );
+    let points = fs::read_to_string(bench.path("out/points.csv")).unwrap();
+    assert!(points.contains("heavy"), "nothing was written");
+    assert_eq!(bench.sweep("out", &[]), 0, "counts were lost");
+    bench.sweep("fresh", &[]);
+    assert!(bench.files("out") == bench.files("fresh"));
+    assert_eq!(bench.names("out"), bench.names("fresh"));
+}
+
 /// What is there is not simulated again, and what is added comes to the bytes of a run of its own.
 #[test]
 fn only_what_is_missing_is_simulated() {
