@@ -40,27 +40,42 @@ impl Directory {
         let is_new = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
         let made = paths.take_while(is_new).map(Path::to_owned).collect();
         fs::create_dir_all(self.path()).map_err(unwritable)?;
-        let handle = handle(self.path()).map_err(unwritable)?;
-        match handle.try_lock() {
-            Ok(()) => Ok(Lock {
-                _handle: Some(handle),
-                made,
-            }),
-            Err(TryLockError::WouldBlock) => Err(ResultsError::Locked {
-                path: self.path().to_owned(),
-            }),
-            Err(TryLockError::Error(_)) => Ok(Lock {
-                _handle: None,
-                made,
-            }),
+        for open in [handle, lock_file] {
+            let handle = open(self.path()).map_err(unwritable)?;
+            match handle.try_lock() {
+                Ok(()) => {
+                    let _handle = Some(handle);
+                    return Ok(Lock { _handle, made });
+                }
+                Err(TryLockError::WouldBlock) => {
+                    let path = self.path().to_owned();
+                    return Err(ResultsError::Locked { path });
+                }
+                Err(TryLockError::Error(_)) => {}
+            }
         }
+        let _handle = None;
+        Ok(Lock { _handle, made })
     }
 
     /// Whether a run is writing here.
     pub fn is_locked(&self) -> bool {
-        let shared = handle(self.path()).map(|handle| handle.try_lock_shared());
-        matches!(shared, Ok(Err(TryLockError::WouldBlock)))
+        let is_held = |handle: io::Result<File>| {
+            let shared = handle.map(|handle| handle.try_lock_shared());
+            matches!(shared, Ok(Err(TryLockError::WouldBlock)))
+        };
+        is_held(handle(self.path())) || is_held(File::open(self.path().join(LOCK_FILE)))
     }
+}
+
+/// What is locked where a directory cannot be, as on network file systems, which ask for a file open for
+/// writing.
+const LOCK_FILE: &str = ".liftsim-lock";
+
+fn lock_file(path: &Path) -> io::Result<File> {
+    let mut options = File::options();
+    options.create(true).truncate(false).write(true);
+    options.open(path.join(LOCK_FILE))
 }
 
 /// The directory itself, so that no file is left behind.
@@ -72,5 +87,5 @@ fn handle(path: &Path) -> io::Result<File> {
 /// A directory has no handle here.
 #[cfg(not(unix))]
 fn handle(path: &Path) -> io::Result<File> {
-    File::create(path.join(".liftsim-lock"))
+    lock_file(path)
 }

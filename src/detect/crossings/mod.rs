@@ -12,8 +12,11 @@
 //! The counts are those of comparing the samples at every Δ. Where rounding could make a difference,
 //! because two samples all but tie at some Δ, nothing is returned and the samples have to be compared.
 
+mod grid;
+
 use super::statistics::{Statistics, smallest_rank_sum};
 use crate::lanes::{Vectors, Wide};
+use grid::{Grid, greatest, least, round, round_up};
 
 /// Two samples nearer than this share of the largest value may compare one way or the other by
 /// rounding: each value has an error of two units in the last place, each crossing one of ten.
@@ -37,22 +40,6 @@ pub struct Crossings {
     rank_sums: Changes,
     exceedances: Changes,
     statistics: Vec<Statistics>,
-}
-
-/// The values of Δ, in ascending order.
-#[derive(Clone, Debug)]
-struct Grid {
-    deltas: Vec<f64>,
-    even: Option<Even>,
-}
-
-/// Values in equal steps.
-#[derive(Clone, Copy, Debug)]
-struct Even {
-    start: f64,
-    step: f64,
-    steps_per_unit: f64,
-    last: f64,
 }
 
 /// Y₁: lines that all others are compared with, one after the other; the last array is filled up with
@@ -308,108 +295,6 @@ impl Field {
         }
         self.nearest = nearest;
     }
-}
-
-impl Grid {
-    fn new(deltas: Vec<f64>) -> Self {
-        let (start, last) = (deltas[0], deltas.len() - 1);
-        let largest = start.abs().max(deltas[last].abs());
-        let step = (deltas[last] - start) / last as f64;
-        let is_even =
-            |(i, delta): (usize, &f64)| (start + i as f64 * step - delta).abs() <= 1e-14 * largest;
-        let even = Even {
-            start,
-            step,
-            steps_per_unit: 1.0 / step,
-            last: last as f64,
-        };
-        Self {
-            even: deltas.iter().enumerate().all(is_even).then_some(even),
-            deltas,
-        }
-    }
-
-    /// The first Δ from which on Δ · `closing` exceeds `ahead`, and how near to it that comes at any Δ.
-    #[inline(always)]
-    fn cross<const N: usize>(&self, ahead: Wide<N>, closing: Wide<N>) -> ([u32; N], Wide<N>) {
-        match self.even {
-            Some(even) => even.cross(ahead, closing),
-            None => self.search(ahead, closing),
-        }
-    }
-
-    fn search<const N: usize>(&self, ahead: Wide<N>, closing: Wide<N>) -> ([u32; N], Wide<N>) {
-        let mut nearest = Wide::all(f64::INFINITY);
-        let behind = std::array::from_fn(|lane| {
-            let (ahead, closing) = (ahead.0[lane], closing.0[lane]);
-            let first = (self.deltas).partition_point(|&delta| delta < ahead / closing);
-            for delta in &self.deltas[first.saturating_sub(1)..self.deltas.len().min(first + 1)] {
-                nearest.0[lane] = least((ahead - closing * delta).abs(), nearest.0[lane]);
-            }
-            first as u32
-        });
-        (behind, nearest)
-    }
-
-    /// The largest value that a line may have.
-    #[inline(always)]
-    fn largest(&self, lines: Lines) -> f64 {
-        let delta = self.deltas[0]
-            .abs()
-            .max(self.deltas[self.deltas.len() - 1].abs());
-        let (mut base, mut slope) = (0.0, 0.0);
-        for value in lines.base {
-            base = greatest(base, value.abs());
-        }
-        for value in lines.slope {
-            slope = greatest(slope, value.abs());
-        }
-        base + delta * slope
-    }
-}
-
-impl Even {
-    #[inline(always)]
-    fn cross<const N: usize>(&self, ahead: Wide<N>, closing: Wide<N>) -> ([u32; N], Wide<N>) {
-        let (start, step) = (Wide::all(self.start), Wide::all(self.step));
-        let place = self.clamp((ahead / closing - start) * self.steps_per_unit);
-        let nearby = start + step * round(place).least(Wide::all(self.last));
-        (round_up(place), (ahead - closing * nearby).abs())
-    }
-
-    /// Half a step outside is as good as any.
-    #[inline(always)]
-    fn clamp<const N: usize>(&self, place: Wide<N>) -> Wide<N> {
-        place
-            .greatest(Wide::all(-0.5))
-            .least(Wide::all(self.last + 0.5))
-    }
-}
-
-/// Adding this to a number below 2⁵¹ rounds it to a whole number, which is in the lowest bits of the sum.
-const ROUND: f64 = 1.5 * (1u64 << 52) as f64;
-
-#[inline(always)]
-fn round<const N: usize>(place: Wide<N>) -> Wide<N> {
-    (place + Wide::all(ROUND)) - Wide::all(ROUND)
-}
-
-/// The next whole number above; either neighbour of a whole number itself, which is in doubt anyway.
-#[inline(always)]
-fn round_up<const N: usize>(place: Wide<N>) -> [u32; N] {
-    ((place + Wide::all(0.5)) + Wide::all(ROUND)).low_bits()
-}
-
-/// The smaller of two numbers, in one instruction; the second where one is NaN.
-#[inline(always)]
-fn least(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
-}
-
-/// The larger of two numbers, in one instruction; the second where one is NaN.
-#[inline(always)]
-fn greatest(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
 }
 
 #[cfg(test)]
