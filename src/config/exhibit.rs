@@ -378,8 +378,8 @@ impl ExhibitKind {
     /// lasts as long as its phase.
     fn laid_over(&self, mut sections: Sections, table: &Range<usize>) -> Sections {
         if let Self::Trace(trace) = self {
-            let accelerated = trace.phases.iter().filter(|phase| phase.kind.sign() != 0.0);
-            let shortest = accelerated.map(|phase| phase.length as u64).min();
+            let accelerated = trace.parts.iter().filter(|part| part.phase.sign() != 0.0);
+            let shortest = accelerated.map(|part| part.length as u64).min();
             let duration = Whole(shortest.unwrap_or(1));
             sections.motion.duration = Some(Spanned::new(table.clone(), duration));
         }

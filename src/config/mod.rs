@@ -22,7 +22,7 @@ pub use axis::{Axis, AxisValue, Parameter};
 pub use claim::{Claim, ClaimProblem, Contrast, Contrasts, Narrative, Test};
 pub use error::{ConfigError, Problem};
 pub use exhibit::{ExhibitConfig, ExhibitKind, Experiment, Search};
-pub use trace::{Phase, PhaseKind, Trace};
+pub use trace::{Part, Trace};
 
 use crate::tally;
 use error::Source;

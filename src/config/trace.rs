@@ -7,6 +7,7 @@ use super::file::File;
 use super::value::{Number, Whole};
 use crate::chain::Scenario;
 use crate::detect::Samples;
+use crate::signal::Phase;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -16,7 +17,7 @@ const KIND: &str = "trace";
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace {
     /// In the order of time.
-    pub phases: Vec<Phase>,
+    pub parts: Vec<Part>,
     /// Samples per second.
     pub rate: f64,
     /// σ_ξ in `unit`.
@@ -33,24 +34,11 @@ pub struct Trace {
 
 /// A part of a ride.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Phase {
+pub struct Part {
     /// What the cage does.
-    pub kind: PhaseKind,
+    pub phase: Phase,
     /// For how many samples.
     pub length: usize,
-}
-
-/// What the cage does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PhaseKind {
-    /// It stands.
-    Rest,
-    /// It gains speed: Δ acts.
-    Acceleration,
-    /// It moves by itself.
-    Inertial,
-    /// It loses speed: −Δ acts.
-    Braking,
 }
 
 /// `[trace]`
@@ -76,36 +64,10 @@ pub(super) enum PhaseTable {
     Braking(Whole),
 }
 
-impl PhaseKind {
-    /// Whether the cage moves.
-    pub fn moves(self) -> bool {
-        self != Self::Rest
-    }
-
-    /// Of Δ: 1, 0 or −1.
-    pub fn sign(self) -> f64 {
-        match self {
-            Self::Acceleration => 1.0,
-            Self::Braking => -1.0,
-            Self::Rest | Self::Inertial => 0.0,
-        }
-    }
-
-    /// As in a config and in results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rest => "rest",
-            Self::Acceleration => "acceleration",
-            Self::Inertial => "inertial",
-            Self::Braking => "braking",
-        }
-    }
-}
-
 impl Trace {
     /// Samples of the whole ride.
     pub fn length(&self) -> usize {
-        self.phases.iter().map(|phase| phase.length).sum()
+        self.parts.iter().map(|part| part.length).sum()
     }
 
     /// Where the first of X lies: X ends where the first acceleration starts. `None` where there is
@@ -115,22 +77,22 @@ impl Trace {
     }
 
     pub(super) fn acceleration_start(&self) -> Option<usize> {
-        let mut phases = self.phases.iter();
-        let first = phases.position(|phase| phase.kind == PhaseKind::Acceleration)?;
-        Some(self.phases[..first].iter().map(|phase| phase.length).sum())
+        let mut parts = self.parts.iter();
+        let first = parts.position(|part| part.phase == Phase::Accelerating)?;
+        Some(self.parts[..first].iter().map(|part| part.length).sum())
     }
 }
 
 pub(super) fn trace(table: &TraceTable) -> Result<ExhibitKind, Refused> {
-    let phases: Vec<Phase> = table
+    let parts: Vec<Part> = table
         .phases
         .get_ref()
         .iter()
-        .map(phase)
+        .map(part)
         .collect::<Result<_, _>>()?;
-    let length = phases
+    let length = parts
         .iter()
-        .fold(0usize, |sum, phase| sum.saturating_add(phase.length));
+        .fold(0usize, |sum, part| sum.saturating_add(part.length));
     if !(1..=LONGEST).contains(&length) {
         let rule = format!("hold 1 to {LONGEST} samples");
         let problem = out_of_range(KIND, "phases", rule, length.to_string());
@@ -151,24 +113,24 @@ pub(super) fn trace(table: &TraceTable) -> Result<ExhibitKind, Refused> {
             .as_ref()
             .is_some_and(|whitened| *whitened.get_ref()),
         drawn_from: whole(KIND, "drawn_from", &table.drawn_from, 0, 0..=length - 1)?,
-        phases,
+        parts,
     }))
 }
 
-fn phase(given: &Spanned<PhaseTable>) -> Result<Phase, Refused> {
-    let (kind, length) = match *given.get_ref() {
-        PhaseTable::Rest(length) => (PhaseKind::Rest, length),
-        PhaseTable::Acceleration(length) => (PhaseKind::Acceleration, length),
-        PhaseTable::Inertial(length) => (PhaseKind::Inertial, length),
-        PhaseTable::Braking(length) => (PhaseKind::Braking, length),
+fn part(given: &Spanned<PhaseTable>) -> Result<Part, Refused> {
+    let (phase, length) = match *given.get_ref() {
+        PhaseTable::Rest(length) => (Phase::Rest, length),
+        PhaseTable::Acceleration(length) => (Phase::Accelerating, length),
+        PhaseTable::Inertial(length) => (Phase::Inertial, length),
+        PhaseTable::Braking(length) => (Phase::Braking, length),
     };
     let length = length.size();
     if length == 0 {
-        let rule = format!("give {} at least 1 sample", kind.name());
+        let rule = format!("give {} at least 1 sample", phase.name());
         let problem = out_of_range(KIND, "phases", rule, "0".to_owned());
         return Err((Some(given.span()), problem));
     }
-    Ok(Phase { kind, length })
+    Ok(Part { phase, length })
 }
 
 fn vibration(given: &Option<Spanned<Number>>) -> Result<f64, Refused> {

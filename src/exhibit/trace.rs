@@ -11,10 +11,10 @@
 //!
 //! [^1]: see [`crate::signal`].
 
-use crate::config::{ExhibitConfig, Phase, PhaseKind, Trace};
+use crate::config::{ExhibitConfig, Part, Trace};
 use crate::results::{Quantity, eight_digits};
 use crate::rng::Stream;
-use crate::signal::{During, ImpulseMemory, Law, Motion, Noise};
+use crate::signal::{During, ImpulseMemory, Law, Motion, Noise, Phase};
 use crate::whiten::{Fitter, whiten};
 use rand::Rng;
 use serde::{Deserialize, Serialize};
@@ -81,10 +81,10 @@ impl<'a> Ride<'a> {
             self.name_samples(&mut names);
         }
         let scaled = |value: f64| eight_digits(value * self.trace.sigma);
-        (phases(self.trace).zip(names).enumerate())
-            .map(|(i, ((phase, _), sample))| Row {
+        (samples(self.trace).zip(names).enumerate())
+            .map(|(i, ((part, _), sample))| Row {
                 time: eight_digits(i as f64 / self.trace.rate),
-                phase: phase.kind.name().to_owned(),
+                phase: part.phase.name().to_owned(),
                 record: scaled(self.record[i]),
                 whitened: whitened[i].map(scaled),
                 sample: sample.map(str::to_owned),
@@ -117,10 +117,10 @@ impl<'a> Ride<'a> {
             let past = values[..i].iter().rev();
             ar.iter().zip(past).map(|(a, value)| a * value).sum()
         };
-        let in_motion = phases(self.trace)
+        let in_motion = samples(self.trace)
             .enumerate()
             .skip(ar.len())
-            .filter(|(_, (phase, _))| phase.kind.moves());
+            .filter(|(_, (part, _))| part.phase.moves());
         let residual = |i: usize| {
             let y = self.record[i] - tail(&self.record, i);
             let step = self.acceleration[i] - tail(&self.acceleration, i);
@@ -180,10 +180,10 @@ impl<'a> Ride<'a> {
     }
 }
 
-/// Each sample's phase, and how many samples of it have passed.
-fn phases(trace: &Trace) -> impl Iterator<Item = (Phase, usize)> + '_ {
-    let phases = trace.phases.iter();
-    phases.flat_map(|phase| (0..phase.length).map(move |since| (*phase, since)))
+/// For each sample the part of the ride that it lies in, and how many samples of that have passed.
+fn samples(trace: &Trace) -> impl Iterator<Item = (Part, usize)> + '_ {
+    let parts = trace.parts.iter();
+    parts.flat_map(|part| (0..part.length).map(move |since| (*part, since)))
 }
 
 fn stream(config: &ExhibitConfig, purpose: &str) -> Stream {
@@ -206,18 +206,18 @@ fn noise(config: &ExhibitConfig, length: usize) -> (Vec<f64>, Vec<f64>) {
 fn acceleration(config: &ExhibitConfig, trace: &Trace) -> Vec<f64> {
     let motion = &config.scenario.motion;
     let delta = motion.record_delta(config.scenario.sensor.step_gain());
-    let at = |(phase, since): (Phase, usize)| {
+    let at = |(part, since): (Part, usize)| {
         let pulse = Motion {
-            duration: phase.length,
+            duration: part.length,
             offset: 0,
             ..*motion
         };
-        match phase.kind.sign() {
+        match part.phase.sign() {
             0.0 => 0.0,
             sign => sign * delta * pulse.shape(since as f64 + 0.5),
         }
     };
-    phases(trace).map(at).collect()
+    samples(trace).map(at).collect()
 }
 
 fn impulses(config: &ExhibitConfig, trace: &Trace) -> Vec<f64> {
@@ -227,8 +227,8 @@ fn impulses(config: &ExhibitConfig, trace: &Trace) -> Vec<f64> {
     let mut next = |phase: Phase| {
         let draw = generator.next_u64();
         let acts = match impulses.during() {
-            During::Motion => phase.kind.moves(),
-            During::Inertial => phase.kind == PhaseKind::Inertial,
+            During::Motion => phase.moves(),
+            During::Inertial => phase == Phase::Inertial,
         };
         match acts {
             // Adding zero makes −0 the same as 0.
@@ -239,7 +239,7 @@ fn impulses(config: &ExhibitConfig, trace: &Trace) -> Vec<f64> {
             }
         }
     };
-    phases(trace).map(|(phase, _)| next(phase)).collect()
+    samples(trace).map(|(part, _)| next(part.phase)).collect()
 }
 
 fn vibration(config: &ExhibitConfig, trace: &Trace) -> Vec<f64> {
@@ -247,8 +247,8 @@ fn vibration(config: &ExhibitConfig, trace: &Trace) -> Vec<f64> {
     let mut generator = stream(config, "trace vibration").at(0);
     let normal = Noise::new(Law::Normal).expect("the normal law has no parameter");
     normal.fill(&mut generator, &mut vibration);
-    for (value, (phase, _)) in vibration.iter_mut().zip(phases(trace)) {
-        *value *= match phase.kind.moves() {
+    for (value, (part, _)) in vibration.iter_mut().zip(samples(trace)) {
+        *value *= match part.phase.moves() {
             true => trace.vibration,
             false => 0.0,
         };

@@ -11,6 +11,7 @@ mod gaussian;
 mod impulses;
 mod motion;
 mod noise;
+mod phase;
 mod sensor;
 
 pub use digitiser::{Digitiser, DigitiserError};
@@ -18,4 +19,5 @@ pub use disturbance::{Disturbance, DisturbanceError};
 pub use impulses::{During, ImpulseMemory, Impulses, ImpulsesError};
 pub use motion::{DeltaAt, Motion, MotionError, Profile};
 pub use noise::{Law, LawError, Noise};
+pub use phase::Phase;
 pub use sensor::{Sensor, SensorError, Transfer};

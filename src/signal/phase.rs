@@ -1,0 +1,43 @@
+//! What a cage does at one moment: it stands, gains speed, moves by itself, loses speed; the phases of a
+//! ride in [^1].
+//!
+//! [^1]: see [`crate::signal`].
+
+/// A phase of a ride.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Phase {
+    /// It stands.
+    Rest,
+    /// It gains speed: Δ acts.
+    Accelerating,
+    /// It moves by itself.
+    Inertial,
+    /// It loses speed: −Δ acts.
+    Braking,
+}
+
+impl Phase {
+    /// Whether the cage moves.
+    pub fn moves(self) -> bool {
+        self != Self::Rest
+    }
+
+    /// Of Δ: 1, 0 or −1.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Accelerating => 1.0,
+            Self::Braking => -1.0,
+            Self::Rest | Self::Inertial => 0.0,
+        }
+    }
+
+    /// As in configs and in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rest => "rest",
+            Self::Accelerating => "acceleration",
+            Self::Inertial => "inertial",
+            Self::Braking => "braking",
+        }
+    }
+}
