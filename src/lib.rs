@@ -85,6 +85,7 @@ pub mod figure;
 pub mod gate;
 pub mod lanes;
 pub mod ledger;
+pub mod monitor;
 pub mod numeral;
 pub mod pilot;
 pub mod plan;

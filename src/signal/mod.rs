@@ -12,6 +12,7 @@ mod impulses;
 mod motion;
 mod noise;
 mod phase;
+pub mod recording;
 mod sensor;
 
 pub use digitiser::{Digitiser, DigitiserError};

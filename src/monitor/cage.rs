@@ -1,0 +1,336 @@
+//! What the cage does, after the sequences of [^1]: rest → acceleration → inertial motion is a start,
+//! inertial motion → braking → rest a stop.
+//!
+//! A pulse of acceleration says that the speed has changed, and by how much; the decision on X, Y₁ and
+//! Y₂ says whether noise can explain it. Both are needed. Between pulses rest and smooth motion look
+//! alike, so the state is remembered, and where it was never seen it is unknown.
+//!
+//! # Out of the unknown
+//! Vibration cannot be trusted to tell: people who get in shake a cage more than many a motion does. What tells
+//! is, in this order,
+//! - blocks like the reference of rest, where that is evidence: the motions of this cage
+//!   have been seen to look different, or the record is known to begin at rest;
+//! - a reversal. Of the speeds between pulses every other one is zero. Of three pulses in a row with signs
+//!   + − − the first two cancel out if and only if the cage stood after the second (else it
+//!   would stand with three different speeds), so it moves now; with − − + it stands now;
+//! - no pulse for as long as the longest motion takes.
+//!
+//! | state | leaves it when |
+//! |---|---|
+//! | unknown | see above |
+//! | rest | a pulse changes the speed enough, and the decision forwards is H₁* with its sign |
+//! | accelerating | the pulse ends |
+//! | inertial | a pulse against the motion takes half of its speed, or as much as the slowest motion has |
+//! | braking | the pulse has ended and N blocks after it the decision backwards says that it was a stop |
+//!
+//! A pulse stronger than any acceleration of a lift is no start: at rest it is a shock, or, if it lasts,
+//! somebody carrying the sensor. In motion and against it, it is a jam, unless the vibration of motion
+//! goes on after it.
+//!
+//! [^1]: see [`crate::signal`].
+
+use super::event::{Alarm, Decision, Direction, Event, Kind, State};
+use super::pulse::Pulse;
+use super::scene::Scene;
+use crate::signal::Phase;
+
+/// Longer than this, s, a shock is somebody handling the sensor.
+const LONGEST_SHOCK: f64 = 0.5;
+
+/// What the cage does, with what must be remembered of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Cage {
+    Unknown(Doubt),
+    Rest,
+    Moving(Motion),
+}
+
+/// Why it is not known what the cage does, and what may tell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Doubt {
+    /// The first block without a pulse.
+    still_since: u64,
+    /// The first of the newest blocks at which the decision forwards was H₀*.
+    calm_since: u64,
+    /// The last pulses but one and none.
+    pulses: [Option<Pulse>; 2],
+}
+
+/// A motion under way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Motion {
+    /// +1 up, −1 down.
+    sign: f64,
+    /// As far as pulses tell, m/s.
+    speed: f64,
+    /// The highest it has been, m/s.
+    top_speed: f64,
+    /// When it began, s.
+    start: f64,
+    /// For how many blocks the decision forwards has been H₀*.
+    calm: u64,
+    /// Whether it has ever looked like rest for N blocks.
+    looks_like_rest: bool,
+    leg: Leg,
+}
+
+/// The part of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Leg {
+    Accelerating,
+    Inertial,
+    Braking,
+    /// A pulse has ended that may have been the last.
+    Stopping(Pulse),
+}
+
+impl Cage {
+    /// Nothing is known from block `now` on.
+    pub fn unknown(now: u64) -> Self {
+        Self::Unknown(Doubt {
+            still_since: now,
+            calm_since: now,
+            pulses: [None; 2],
+        })
+    }
+
+    /// Its state in a word.
+    pub fn state(&self) -> State {
+        match self {
+            Self::Unknown(_) => State::Unknown,
+            Self::Rest => State::Known(Phase::Rest),
+            Self::Moving(motion) => State::Known(match motion.leg {
+                Leg::Accelerating => Phase::Accelerating,
+                Leg::Inertial => Phase::Inertial,
+                Leg::Braking | Leg::Stopping(_) => Phase::Braking,
+            }),
+        }
+    }
+
+    /// Of a motion under way, whether it has looked like rest.
+    pub fn looks_like_rest(&self) -> Option<bool> {
+        match self {
+            Self::Moving(motion) => Some(motion.looks_like_rest),
+            Self::Unknown(_) | Self::Rest => None,
+        }
+    }
+
+    /// A change to this state at `time`, said at `reported`.
+    pub fn change(&self, time: f64, reported: f64, decision: Option<Decision>) -> Event {
+        let motion = match self {
+            Self::Moving(motion) => Some(motion),
+            Self::Unknown(_) | Self::Rest => None,
+        };
+        let kind = Kind::Change {
+            state: self.state(),
+            direction: motion.map(|motion| Direction::of(motion.sign)),
+            speed: motion.map(|motion| motion.speed),
+            decision,
+        };
+        Event {
+            time,
+            reported,
+            kind,
+        }
+    }
+
+    /// What comes after the newest block; what happened is said in `events`.
+    pub fn step(self, scene: &mut Scene, events: &mut Vec<Event>) -> Self {
+        let (next, time, decision) = match self {
+            Self::Unknown(doubt) => doubt.step(scene, events),
+            Self::Rest => start(scene),
+            Self::Moving(motion) => motion.step(scene, events),
+        };
+        if next.state() != self.state() {
+            events.push(next.change(time, scene.time, decision));
+        }
+        next
+    }
+}
+
+/// The next state, when it began, and what decided it.
+type Next = (Cage, f64, Option<Decision>);
+
+impl Doubt {
+    fn step(mut self, scene: &Scene, events: &mut Vec<Event>) -> Next {
+        if scene.verdict.moves {
+            self.calm_since = scene.now;
+        }
+        let calm = scene.now - self.calm_since;
+        if scene.calm_is_rest && calm >= scene.reference_length() {
+            let seen = self.calm_since.saturating_sub(scene.forward_length());
+            return (Cage::Rest, scene.starts(seen), None);
+        }
+        if let Some(pulse) = self.significant(scene) {
+            self.still_since = scene.now;
+            match (self.pulses, pulse) {
+                ([Some(a), Some(b)], c) if b.sign == c.sign && a.cancels(&b) => {
+                    let start = scene.starts(c.onset);
+                    let motion = Motion::from_pulse(&c, start);
+                    events.push(Cage::Moving(motion).change(start, scene.time, None));
+                    return motion.on(Leg::Inertial, scene.ends(c.end));
+                }
+                ([Some(a), Some(b)], c) if a.sign == b.sign && b.cancels(&c) => {
+                    return (Cage::Rest, scene.ends(c.end), None);
+                }
+                _ => self.pulses = [self.pulses[1], Some(pulse)],
+            }
+        }
+        let still = (scene.now - self.still_since) as f64 * scene.design.block;
+        match still > scene.longest_motion() {
+            true => (Cage::Rest, scene.time, None),
+            false => (Cage::Unknown(self), scene.time, None),
+        }
+    }
+
+    /// A pulse that has ended and is more than noise, sway or a shock.
+    fn significant(&self, scene: &Scene) -> Option<Pulse> {
+        let is_seen = |pulse: &Pulse| {
+            let is_decided = scene.verdict.moves && scene.verdict.sign == pulse.sign;
+            is_decided && pulse.speed >= scene.least_speed() && !scene.is_violent(pulse)
+        };
+        scene.ended.into_iter().flatten().find(is_seen)
+    }
+}
+
+/// From rest.
+fn start(scene: &mut Scene) -> Next {
+    let stay = (Cage::Rest, scene.time, None);
+    let under_way = [1.0, -1.0].into_iter().filter_map(|sign| scene.pulse(sign));
+    let Some(pulse) = under_way
+        .filter(|pulse| pulse.speed >= scene.least_speed())
+        .max_by(|a, b| a.speed.total_cmp(&b.speed))
+    else {
+        return stay;
+    };
+    let start = scene.starts(pulse.onset);
+    if scene.is_violent(&pulse) {
+        return match scene.lasts(&pulse) > LONGEST_SHOCK {
+            true => (Cage::unknown(scene.now), start, None),
+            false => stay,
+        };
+    }
+    if !(scene.verdict.moves && scene.verdict.sign == pulse.sign) {
+        return stay;
+    }
+    let motion = Motion::from_pulse(&pulse, start);
+    (Cage::Moving(motion), start, Some(scene.forward_decision()))
+}
+
+impl Motion {
+    /// One that a pulse begins.
+    fn from_pulse(pulse: &Pulse, start: f64) -> Self {
+        Self {
+            sign: pulse.sign,
+            speed: pulse.speed,
+            top_speed: pulse.speed,
+            start,
+            calm: 0,
+            looks_like_rest: false,
+            leg: Leg::Accelerating,
+        }
+    }
+
+    fn step(self, scene: &mut Scene, events: &mut Vec<Event>) -> Next {
+        if scene.time - self.start > scene.longest_motion() {
+            return (Cage::unknown(scene.now), scene.time, None);
+        }
+        match self.leg {
+            Leg::Accelerating => self.accelerate(scene),
+            Leg::Inertial => self.go_on(scene),
+            Leg::Braking => self.brake(scene),
+            Leg::Stopping(pulse) => self.stop(&pulse, scene, events),
+        }
+    }
+
+    fn on(self, leg: Leg, time: f64) -> Next {
+        (Cage::Moving(Self { leg, ..self }), time, None)
+    }
+
+    fn stay(self, scene: &Scene) -> Next {
+        self.on(self.leg, scene.time)
+    }
+
+    /// The pulse under way against the motion, when it is no mere sway.
+    fn against(&self, scene: &Scene) -> Option<Pulse> {
+        let enough = scene.least_speed().min(self.speed / 2.0);
+        scene
+            .pulse(-self.sign)
+            .filter(|pulse| pulse.speed >= enough)
+    }
+
+    /// The acceleration ends by itself, or a braking cuts it short.
+    fn accelerate(mut self, scene: &Scene) -> Next {
+        let cut_short = || self.against(scene).and(scene.pulse(self.sign));
+        let Some(pulse) = scene.ended(self.sign).or_else(cut_short) else {
+            return self.stay(scene);
+        };
+        if scene.is_violent(&pulse) && scene.lasts(&pulse) > LONGEST_SHOCK {
+            return (Cage::unknown(scene.now), scene.time, None);
+        }
+        self.speed = pulse.speed;
+        self.top_speed = pulse.speed;
+        self.on(Leg::Inertial, scene.ends(pulse.end))
+    }
+
+    fn go_on(mut self, scene: &Scene) -> Next {
+        self.calm = if scene.verdict.moves {
+            0
+        } else {
+            self.calm + 1
+        };
+        self.looks_like_rest |= self.calm >= scene.reference_length();
+        if let Some(pulse) = scene.ended(self.sign)
+            && pulse.speed >= scene.least_speed() / 2.0
+        {
+            self.speed += pulse.speed;
+            self.top_speed = self.top_speed.max(self.speed);
+        }
+        match self.against(scene) {
+            Some(pulse) => self.on(Leg::Braking, scene.starts(pulse.onset)),
+            None => self.stay(scene),
+        }
+    }
+
+    /// What takes less than half of the speed leaves a creeping cage.
+    fn brake(mut self, scene: &Scene) -> Next {
+        let Some(pulse) = scene.ended(-self.sign) else {
+            return self.stay(scene);
+        };
+        let left = self.speed - pulse.speed;
+        match left > self.top_speed / 2.0 && !scene.is_violent(&pulse) {
+            true => {
+                self.speed = left;
+                self.on(Leg::Inertial, scene.ends(pulse.end))
+            }
+            false => self.on(Leg::Stopping(pulse), scene.time),
+        }
+    }
+
+    fn stop(self, pulse: &Pulse, scene: &mut Scene, events: &mut Vec<Event>) -> Next {
+        if !scene.is_after(pulse) {
+            return self.stay(scene);
+        }
+        let stopped = scene.ends(pulse.end);
+        let is_late = scene.now > pulse.end + 3 * scene.reference_length();
+        if scene.is_violent(pulse) {
+            if !scene.verdict.moves {
+                events.push(Event {
+                    time: scene.starts(pulse.onset),
+                    reported: scene.time,
+                    kind: Kind::Alarm(Alarm::Jam),
+                });
+                return (Cage::Rest, stopped, None);
+            }
+            return match is_late {
+                true => self.on(Leg::Inertial, scene.time),
+                false => self.stay(scene),
+            };
+        }
+        match scene.backward_decision(pulse) {
+            Some(decision) => (Cage::Rest, stopped, Some(decision)),
+            None if is_late => (Cage::unknown(scene.now), scene.time, None),
+            None => self.stay(scene),
+        }
+    }
+}

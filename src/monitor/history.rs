@@ -1,0 +1,106 @@
+//! The latest blocks, as they were measured and whitened: as many as a decision or a training looks back.
+
+use super::reference::Reference;
+use crate::whiten;
+use std::ops::Range;
+
+/// The latest blocks. Blocks are numbered from the first since the last gap.
+#[derive(Clone, Debug)]
+pub(super) struct History {
+    capacity: usize,
+    /// The number of the first block held.
+    first: u64,
+    times: Vec<Span>,
+    means: Vec<f64>,
+    whitened: Vec<f64>,
+}
+
+/// When the first and the last sample of a block were taken, s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Span {
+    pub from: f64,
+    pub to: f64,
+}
+
+impl History {
+    pub fn new(capacity: usize) -> Self {
+        Self {
+            capacity,
+            first: 0,
+            times: Vec::with_capacity(2 * capacity),
+            means: Vec::with_capacity(2 * capacity),
+            whitened: Vec::with_capacity(2 * capacity),
+        }
+    }
+
+    /// The number of the next block.
+    pub fn end(&self) -> u64 {
+        self.first + self.times.len() as u64
+    }
+
+    /// Takes a block; whitened where the filter is known. Amortised constant time: the older half goes
+    /// when there is no more room.
+    pub fn push(&mut self, times: Span, mean: f64, reference: Option<&Reference>) {
+        if self.times.len() == 2 * self.capacity {
+            self.times.drain(..self.capacity);
+            self.means.drain(..self.capacity);
+            self.whitened.drain(..self.capacity);
+            self.first += self.capacity as u64;
+        }
+        self.times.push(times);
+        self.means.push(mean);
+        let whitened = reference.map_or(0.0, |reference| {
+            // What precedes the record counts as the level of rest.
+            let last = self.means.len() - 1;
+            let order = reference.coefficients.len().min(last);
+            let past = self.means[last - order..last].iter().rev();
+            let mut rest = mean - reference.level;
+            for (a, mean) in reference.coefficients.iter().zip(past) {
+                rest -= a * (mean - reference.level);
+            }
+            rest
+        });
+        self.whitened.push(whitened);
+    }
+
+    /// Whitens all that is held anew.
+    pub fn whiten(&mut self, reference: &Reference) {
+        let centred: Vec<f64> = (self.means.iter())
+            .map(|mean| mean - reference.level)
+            .collect();
+        whiten::whiten(&reference.coefficients, &centred, 0, &mut self.whitened);
+    }
+
+    pub fn clear(&mut self) {
+        self.first = 0;
+        self.times.clear();
+        self.means.clear();
+        self.whitened.clear();
+    }
+
+    /// Where blocks lie among those held; `None` where one of them is not.
+    fn place(&self, blocks: Range<u64>) -> Option<Range<usize>> {
+        let start = blocks.start.checked_sub(self.first)? as usize;
+        let end = blocks.end.checked_sub(self.first)? as usize;
+        (start <= end && end <= self.times.len()).then_some(start..end)
+    }
+
+    pub fn means(&self, blocks: Range<u64>) -> Option<&[f64]> {
+        Some(&self.means[self.place(blocks)?])
+    }
+
+    pub fn whitened(&self, blocks: Range<u64>) -> Option<&[f64]> {
+        Some(&self.whitened[self.place(blocks)?])
+    }
+
+    /// When the first sample of a block was taken; that of the oldest held, where it is gone.
+    pub fn starts(&self, block: u64) -> f64 {
+        self.times[block.saturating_sub(self.first) as usize].from
+    }
+
+    /// When the last sample of the block before `block` was taken.
+    pub fn ends(&self, block: u64) -> f64 {
+        let after = block.saturating_sub(self.first).max(1);
+        self.times[after as usize - 1].to
+    }
+}

@@ -1,0 +1,143 @@
+//! Decisions on X, Y₁ and Y₂, forwards at a start and backwards at a stop.
+//!
+//! Forwards X is the reference of rest, Y₂ the newest blocks and Y₁ those before them: one decision at
+//! every block. A stop is a start reversed in time: X is the newest blocks, Y₁ the middle of the braking and
+//! Y₂ the motion before it.
+
+use super::event::Decision;
+use super::history::History;
+use super::pulse::Pulse;
+use super::reference::Reference;
+use super::settings::Design;
+use crate::detect::{Pooled, Statistics};
+use crate::rng::Stream;
+use rand::Rng;
+use std::ops::Range;
+
+/// W, T and what they come to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Verdict {
+    pub statistics: Statistics,
+    /// Whether (W, T) lies in ϑ.
+    pub moves: bool,
+    /// Of Δ, by the side of its mean that W lies on.
+    pub sign: f64,
+}
+
+/// Where the three samples lie; X is the reference where it has no place.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Places {
+    pub reference: Option<Range<u64>>,
+    pub shift: Range<u64>,
+    pub scale: Range<u64>,
+}
+
+/// Decides, with random keys for ties.
+#[derive(Clone, Debug)]
+pub(super) struct Judge {
+    ties: Stream,
+    keys: Vec<u64>,
+}
+
+impl Places {
+    /// The newest blocks before `end` against the reference.
+    pub fn forwards(design: &Design, end: u64) -> Option<Self> {
+        let samples = &design.samples;
+        let scale = end.checked_sub(samples.scale() as u64)?;
+        let after = scale.checked_sub(samples.gap() as u64)?;
+        let shift = after.checked_sub(samples.shift() as u64)?;
+        Some(Self {
+            reference: None,
+            shift: shift..after,
+            scale: scale..end,
+        })
+    }
+
+    /// The newest blocks before `now` against the middle of a pulse and what was before it. At its ends a
+    /// pulse is whitened to the opposite sign.
+    pub fn backwards(design: &Design, pulse: &Pulse, now: u64) -> Option<Self> {
+        let samples = &design.samples;
+        let [n, m1, m2, gap] = [
+            samples.reference(),
+            samples.shift(),
+            samples.scale(),
+            samples.gap(),
+        ]
+        .map(|size| size as u64);
+        let shift = u64::midpoint(pulse.onset, pulse.end).checked_sub(m1 / 2)?;
+        let before = pulse.onset.min(shift.checked_sub(gap)?);
+        Some(Self {
+            reference: Some(now.checked_sub(n)?..now),
+            shift: shift..shift + m1,
+            scale: before.checked_sub(m2)?..before,
+        })
+    }
+}
+
+impl Judge {
+    pub fn new(design: &Design) -> Self {
+        let samples = &design.samples;
+        let pooled = samples.reference() + samples.shift() + samples.scale();
+        Self {
+            ties: Stream::new(0, "ties", "monitor"),
+            keys: vec![0; pooled],
+        }
+    }
+
+    /// W and T at these places; `None` where blocks are no longer or not yet held.
+    pub fn verdict(
+        &mut self,
+        design: &Design,
+        reference: &Reference,
+        history: &History,
+        places: &Places,
+    ) -> Option<Verdict> {
+        let pooled = Pooled {
+            reference: match &places.reference {
+                Some(blocks) => history.whitened(blocks.clone())?,
+                None => &reference.sample,
+            },
+            shift: history.whitened(places.shift.clone())?,
+            scale: history.whitened(places.scale.clone())?,
+        };
+        let (ties, keys) = (&self.ties, &mut self.keys);
+        let statistics = pooled.statistics(|| {
+            let mut generator = ties.at(history.end());
+            keys.fill_with(|| generator.next_u64());
+            keys
+        });
+        let samples = &design.samples;
+        let others = samples.reference() + samples.scale();
+        let twice_mean = (samples.shift() * (samples.shift() + others + 1)) as u64;
+        Some(Verdict {
+            statistics,
+            moves: design.region.contains(statistics),
+            sign: match (2 * statistics.rank_sum).cmp(&twice_mean) {
+                std::cmp::Ordering::Less => -1.0,
+                std::cmp::Ordering::Equal => 0.0,
+                std::cmp::Ordering::Greater => 1.0,
+            },
+        })
+    }
+}
+
+/// A verdict with all that tells how it came about.
+pub(super) fn decision(
+    design: &Design,
+    history: &History,
+    reference: &Reference,
+    places: &Places,
+    verdict: &Verdict,
+) -> Decision {
+    let span = |blocks: &Range<u64>| (history.starts(blocks.start), history.ends(blocks.end));
+    Decision {
+        statistics: verdict.statistics,
+        threshold: design.region.critical_values()[verdict.statistics.exceedances],
+        alpha: design.settings.alpha,
+        samples: [
+            places.reference.as_ref().map_or(reference.span, span),
+            span(&places.shift),
+            span(&places.scale),
+        ],
+    }
+}

@@ -1,0 +1,284 @@
+//! Watching a lift, sample by sample: the state machine that [^1] was written for, with a decision at
+//! every moment, memory of constant size, and a whitening filter and reference X that are learnt anew at
+//! every rest.
+//!
+//! # The flow
+//! samples → [blocks](Settings::block) → whitened blocks → a decision on (X, Y₁, Y₂) at every block, and pulses
+//! of acceleration → state → [`Event`]s. [`Monitor::step`] is all there is; reading a file is a loop over it.
+//!
+//! # What the exact level promises here, and what not
+//! Each decision by itself keeps its level α if the whitened blocks at rest are exchangeable. Of a lift at
+//! rest they are not quite: people move, the filter is fitted, colour is left. And a monitor makes twenty decisions a second, each
+//! sharing most of its blocks with the one before, while X stays the same for seconds. So α says neither how many decisions
+//! in an hour are wrong nor how many false motions an hour brings. The rate at rest can be counted
+//! (`liftsim detect` prints it), and the time between false motions is simulated
+//! (`configs/ride_*.toml`).
+//!
+//! # What is asked beside the decision
+//! Ranks know no size: a tilt of the floor by a milliradian is as significant as a start. So a motion
+//! must also change the speed by [`Settings::least_speed`], in one pulse of acceleration.
+//!
+//! ```
+//! use liftsim::monitor::{Knowledge, Monitor, Settings};
+//! use liftsim::signal::recording::Sample;
+//!
+//! let mut monitor = Monitor::new(Settings::default().at(100.0)?, Knowledge::default());
+//! for i in 0..1000 {
+//!     let acceleration = 9.81 + 0.01 * f64::from(i * 7919 % 101 - 50) / 50.0;
+//!     let sample = Sample { time: f64::from(i) * 0.01, acceleration };
+//!     // Without a reference of rest a monitor cannot know that this cage stands.
+//!     assert!(monitor.step(sample, None).is_empty());
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! [^1]: see [`crate::signal`].
+
+mod blocks;
+mod cage;
+mod event;
+mod history;
+mod judge;
+mod pulse;
+mod reference;
+mod scene;
+mod settings;
+
+pub use event::{Alarm, Decision, Direction, Event, Kind, State};
+pub use reference::Reference;
+pub use settings::{Design, MOST_ORDER, Settings, SettingsError};
+
+use crate::signal::recording::Sample;
+use blocks::Blocks;
+use cage::Cage;
+use history::{History, Span};
+use judge::{Judge, Places};
+use pulse::{Cusum, is_level};
+use scene::Scene;
+use serde::{Deserialize, Serialize};
+
+/// What is known of a cage before its record begins.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Knowledge {
+    /// What its rest is like.
+    pub reference: Option<Reference>,
+    /// That it stands when the record begins.
+    pub begins_at_rest: bool,
+    /// That its motions look different from rest, so that what looks like rest is rest.
+    pub motion_shows: bool,
+}
+
+/// Watches one cage.
+#[derive(Clone, Debug)]
+pub struct Monitor {
+    design: Design,
+    reference: Option<Reference>,
+    /// Whether the reference is known to be of rest.
+    is_rest: bool,
+    /// Whether the cage is known to stand when the record begins.
+    begins_at_rest: bool,
+    /// Whether the motions of this cage have been seen to look different from rest.
+    motion_shows: bool,
+    blocks: Blocks,
+    history: History,
+    judge: Judge,
+    /// Up and down.
+    cusums: [Cusum; 2],
+    cage: Cage,
+    /// The first block that the next reference may be learnt from.
+    learns_from: u64,
+    /// When the last sample was taken, s.
+    last: f64,
+    /// Blocks for which the cage has stood while the drum turned.
+    slack: u64,
+    events: Vec<Event>,
+}
+
+/// A longer silence, s or blocks, may hide a start.
+const LONGEST_GAP: (f64, f64) = (0.5, 3.0);
+
+/// The longest pulse that a decision backwards looks past, s.
+const LONGEST_PULSE: f64 = 10.0;
+
+impl Monitor {
+    /// Watches a cage of which this much is known.
+    pub fn new(design: Design, knowledge: Knowledge) -> Self {
+        let Knowledge {
+            reference,
+            begins_at_rest,
+            motion_shows,
+        } = knowledge;
+        let drift = design.settings.least_acceleration / 2.0;
+        let patience = design.samples.shift();
+        let cusum = |sign| Cusum::new(sign, drift, design.block, patience);
+        let learnt = design.settings.training + design.samples.reference() + patience;
+        let looked_back = 4 * design.samples.span() + (LONGEST_PULSE / design.block) as usize;
+        Self {
+            is_rest: reference.is_some(),
+            reference,
+            begins_at_rest,
+            motion_shows,
+            blocks: Blocks::new(design.samples.decimation()),
+            history: History::new(learnt.max(looked_back)),
+            judge: Judge::new(&design),
+            cusums: [cusum(1.0), cusum(-1.0)],
+            cage: Cage::unknown(0),
+            learns_from: 0,
+            last: f64::INFINITY,
+            slack: 0,
+            events: Vec::new(),
+            design,
+        }
+    }
+
+    /// What it is told, at the rate of the samples.
+    pub fn design(&self) -> &Design {
+        &self.design
+    }
+
+    /// What it knows of rest.
+    pub fn reference(&self) -> Option<&Reference> {
+        self.reference.as_ref()
+    }
+
+    /// What the cage does, as far as is known by now.
+    pub fn state(&self) -> State {
+        self.cage.state()
+    }
+
+    /// Takes the next sample, and whether the drum is known to turn; says what has happened.
+    #[inline]
+    pub fn step(&mut self, sample: Sample, drum_turns: Option<bool>) -> &[Event] {
+        self.events.clear();
+        if sample.time - self.last > LONGEST_GAP.0.max(LONGEST_GAP.1 * self.design.block) {
+            self.lose_track(sample.time);
+        }
+        self.last = sample.time;
+        if let Some((times, mean)) = self.blocks.step(sample) {
+            self.block(times, mean);
+            self.watch_drum(times.to, drum_turns);
+        }
+        &self.events
+    }
+
+    /// The record has a gap: what is known of rest stays, what is known of the cage does not.
+    fn lose_track(&mut self, time: f64) {
+        self.blocks.clear();
+        self.history.clear();
+        self.cusums.iter_mut().for_each(Cusum::reset);
+        self.learns_from = 0;
+        self.begins_at_rest = false;
+        let state = self.cage.state();
+        self.cage = Cage::unknown(0);
+        if state != State::Unknown {
+            self.events.push(self.cage.change(time, time, None));
+        }
+    }
+
+    fn block(&mut self, times: Span, mean: f64) {
+        self.history.push(times, mean, self.reference.as_ref());
+        let now = self.history.end();
+        if let Some(reference) = &self.reference {
+            let excess = mean - reference.level;
+            let ended = self
+                .cusums
+                .each_mut()
+                .map(|cusum| cusum.step(now - 1, excess));
+            let places = Places::forwards(&self.design, now);
+            let verdict = places.as_ref().and_then(|places| {
+                (self.judge).verdict(&self.design, reference, &self.history, places)
+            });
+            if let (Some(places), Some(verdict)) = (places, verdict) {
+                let mut scene = Scene {
+                    design: &self.design,
+                    history: &self.history,
+                    reference,
+                    calm_is_rest: self.is_rest && (self.motion_shows || self.begins_at_rest),
+                    judge: &mut self.judge,
+                    cusums: &self.cusums,
+                    ended,
+                    places,
+                    verdict,
+                    now,
+                    time: times.to,
+                };
+                let was = self.cage;
+                self.cage = was.step(&mut scene, &mut self.events);
+                self.remember(was, now);
+            }
+        }
+        self.learn(now);
+    }
+
+    /// What a change of state tells of this cage.
+    fn remember(&mut self, was: Cage, now: u64) {
+        if self.cage.state() != was.state() {
+            self.learns_from = now;
+        }
+        if self.cage == Cage::Rest {
+            self.begins_at_rest = false;
+            if let Some(looks_like_rest) = was.looks_like_rest() {
+                self.motion_shows = !looks_like_rest;
+            }
+        }
+    }
+
+    /// Learns the filter and X anew from the latest blocks, when there are enough of them at rest: when the
+    /// cage stands, or, for want of better, while nothing is known.
+    fn learn(&mut self, now: u64) {
+        let samples = &self.design.samples;
+        let needed = (self.design.settings.training + samples.reference()) as u64;
+        // A start that has not been noticed yet must not get into the reference.
+        let lag = samples.shift() as u64;
+        if now < self.learns_from + needed + lag || self.cage.state().moves() {
+            return;
+        }
+        let is_still = self.cusums.iter().all(|cusum| cusum.pulse().is_none());
+        let stands = self.cage == Cage::Rest;
+        let blocks = now - lag - needed..now - lag;
+        let Some(record) = self
+            .history
+            .means(blocks.clone())
+            .filter(|_| is_still || !stands)
+        else {
+            return;
+        };
+        // Not at every block, if this record is none to learn from.
+        self.learns_from += needed / 4;
+        let drift = self.design.settings.least_acceleration / 2.0;
+        let bound = self.design.settings.least_speed / 2.0;
+        if !is_level(record, drift, self.design.block, bound) {
+            return;
+        }
+        let span = (
+            self.history.starts(blocks.start),
+            self.history.ends(blocks.end),
+        );
+        let learnt = Reference::from_rest(record, span, &self.design);
+        // A reference of rest is given up only for another, or when the sensor has been moved.
+        let fits = |known: &Reference| (learnt.level - known.level).abs() < drift;
+        if !stands && self.is_rest && self.reference.as_ref().is_some_and(fits) {
+            return;
+        }
+        self.history.whiten(&learnt);
+        self.reference = Some(learnt);
+        self.is_rest = stands || self.begins_at_rest;
+        self.learns_from = now;
+        self.cusums.iter_mut().for_each(Cusum::reset);
+    }
+
+    /// The alarm of a cage that stands while the rope is paid out.
+    fn watch_drum(&mut self, time: f64, drum_turns: Option<bool>) {
+        let is_slack = drum_turns == Some(true) && self.cage == Cage::Rest;
+        self.slack = if is_slack { self.slack + 1 } else { 0 };
+        let longest = self.design.settings.longest_slack;
+        if self.slack == (longest / self.design.block).ceil() as u64 {
+            self.events.push(Event {
+                time: time - longest,
+                reported: time,
+                kind: Kind::Alarm(Alarm::Slack),
+            });
+        }
+    }
+}
