@@ -158,7 +158,7 @@ impl Doubt {
         }
         let calm = scene.now - self.calm_since;
         if scene.calm_is_rest && calm >= scene.reference_length() {
-            let seen = self.calm_since.saturating_sub(scene.forward_length());
+            let seen = self.calm_since.saturating_sub(scene.scale_length());
             return (Cage::Rest, scene.starts(seen), None);
         }
         if let Some(pulse) = self.significant(scene) {

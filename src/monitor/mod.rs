@@ -37,6 +37,7 @@
 mod blocks;
 mod cage;
 mod event;
+mod hindsight;
 mod history;
 mod judge;
 mod pulse;
@@ -45,6 +46,7 @@ mod scene;
 mod settings;
 
 pub use event::{Alarm, Decision, Direction, Event, Kind, State};
+pub use hindsight::NoRest;
 pub use reference::Reference;
 pub use settings::{Design, MOST_ORDER, Settings, SettingsError};
 

@@ -1,6 +1,6 @@
 //! What a monitor knows of rest: the level, the whitening filter and the sample X.
 
-use super::settings::Design;
+use super::settings::{Design, MOST_ORDER};
 use crate::whiten::{self, Fit, Fitter, Whitening};
 use serde::{Deserialize, Serialize};
 
@@ -25,37 +25,71 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// From block means of rest, the last N of which become X.
-    pub fn from_rest(record: &[f64], span: (f64, f64), design: &Design) -> Self {
+    /// From the latest block means of a rest: X is the last N, and the filter is fitted to those before.
+    pub(super) fn from_rest(record: &[f64], span: (f64, f64), design: &Design) -> Self {
         let n = design.samples.reference();
-        let (training, _) = record.split_at(record.len() - n);
-        let mut this = Self::fit(training, design);
+        let training = &record[..record.len() - n];
+        let level = training.iter().sum::<f64>() / training.len() as f64;
+        let centred: Vec<f64> = record.iter().map(|mean| mean - level).collect();
+        let filter = Filter::fit(&[&centred[..training.len()]], design);
         let mut sample = vec![0.0; n];
-        let centred: Vec<f64> = record.iter().map(|mean| mean - this.level).collect();
-        whiten::whiten(&this.coefficients, &centred, record.len() - n, &mut sample);
-        this.span = span;
-        this.sample = sample;
-        this
+        whiten::whiten(&filter.coefficients, &centred, training.len(), &mut sample);
+        filter.into_reference(level, span, training.len(), sample)
     }
 
-    fn fit(training: &[f64], design: &Design) -> Self {
-        let level = training.iter().sum::<f64>() / training.len() as f64;
-        let order = design.settings.order.unwrap_or(2);
-        let w = Whitening::new(order, Fit::Burg, training.len(), false, 0).unwrap();
-        let coefficients = Fitter::new(w, &[]).fit(training).to_vec();
-        let centred: Vec<f64> = training.iter().map(|mean| mean - level).collect();
-        let mut residual = vec![0.0; training.len() - order];
-        whiten::whiten(&coefficients, &centred, order, &mut residual);
-        let deviation =
-            (residual.iter().map(|y| y * y).sum::<f64>() / residual.len() as f64).sqrt();
-        Self {
+    /// From all stretches of rest in a record. X is taken at even distances from all of them, so that it
+    /// stands for all that rest was like; it is part of what the filter is fitted to.
+    pub(super) fn from_stretches(
+        stretches: &[Vec<f64>],
+        span: (f64, f64),
+        design: &Design,
+    ) -> Self {
+        let blocks: usize = stretches.iter().map(Vec::len).sum();
+        let level = stretches.iter().flatten().sum::<f64>() / blocks as f64;
+        let centre = |stretch: &Vec<f64>| stretch.iter().map(|mean| mean - level).collect();
+        let centred: Vec<Vec<f64>> = stretches.iter().map(centre).collect();
+        let slices: Vec<&[f64]> = centred.iter().map(Vec::as_slice).collect();
+        let filter = Filter::fit(&slices, design);
+        let n = design.samples.reference();
+        let sample = (0..n).map(|i| filter.whitened[(2 * i + 1) * filter.whitened.len() / (2 * n)]);
+        let sample = sample.collect();
+        filter.into_reference(level, span, blocks, sample)
+    }
+}
+
+/// A filter and what it makes of the record it was fitted to.
+struct Filter {
+    coefficients: Vec<f64>,
+    whitened: Vec<f64>,
+}
+
+impl Filter {
+    /// Burg's fit, which is stable whatever the record: a filter whose response to a constant is negative
+    /// would turn the sign of a start.
+    fn fit(stretches: &[&[f64]], design: &Design) -> Self {
+        let joined = stretches.concat();
+        let order = design.settings.order.unwrap_or(MOST_ORDER.min(2));
+        let w = Whitening::new(order, Fit::Burg, joined.len(), false, 0).unwrap();
+        let coefficients = Fitter::new(w, &[]).fit(&joined).to_vec();
+        let mut whitened = Vec::new();
+        for stretch in stretches {
+            let mut part = vec![0.0; stretch.len() - order];
+            whiten::whiten(&coefficients, stretch, order, &mut part);
+            whitened.append(&mut part);
+        }
+        Self { coefficients, whitened }
+    }
+
+    fn into_reference(self, level: f64, span: (f64, f64), training: usize, sample: Vec<f64>) -> Reference {
+        let squares: f64 = self.whitened.iter().map(|y| y * y).sum();
+        Reference {
             level,
-            coefficients,
-            deviation,
+            deviation: (squares / self.whitened.len() as f64).sqrt(),
             whiteness: 1.0,
-            training: training.len(),
-            span: (0.0, 0.0),
-            sample: Vec::new(),
+            coefficients: self.coefficients,
+            training,
+            span,
+            sample,
         }
     }
 }

@@ -42,9 +42,9 @@ impl Scene<'_> {
         self.design.samples.reference() as u64
     }
 
-    /// Blocks from the first of Y₁ to the last of Y₂.
-    pub fn forward_length(&self) -> u64 {
-        (self.design.samples.span() - self.design.samples.shift_range().start) as u64
+    /// M₂.
+    pub fn scale_length(&self) -> u64 {
+        self.design.samples.scale() as u64
     }
 
     /// The pulse under way with this sign.

@@ -1,0 +1,258 @@
+//! Finding rest in a record that is all there: what a monitor would know had it watched the lift before.
+//!
+//! A record is cut into windows of half a second. Those at the level that most have, and not much noisier than
+//! most, are rest or smooth motion, and together they make a first reference. With it the record is watched once, and the motions found. What
+//! lies between them is rest, and makes the reference that counts. That the outside of the motions is
+//! rest and not the inside is an assumption, given up only if the inside is clearly the quieter.
+
+use super::blocks::Blocks;
+use super::event::{Event, Kind, State};
+use super::pulse::is_level;
+use super::reference::Reference;
+use super::settings::{Design, MOST_ORDER};
+use super::{Knowledge, Monitor};
+use crate::signal::Phase;
+use crate::signal::recording::Sample;
+
+/// Seconds in a window.
+const WINDOW: f64 = 0.5;
+
+/// A window noisier than most by this factor is somebody handling the sensor.
+const NOISIEST: f64 = 4.0;
+
+/// The most windows kept; of a longer record every other one is, or every fourth, and so on.
+const MOST_WINDOWS: usize = 4096;
+
+/// Motion that is quieter than rest by this factor was rest.
+const QUIETER: f64 = 0.5;
+
+/// Nothing could be learnt from a record.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "no rest to learn from: {level:.1} of {length:.1} s stay at one level between motions, and {needed:.1} s \
+     are needed (record a few seconds of rest before or after the ride)"
+)]
+pub struct NoRest {
+    /// Of the record, s.
+    pub length: f64,
+    /// At rest, as far as can be seen, s.
+    pub level: f64,
+    /// s.
+    pub needed: f64,
+}
+
+/// A piece of a record.
+#[derive(Clone, Debug, Default)]
+struct Window {
+    from: f64,
+    to: f64,
+    means: Vec<f64>,
+}
+
+/// The windows of a record that stay at one level.
+#[derive(Clone, Debug)]
+struct Windows {
+    design: Design,
+    blocks: Blocks,
+    open: Window,
+    /// Blocks in a window.
+    length: usize,
+    kept: Vec<Window>,
+    /// One in so many windows is kept.
+    stride: usize,
+    seen: usize,
+}
+
+impl Knowledge {
+    /// Learns from a whole record, of which `pass` begins another pass: two are made.
+    ///
+    /// # Errors
+    /// What a pass meets, or that there is no rest in the record.
+    pub fn from_record<I, E>(
+        design: &Design,
+        mut pass: impl FnMut() -> Result<I, E>,
+    ) -> Result<Result<Self, NoRest>, E>
+    where
+        I: Iterator<Item = Result<Sample, E>>,
+    {
+        let mut windows = Windows::new(design);
+        for sample in pass()? {
+            windows.step(sample?);
+        }
+        let first = match windows.reference(|_| true) {
+            Ok(reference) => reference,
+            Err(none) => return Ok(Err(none)),
+        };
+        let mut monitor = Monitor::new(design.clone(), Self::at_rest(first));
+        let mut motions = Motions::default();
+        for sample in pass()? {
+            for event in monitor.step(sample?, None) {
+                motions.step(event);
+            }
+        }
+        Ok(windows.knowledge(&motions))
+    }
+
+    fn at_rest(reference: Reference) -> Self {
+        Self {
+            reference: Some(reference),
+            begins_at_rest: true,
+            motion_shows: false,
+        }
+    }
+}
+
+impl Windows {
+    fn new(design: &Design) -> Self {
+        Self {
+            blocks: Blocks::new(design.samples.decimation()),
+            open: Window::default(),
+            length: (WINDOW / design.block).round().max(4.0) as usize,
+            design: design.clone(),
+            kept: Vec::new(),
+            stride: 1,
+            seen: 0,
+        }
+    }
+
+    fn step(&mut self, sample: Sample) {
+        let Some((times, mean)) = self.blocks.step(sample) else {
+            return;
+        };
+        if self.open.means.is_empty() {
+            self.open.from = times.from;
+        }
+        self.open.means.push(mean);
+        if self.open.means.len() == self.length {
+            let window = Window {
+                to: times.to,
+                ..std::mem::take(&mut self.open)
+            };
+            self.close(window);
+        }
+    }
+
+    /// Keeps a window that stays at one level, if its turn has come.
+    fn close(&mut self, window: Window) {
+        let settings = &self.design.settings;
+        let drift = settings.least_acceleration / 2.0;
+        let bound = settings.least_speed / 2.0;
+        self.seen += 1;
+        if !self.seen.is_multiple_of(self.stride)
+            || !is_level(&window.means, drift, self.design.block, bound)
+        {
+            return;
+        }
+        self.kept.push(window);
+        if self.kept.len() == MOST_WINDOWS {
+            self.stride *= 2;
+            let mut place = 0;
+            self.kept.retain(|_| {
+                place += 1;
+                place % 2 == 0
+            });
+        }
+    }
+
+    /// From the windows at the level of most that `are` chosen.
+    fn reference(&self, are: impl Fn(&Window) -> bool) -> Result<Reference, NoRest> {
+        let chosen: Vec<&Window> = self.level().into_iter().filter(|w| are(w)).collect();
+        let blocks = chosen.len() * self.length;
+        let needed = self.design.samples.reference() + 3 * MOST_ORDER;
+        let seconds = |blocks: usize| blocks as f64 * self.design.block;
+        if blocks < needed {
+            return Err(NoRest {
+                length: seconds(self.seen * self.length),
+                level: seconds(blocks),
+                needed: seconds(needed),
+            });
+        }
+        let span = (chosen[0].from, chosen[chosen.len() - 1].to);
+        let follows = |a: &&Window, b: &&Window| b.from - a.to < 2.0 * self.design.block;
+        let stretches: Vec<Vec<f64>> = (chosen.chunk_by(follows))
+            .map(|stretch| stretch.iter().flat_map(|w| w.means.iter().copied()).collect())
+            .collect();
+        Ok(Reference::from_stretches(&stretches, span, &self.design))
+    }
+
+    /// Those like most others in level and in noise.
+    fn level(&self) -> Vec<&Window> {
+        let Some(level) = median(self.kept.iter().map(Window::level)) else {
+            return Vec::new();
+        };
+        let drift = self.design.settings.least_acceleration / 2.0;
+        let is_near = |window: &&Window| (window.level() - level).abs() <= drift;
+        let near: Vec<&Window> = self.kept.iter().filter(is_near).collect();
+        let noise = median(near.iter().map(|w| w.deviation())).unwrap_or(0.0);
+        let is_usual = |window: &&Window| window.deviation() <= NOISIEST * noise;
+        near.into_iter().filter(is_usual).collect()
+    }
+
+    /// What is rest, now that the motions are known.
+    fn knowledge(&self, motions: &Motions) -> Result<Knowledge, NoRest> {
+        let inside = |window: &Window| motions.hold(window.from, window.to);
+        let outside = |window: &Window| !motions.touch(window.from, window.to);
+        let deviation = |are: &dyn Fn(&Window) -> bool| {
+            let windows = self.level().into_iter().filter(|w| are(w));
+            median(windows.map(Window::deviation))
+        };
+        let is_inverted = match (deviation(&inside), deviation(&outside)) {
+            (Some(inside), Some(outside)) => inside < QUIETER * outside,
+            _ => false,
+        };
+        let reference = match is_inverted {
+            true => self.reference(inside)?,
+            false => self.reference(outside)?,
+        };
+        Ok(Knowledge {
+            begins_at_rest: !is_inverted,
+            motion_shows: is_inverted,
+            ..Knowledge::at_rest(reference)
+        })
+    }
+}
+
+impl Window {
+    fn level(&self) -> f64 {
+        self.means.iter().sum::<f64>() / self.means.len() as f64
+    }
+
+    fn deviation(&self) -> f64 {
+        let level = self.level();
+        let squares = self.means.iter().map(|mean| (mean - level).powi(2));
+        (squares.sum::<f64>() / self.means.len() as f64).sqrt()
+    }
+}
+
+fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
+/// From when to when the cage was seen to move, s.
+#[derive(Clone, Debug, Default)]
+struct Motions(Vec<(f64, f64)>);
+
+impl Motions {
+    fn step(&mut self, event: &Event) {
+        let Kind::Change { state, .. } = event.kind else {
+            return;
+        };
+        match (state, self.0.last_mut()) {
+            (State::Known(Phase::Accelerating), _) => self.0.push((event.time, f64::INFINITY)),
+            (State::Known(Phase::Rest) | State::Unknown, Some(last)) if last.1.is_infinite() => {
+                last.1 = event.time;
+            }
+            _ => {}
+        }
+    }
+
+    fn hold(&self, from: f64, to: f64) -> bool {
+        self.0.iter().any(|motion| motion.0 <= from && to <= motion.1)
+    }
+
+    fn touch(&self, from: f64, to: f64) -> bool {
+        self.0.iter().any(|motion| motion.0 < to && from < motion.1)
+    }
+}
