@@ -1,0 +1,1 @@
+//! Rides against closed forms and against integration by brute force.
