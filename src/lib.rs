@@ -32,9 +32,9 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | 0 | [`rng`]: coordinates → generator · [`binomial`]: exact tails · [`numeral`]: numbers in print · [`lanes`]: trials side by side |
+//! | 0 | [`rng`]: coordinates → generator · [`binomial`], [`chi_squared`]: exact tails · [`numeral`]: numbers in print · [`lanes`]: trials side by side |
 //! | 1 | [`tally`]: counts and what may be concluded from them · [`ledger`]: which trials have been counted |
-//! | 2 | [`signal`]: sensor, noise, impulses, motion · [`whiten`]: filters · [`detect`]: W, T, their laws, regions |
+//! | 2 | [`signal`]: sensor, noise, impulses, motion, rides · [`whiten`]: filters · [`detect`]: W, T, their laws, regions |
 //! | 3 | [`chain`]: one trial, every stage |
 //! | 4 | [`config`]: what the author wrote · [`ensemble`]: blocks of trials in parallel |
 //! | 5 | [`plan`]: what it comes to |
@@ -76,6 +76,7 @@
 pub mod binomial;
 pub mod campaign;
 pub mod chain;
+pub mod chi_squared;
 pub mod claim;
 pub mod config;
 pub mod detect;

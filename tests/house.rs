@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// Each module of the library and its floor.
 const FLOORS: [&[&str]; 9] = [
-    &["rng", "binomial", "numeral", "lanes"],
+    &["rng", "binomial", "chi_squared", "numeral", "lanes"],
     &["tally", "ledger"],
     &["signal", "whiten", "detect"],
     &["chain"],

@@ -1,6 +1,7 @@
 //! What an accelerometer in a cage would write down: r = x + Δ + λ, eqs (1)–(8) of [^1].
 //!
-//! Everything is in units of σ_ξ, the deviation of the white noise that drives the sensor.
+//! Everything is in units of σ_ξ, the deviation of the white noise that drives the sensor; a [`Ride`] alone
+//! is in m/s² and s, and its [`Pickup`] says what σ_ξ is there.
 //!
 //! [^1]: M. A. Raifeld, "Distinguishing the motion/stop states of a lift from accelerometer
 //! signals", Avtometriya (in Russian), received 25 November 2013.
@@ -12,7 +13,7 @@ mod impulses;
 mod motion;
 mod noise;
 mod phase;
-pub mod recording;
+mod ride;
 mod sensor;
 
 pub use digitiser::{Digitiser, DigitiserError};
@@ -21,4 +22,8 @@ pub use impulses::{During, ImpulseMemory, Impulses, ImpulsesError};
 pub use motion::{DeltaAt, Motion, MotionError, Profile};
 pub use noise::{Law, LawError, Noise};
 pub use phase::Phase;
+pub use ride::{
+    Course, Drive, Ending, Journey, Pickup, PickupError, Ride, RideError, Simulated, Stretch, Trip,
+    TripError,
+};
 pub use sensor::{Sensor, SensorError, Transfer};

@@ -196,7 +196,7 @@ fn lagged_product<V: Value>(x: &[V], mean: V, lag: usize, range: Range<usize>) -
 /// c_jk for j, k = 0…m, row by row. Products of one lag share the middle of the record and differ
 /// only at its ends, so that m + 1 sums over the record serve all of them, and nothing is subtracted.
 #[inline(always)]
-fn covariances<V: Value>(x: &[V], mean: V, order: usize, products: &mut [V]) {
+pub(super) fn covariances<V: Value>(x: &[V], mean: V, order: usize, products: &mut [V]) {
     let length = x.len();
     for lag in 0..=order {
         let middle = lagged_product(x, mean, lag, order..length - order);
@@ -214,7 +214,11 @@ fn covariances<V: Value>(x: &[V], mean: V, order: usize, products: &mut [V]) {
 /// Solves Σ_k c_jk a_k = c_j0 for j, k = 1…m by elimination in place. The matrix is positive
 /// semidefinite, so no row needs exchanging; a pivot that rounding has swallowed (below 1e-14 of
 /// what stood there) drops its coefficient.
-fn solve_normal_equations(normal: &mut [f64], diagonal: &mut [f64], solution: &mut [f64]) {
+pub(super) fn solve_normal_equations(
+    normal: &mut [f64],
+    diagonal: &mut [f64],
+    solution: &mut [f64],
+) {
     let order = solution.len();
     let at = |row: usize, column: usize| row * (order + 1) + column;
     for k in 0..=order {

@@ -14,8 +14,12 @@
 //! [^1]: see [`crate::signal`].
 
 mod fit;
+mod order;
+mod portmanteau;
 
 pub use fit::Fitter;
+pub use order::{Chosen, OrderError};
+pub use portmanteau::{LjungBox, PortmanteauError};
 
 use crate::lanes::Value;
 use std::fmt;

@@ -1,0 +1,256 @@
+//! Whole rides in physical units: a cage stands, makes its trips, stands again, and a sensor in it writes
+//! down the acceleration (m/s², up positive, samples i/rate in s).
+//!
+//! A sample is the mean of the acceleration over one sampling period about its time, as a sensor gives it
+//! that integrates between readings: the change of speed over the period, divided by it. So samples add up
+//! to speeds exactly, however short a jam is against the period.
+//!
+//! ```
+//! use liftsim::signal::{Drive, Ending, Pickup, Ride, Trip};
+//!
+//! let trip = Trip { distance: -12.0, drive: Drive::slow(), ending: Ending::Commanded };
+//! let ride = Ride::new(100.0, vec![5.0, 5.0], vec![trip])?;
+//! let pickup = Pickup { vibration: 2.0, ..Pickup::white(0.012) };
+//! let simulated = ride.simulate(&pickup, 2014, 0);
+//! assert_eq!(simulated.record.len(), ride.samples());
+//! assert_eq!(simulated.journeys[0].direction, -1);
+//! # Ok::<(), liftsim::signal::RideError>(())
+//! ```
+
+mod drive;
+mod pickup;
+mod simulate;
+#[cfg(test)]
+mod tests;
+mod trip;
+
+pub use drive::Drive;
+pub use pickup::{Pickup, PickupError};
+pub use simulate::Simulated;
+pub use trip::{Course, Ending, Trip, TripError};
+
+use super::Phase;
+
+/// Rests and trips in turn, sampled at a rate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ride {
+    rate: f64,
+    rests: Vec<f64>,
+    trips: Vec<Trip>,
+    courses: Vec<Course>,
+}
+
+/// A part of a ride in which the cage does one thing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// What it does.
+    pub phase: Phase,
+    /// s from the first sample.
+    pub from: f64,
+    /// s.
+    pub to: f64,
+    /// 1 up, −1 down, 0 at rest.
+    pub direction: i8,
+}
+
+/// A trip as it came to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Journey {
+    /// s from the first sample.
+    pub start: f64,
+    /// When the cage stands again, s.
+    pub stop: f64,
+    /// 1 up, −1 down.
+    pub direction: i8,
+    /// The way made, m, up positive.
+    pub distance: f64,
+    /// The highest speed, m/s.
+    pub speed: f64,
+    /// When it jammed, s from the first sample.
+    pub jam: Option<f64>,
+}
+
+/// Why a ride was refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum RideError {
+    /// A rate that is none.
+    #[error("rate must lie in [1e-3, 1e9] Hz, got {0}")]
+    Rate(f64),
+    /// Rests do not enclose the trips.
+    #[error("rests: {trips} trips need {needed}, got {rests} (before, between and after them)")]
+    Rests {
+        /// How many trips there are.
+        trips: usize,
+        /// How many rests they need.
+        needed: usize,
+        /// How many there are.
+        rests: usize,
+    },
+    /// A rest of no time.
+    #[error("rest {number} must last zero or more seconds, got {seconds}")]
+    Rest {
+        /// Which one, from 1.
+        number: usize,
+        /// As given.
+        seconds: f64,
+    },
+    /// A trip that cannot be made.
+    #[error("trip {number}")]
+    Trip {
+        /// Which one, from 1.
+        number: usize,
+        /// Why.
+        #[source]
+        reason: TripError,
+    },
+    /// No samples, or too many of them to be held.
+    #[error("a ride must have 1 to {most} samples, got {samples} ({seconds} s at {rate} Hz)")]
+    Length {
+        /// The most that is allowed.
+        most: usize,
+        /// How many it has.
+        samples: f64,
+        /// Its duration.
+        seconds: f64,
+        /// Its rate.
+        rate: f64,
+    },
+}
+
+/// Samples of the longest ride: 8 GB.
+const MOST_SAMPLES: usize = 1_000_000_000;
+
+impl Ride {
+    /// `trips` with `rests` (s) before, between and after them, sampled at `rate` Hz.
+    ///
+    /// # Errors
+    /// Where the rate or a rest is out of range, a trip cannot be made, the rests do not enclose the
+    /// trips, or the whole has no samples or too many.
+    pub fn new(rate: f64, rests: Vec<f64>, trips: Vec<Trip>) -> Result<Self, RideError> {
+        if !(1e-3..=1e9).contains(&rate) {
+            return Err(RideError::Rate(rate));
+        }
+        if rests.len() != trips.len() + 1 {
+            return Err(RideError::Rests {
+                trips: trips.len(),
+                needed: trips.len() + 1,
+                rests: rests.len(),
+            });
+        }
+        if let Some(index) = rests.iter().position(|s| !(*s >= 0.0 && s.is_finite())) {
+            return Err(RideError::Rest {
+                number: index + 1,
+                seconds: rests[index],
+            });
+        }
+        let course = |(number, trip): (usize, &Trip)| {
+            let refused = |reason| RideError::Trip { number, reason };
+            trip.course().map_err(refused)
+        };
+        let courses = (1..).zip(&trips).map(course).collect::<Result<_, _>>()?;
+        Self {
+            rate,
+            rests,
+            trips,
+            courses,
+        }
+        .of_some_length()
+    }
+
+    /// A rest of so many seconds.
+    ///
+    /// # Errors
+    /// As [`Ride::new`].
+    pub fn still(rate: f64, seconds: f64) -> Result<Self, RideError> {
+        Self::new(rate, vec![seconds], Vec::new())
+    }
+
+    fn of_some_length(self) -> Result<Self, RideError> {
+        let (seconds, rate) = (self.duration(), self.rate);
+        let samples = (seconds * rate).round();
+        match (1.0..=MOST_SAMPLES as f64).contains(&samples) {
+            true => Ok(self),
+            false => Err(RideError::Length {
+                most: MOST_SAMPLES,
+                samples,
+                seconds,
+                rate,
+            }),
+        }
+    }
+
+    /// Hz.
+    pub fn rate(&self) -> f64 {
+        self.rate
+    }
+
+    /// Before, between and after the trips, s.
+    pub fn rests(&self) -> &[f64] {
+        &self.rests
+    }
+
+    /// As asked for.
+    pub fn trips(&self) -> &[Trip] {
+        &self.trips
+    }
+
+    /// The whole, s.
+    pub fn duration(&self) -> f64 {
+        let moving = self.courses.iter().map(Course::duration).sum::<f64>();
+        self.rests.iter().sum::<f64>() + moving
+    }
+
+    /// How many samples there are of it.
+    pub fn samples(&self) -> usize {
+        (self.duration() * self.rate).round() as usize
+    }
+
+    /// What the cage does and when, without gaps; stretches of no length are left out.
+    pub fn truth(&self) -> Vec<Stretch> {
+        let mut now = 0.0;
+        let mut stretches = Vec::new();
+        let mut add = |phase, seconds, direction| {
+            let (from, to) = (now, now + seconds);
+            if to > from {
+                stretches.push(Stretch {
+                    phase,
+                    from,
+                    to,
+                    direction,
+                });
+            }
+            now = to;
+        };
+        for (rest, course) in self.rests.iter().zip(&self.courses) {
+            add(Phase::Rest, *rest, 0);
+            for (phase, seconds) in course.phases() {
+                add(phase, seconds, course.direction());
+            }
+        }
+        add(Phase::Rest, self.rests[self.courses.len()], 0);
+        stretches
+    }
+
+    /// Its trips as they come to be.
+    pub fn journeys(&self) -> Vec<Journey> {
+        let journey = |(start, course): (f64, &Course)| Journey {
+            start,
+            stop: start + course.duration(),
+            direction: course.direction(),
+            distance: course.distance(),
+            speed: course.top_speed(),
+            jam: course.jam_after().map(|after| start + after),
+        };
+        self.started().map(journey).collect()
+    }
+
+    /// Each trip's motion and when it starts, s from the first sample.
+    pub fn started(&self) -> impl Iterator<Item = (f64, &Course)> {
+        let mut now = 0.0;
+        (self.rests.iter().zip(&self.courses)).map(move |(rest, course)| {
+            let start = now + rest;
+            now = start + course.duration();
+            (start, course)
+        })
+    }
+}

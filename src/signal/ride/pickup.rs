@@ -1,0 +1,90 @@
+//! What a sensor in the cage adds to the acceleration.
+//!
+//! r = bias + a + σ(x + d + v + λ): x is the noise of the sensor, d what disturbs it at rest and in motion
+//! alike, v vibration and λ impulses, both in motion alone; then the digitiser. σ is the deviation of the
+//! noise that drives the sensor, in m/s²: the unit of everything else in [`crate::signal`].
+//!
+//! The deviation of x alone is gσ with g² = Σ h_k², the energy of the sensor's impulse response; g = 1 where
+//! the noise is white. In uniform motion at the drive's full speed it is √(g² + v²) σ.
+
+use crate::signal::{Digitiser, Disturbance, Impulses, Law, Noise, Sensor};
+
+/// A sensor in the cage.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pickup {
+    /// σ, m/s².
+    pub sigma: f64,
+    /// What colours the noise.
+    pub sensor: Sensor,
+    /// The law of the noise that drives the sensor.
+    pub noise: Noise,
+    /// Step and limits, in σ.
+    pub digitiser: Digitiser,
+    /// What is written down for no acceleration, m/s²; gravity may be put here.
+    pub bias: f64,
+    /// Deviation, in σ, of the white normal noise that is added at the drive's full speed; in proportion
+    /// to the speed below, for a cage that starts is still quiet.
+    pub vibration: f64,
+    /// λ, θ in σ; every trip starts from S = 0.
+    pub impulses: Impulses,
+    /// d, in σ and samples.
+    pub disturbance: Disturbance,
+    /// From when on d acts, s from the first sample.
+    pub disturbed_from: f64,
+}
+
+/// Why a pickup was refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum PickupError {
+    /// A unit that is none.
+    #[error("sigma must lie in [1e-12, 1e12] m/s², got {0}")]
+    Sigma(f64),
+    /// A bias that is no acceleration.
+    #[error("bias must be finite, got {0}")]
+    Bias(f64),
+    /// A deviation that is none.
+    #[error("vibration must be zero or positive, and finite, got {0}")]
+    Vibration(f64),
+    /// A time that is none.
+    #[error("disturbed_from must be zero or positive, and finite, got {0}")]
+    DisturbedFrom(f64),
+}
+
+impl Pickup {
+    /// White normal noise of deviation `sigma` m/s², written down as it is, and nothing else: a start
+    /// for struct updates.
+    pub fn white(sigma: f64) -> Self {
+        Self {
+            sigma,
+            sensor: Sensor::from_ar(Vec::new()).expect("white noise is stable"),
+            noise: Noise::new(Law::Normal).expect("the normal law has no parameter"),
+            digitiser: Digitiser::default(),
+            bias: 0.0,
+            vibration: 0.0,
+            impulses: Impulses::none(),
+            disturbance: Disturbance::default(),
+            disturbed_from: 0.0,
+        }
+    }
+
+    /// Accepts a pickup whose numbers are such.
+    ///
+    /// # Errors
+    /// Where one is out of its range.
+    pub fn checked(self) -> Result<Self, PickupError> {
+        let is_size = |value: f64| value >= 0.0 && value.is_finite();
+        if !(1e-12..=1e12).contains(&self.sigma) {
+            return Err(PickupError::Sigma(self.sigma));
+        }
+        if !self.bias.is_finite() {
+            return Err(PickupError::Bias(self.bias));
+        }
+        if !is_size(self.vibration) {
+            return Err(PickupError::Vibration(self.vibration));
+        }
+        if !is_size(self.disturbed_from) {
+            return Err(PickupError::DisturbedFrom(self.disturbed_from));
+        }
+        Ok(self)
+    }
+}

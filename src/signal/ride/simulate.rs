@@ -1,0 +1,131 @@
+//! A realisation of a ride.
+//!
+//! Each kind of draw has a stream of its own, so that rides that differ in strength alone share their
+//! draws: the same noise serves every Δ/σ.
+
+use super::{Course, Journey, Pickup, Ride, Stretch};
+use crate::rng::{Generator, Stream};
+use crate::signal::{During, ImpulseMemory, Law, Noise, Phase};
+use rand::Rng;
+use std::ops::Range;
+
+/// What a sensor in the cage wrote down, and what was true.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Simulated {
+    /// Hz: sample i belongs to the time i/rate.
+    pub rate: f64,
+    /// m/s².
+    pub record: Vec<f64>,
+    /// What the cage did and when.
+    pub truth: Vec<Stretch>,
+    /// The trips.
+    pub journeys: Vec<Journey>,
+}
+
+impl Ride {
+    /// Realisation number `index` of the draws of `seed`.
+    pub fn simulate(&self, pickup: &Pickup, seed: u64, index: u64) -> Simulated {
+        let mut record = vec![0.0; self.samples()];
+        let generator = |purpose: &str| {
+            let subject = format!("{} {}", pickup.sensor, pickup.noise);
+            Stream::new(seed, purpose, &subject).at(index)
+        };
+        add_noise(pickup, &mut generator("ride noise"), &mut record);
+        self.disturb(pickup, &mut generator("ride footfalls"), &mut record);
+        self.vibrate(pickup, &mut generator("ride vibration"), &mut record);
+        self.knock(pickup, &mut generator("ride impulses"), &mut record);
+        self.accelerate(pickup, &mut record);
+        write_down(pickup, &mut record);
+        Simulated {
+            rate: self.rate,
+            record,
+            truth: self.truth(),
+            journeys: self.journeys(),
+        }
+    }
+
+    fn disturb(&self, pickup: &Pickup, generator: &mut Generator, record: &mut [f64]) {
+        let from = (pickup.disturbed_from * self.rate).ceil() as usize;
+        let from = from.min(record.len());
+        let disturbance = &pickup.disturbance;
+        disturbance.act(record, from, || generator.next_u64());
+    }
+
+    fn vibrate(&self, pickup: &Pickup, generator: &mut Generator, record: &mut [f64]) {
+        if pickup.vibration == 0.0 {
+            return;
+        }
+        let normal = Noise::new(Law::Normal).expect("the normal law has no parameter");
+        for ((start, course), trip) in self.started().zip(&self.trips) {
+            let range = self.in_motion(start, course, record.len());
+            let mut draws = vec![0.0; range.len()];
+            normal.fill(generator, &mut draws);
+            let strength = pickup.vibration / trip.drive.speed;
+            for (i, draw) in range.zip(draws) {
+                let speed = course.speed_at(i as f64 / self.rate - start).abs();
+                record[i] += strength * speed * draw;
+            }
+        }
+    }
+
+    fn knock(&self, pickup: &Pickup, generator: &mut Generator, record: &mut [f64]) {
+        let impulses = &pickup.impulses;
+        if impulses.are_absent() {
+            return;
+        }
+        for (start, course) in self.started() {
+            let mut memory = ImpulseMemory::default();
+            for i in self.in_motion(start, course, record.len()) {
+                let draw = generator.next_u64();
+                let phase = course.phase_at(i as f64 / self.rate - start);
+                if impulses.during() == During::Motion || phase == Phase::Inertial {
+                    record[i] += impulses.theta() * memory.step(impulses.nu(), draw);
+                }
+            }
+        }
+    }
+
+    /// The samples whose times lie in a trip.
+    fn in_motion(&self, start: f64, course: &Course, samples: usize) -> Range<usize> {
+        let first = |time: f64| ((time * self.rate).ceil() as usize).min(samples);
+        first(start)..first(start + course.duration())
+    }
+
+    fn accelerate(&self, pickup: &Pickup, record: &mut [f64]) {
+        for (start, course) in self.started() {
+            let edge = |i: usize| (i as f64 - 0.5) / self.rate - start;
+            let first = (start * self.rate).round() as usize;
+            let mut speed = 0.0;
+            for (i, r) in record.iter_mut().enumerate().skip(first) {
+                let next = course.speed_at(edge(i + 1));
+                *r += (next - speed) * self.rate / pickup.sigma;
+                speed = next;
+                if edge(i + 1) >= course.duration() {
+                    break;
+                }
+            }
+        }
+    }
+}
+
+/// x, stationary from the first sample.
+fn add_noise(pickup: &Pickup, generator: &mut Generator, record: &mut Vec<f64>) {
+    if pickup.noise.is_normal() {
+        pickup.noise.fill(generator, record);
+        return pickup.sensor.colour_stationary(record);
+    }
+    let burn_in = pickup.sensor.burn_in();
+    record.resize(record.len() + burn_in, 0.0);
+    pickup.noise.fill(generator, record);
+    pickup.sensor.colour(record);
+    record.drain(..burn_in);
+}
+
+/// From σ to m/s², by way of the digitiser.
+fn write_down(pickup: &Pickup, record: &mut [f64]) {
+    let (digitiser, bias) = (&pickup.digitiser, pickup.bias / pickup.sigma);
+    let unit = digitiser.unit() * pickup.sigma;
+    for r in record {
+        *r = digitiser.code(*r + bias) * unit;
+    }
+}

@@ -1,0 +1,232 @@
+//! One trip: from rest over a distance to rest again, or to where the cage jams.
+//!
+//! A commanded trip ends as it began, reversed in time. A cage that jams in uniform motion at speed v comes
+//! to a stand within w seconds by a half-sine of deceleration, a(t) = −(πv/2w) sin(πt/w), the shape of
+//! shock tests: v(t) = v (1 + cos(πt/w))/2, and the way to the stand is vw/2. At 1 m/s and 0.1 s its peak
+//! is 15.7 m/s². The cage stays where it jammed.
+
+use super::drive::{Drive, Start};
+use crate::signal::Phase;
+use libm::{cos, sin};
+use std::f64::consts::PI;
+
+/// A trip as it is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trip {
+    /// m, up positive.
+    pub distance: f64,
+    /// The limits of its motion.
+    pub drive: Drive,
+    /// How it ends.
+    pub ending: Ending,
+}
+
+/// How a trip ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ending {
+    /// By braking, at the distance asked for.
+    Commanded,
+    /// By a jam in uniform motion.
+    Jam {
+        /// When, s from the start of the trip.
+        after: f64,
+        /// s from there to a stand.
+        within: f64,
+    },
+}
+
+/// Why a trip was refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum TripError {
+    /// No way to go.
+    #[error("distance must be finite and not zero, got {0} (positive is up)")]
+    Distance(f64),
+    /// A limit of the drive, or the time of a jam, that is no size.
+    #[error("{name} must be positive and finite, got {value}")]
+    NotPositive {
+        /// Which one.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A jam of a trip that always speeds up or brakes.
+    #[error(
+        "jam: a trip of {distance} m never moves uniformly (lengthen it, or lower the drive's speed)"
+    )]
+    NeverUniform {
+        /// m.
+        distance: f64,
+    },
+    /// A jam outside the uniform motion.
+    #[error(
+        "jam.after must lie in the uniform motion, {from:.3} to {to:.3} s from the start, got {after}"
+    )]
+    JamOutside {
+        /// s.
+        after: f64,
+        /// Start of the uniform motion, s.
+        from: f64,
+        /// Its end, s.
+        to: f64,
+    },
+}
+
+/// A trip worked out: its motion at any time, in seconds from its start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Course {
+    direction: f64,
+    start: Start,
+    /// s of uniform motion.
+    uniform: f64,
+    /// s to a stand, where it ends in a jam.
+    jam: Option<f64>,
+}
+
+impl Trip {
+    /// Works it out.
+    ///
+    /// # Errors
+    /// Where the distance is zero, a limit is not positive, or the jam is not in uniform motion.
+    pub fn course(&self) -> Result<Course, TripError> {
+        let Drive {
+            speed,
+            acceleration,
+            jerk,
+        } = self.drive;
+        if !(self.distance.is_finite() && self.distance != 0.0) {
+            return Err(TripError::Distance(self.distance));
+        }
+        positive("speed", speed)?;
+        positive("acceleration", acceleration)?;
+        positive("jerk", jerk)?;
+        let distance = self.distance.abs();
+        let start = self.drive.start(distance);
+        let course = Course {
+            direction: self.distance.signum(),
+            start,
+            uniform: (distance / start.speed - start.duration).max(0.0),
+            jam: None,
+        };
+        match self.ending {
+            Ending::Commanded => Ok(course),
+            Ending::Jam { after, within } => course.jammed(after, within, self.distance),
+        }
+    }
+}
+
+fn positive(name: &'static str, value: f64) -> Result<(), TripError> {
+    match value > 0.0 && value.is_finite() {
+        true => Ok(()),
+        false => Err(TripError::NotPositive { name, value }),
+    }
+}
+
+impl Course {
+    fn jammed(self, after: f64, within: f64, distance: f64) -> Result<Self, TripError> {
+        positive("jam.within", within)?;
+        let (from, to) = (self.start.duration, self.start.duration + self.uniform);
+        // Where the drive just reaches its speed, rounding may leave a motion of no time.
+        if self.uniform < 1e-9 {
+            return Err(TripError::NeverUniform { distance });
+        }
+        if !(from..=to).contains(&after) {
+            return Err(TripError::JamOutside { after, from, to });
+        }
+        Ok(Self {
+            uniform: after - from,
+            jam: Some(within),
+            ..self
+        })
+    }
+
+    /// 1 up, −1 down.
+    pub fn direction(&self) -> i8 {
+        self.direction as i8
+    }
+
+    /// The highest speed, m/s, without its sign.
+    pub fn top_speed(&self) -> f64 {
+        self.start.speed
+    }
+
+    /// s from the start to the jam that ends it.
+    pub fn jam_after(&self) -> Option<f64> {
+        self.jam.map(|_| self.braking_from())
+    }
+
+    /// s from the start to the stand.
+    pub fn duration(&self) -> f64 {
+        self.braking_from() + self.braking()
+    }
+
+    /// The way made, m, up positive.
+    pub fn distance(&self) -> f64 {
+        self.position_at(self.duration())
+    }
+
+    /// Its phases in order, each with its duration in s; none of no length.
+    pub fn phases(&self) -> impl Iterator<Item = (Phase, f64)> {
+        let phases = [
+            (Phase::Accelerating, self.start.duration),
+            (Phase::Inertial, self.uniform),
+            (Phase::Braking, self.braking()),
+        ];
+        phases.into_iter().filter(|(_, duration)| *duration > 0.0)
+    }
+
+    /// What the cage does at `time`.
+    pub fn phase_at(&self, time: f64) -> Phase {
+        match time {
+            _ if !(0.0..self.duration()).contains(&time) => Phase::Rest,
+            _ if time < self.start.duration => Phase::Accelerating,
+            _ if time < self.braking_from() => Phase::Inertial,
+            _ => Phase::Braking,
+        }
+    }
+
+    /// m/s², up positive.
+    pub fn acceleration_at(&self, time: f64) -> f64 {
+        let (braked, left) = (time - self.braking_from(), self.duration() - time);
+        let size = match self.jam {
+            _ if braked <= 0.0 => self.start.acceleration_at(time),
+            None => -self.start.acceleration_at(left),
+            Some(_) if left <= 0.0 => 0.0,
+            Some(within) => -self.start.speed * PI / (2.0 * within) * sin(PI * braked / within),
+        };
+        self.direction * size
+    }
+
+    /// m/s, up positive.
+    pub fn speed_at(&self, time: f64) -> f64 {
+        let (braked, left) = (time - self.braking_from(), self.duration() - time);
+        let size = match self.jam {
+            _ if braked <= 0.0 => self.start.speed_at(time),
+            None => self.start.speed_at(left),
+            Some(_) if left <= 0.0 => 0.0,
+            Some(within) => self.start.speed * (1.0 + cos(PI * braked / within)) / 2.0,
+        };
+        self.direction * size
+    }
+
+    /// m from the start, up positive.
+    pub fn position_at(&self, time: f64) -> f64 {
+        let braked = (time - self.braking_from()).clamp(0.0, self.braking());
+        let uniform = (time - self.start.duration).clamp(0.0, self.uniform);
+        let of_braking = match self.jam {
+            None => self.start.way_at(self.braking()) - self.start.way_at(self.braking() - braked),
+            Some(within) => {
+                self.start.speed / 2.0 * (braked + within / PI * sin(PI * braked / within))
+            }
+        };
+        self.direction * (self.start.way_at(time) + self.start.speed * uniform + of_braking)
+    }
+
+    /// s from the start to where the braking, or the jam, begins.
+    fn braking_from(&self) -> f64 {
+        self.start.duration + self.uniform
+    }
+
+    fn braking(&self) -> f64 {
+        self.jam.unwrap_or(self.start.duration)
+    }
+}
