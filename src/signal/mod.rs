@@ -11,6 +11,7 @@ mod gaussian;
 mod impulses;
 mod motion;
 mod noise;
+pub mod recording;
 mod sensor;
 
 pub use digitiser::{Digitiser, DigitiserError};
