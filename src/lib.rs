@@ -35,7 +35,7 @@
 //! | 0 | [`rng`]: coordinates → generator · [`binomial`], [`chi_squared`]: exact tails · [`numeral`]: numbers in print · [`lanes`]: trials side by side |
 //! | 1 | [`tally`]: counts and what may be concluded from them · [`ledger`]: which trials have been counted |
 //! | 2 | [`signal`]: sensor, noise, impulses, motion, rides · [`whiten`]: filters · [`detect`]: W, T, their laws, regions |
-//! | 3 | [`chain`]: one trial, every stage |
+//! | 3 | [`chain`]: one trial, every stage · [`monitor`]: one lift, sample by sample |
 //! | 4 | [`config`]: what the author wrote · [`ensemble`]: blocks of trials in parallel |
 //! | 5 | [`plan`]: what it comes to |
 //! | 6 | [`pilot`]: decisions that no law gives · [`run`]: counts · [`gate`]: the false-alarm test · [`results`]: files |

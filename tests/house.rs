@@ -9,7 +9,7 @@ const FLOORS: [&[&str]; 9] = [
     &["rng", "binomial", "chi_squared", "numeral", "lanes"],
     &["tally", "ledger"],
     &["signal", "whiten", "detect"],
-    &["chain"],
+    &["chain", "monitor"],
     &["config", "ensemble"],
     &["plan"],
     &["pilot", "run", "gate", "results"],

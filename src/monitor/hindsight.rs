@@ -9,7 +9,7 @@ use super::blocks::Blocks;
 use super::event::{Event, Kind, State};
 use super::pulse::is_level;
 use super::reference::Reference;
-use super::settings::{Design, MOST_ORDER};
+use super::settings::{Design, LEAST_TRAINING};
 use super::{Knowledge, Monitor};
 use crate::signal::Phase;
 use crate::signal::recording::Sample;
@@ -158,7 +158,7 @@ impl Windows {
     fn reference(&self, are: impl Fn(&Window) -> bool) -> Result<Reference, NoRest> {
         let chosen: Vec<&Window> = self.level().into_iter().filter(|w| are(w)).collect();
         let blocks = chosen.len() * self.length;
-        let needed = self.design.samples.reference() + 3 * MOST_ORDER;
+        let needed = self.design.samples.reference().max(LEAST_TRAINING);
         let seconds = |blocks: usize| blocks as f64 * self.design.block;
         if blocks < needed {
             return Err(NoRest {
@@ -170,7 +170,12 @@ impl Windows {
         let span = (chosen[0].from, chosen[chosen.len() - 1].to);
         let follows = |a: &&Window, b: &&Window| b.from - a.to < 2.0 * self.design.block;
         let stretches: Vec<Vec<f64>> = (chosen.chunk_by(follows))
-            .map(|stretch| stretch.iter().flat_map(|w| w.means.iter().copied()).collect())
+            .map(|stretch| {
+                stretch
+                    .iter()
+                    .flat_map(|w| w.means.iter().copied())
+                    .collect()
+            })
             .collect();
         Ok(Reference::from_stretches(&stretches, span, &self.design))
     }
@@ -249,7 +254,9 @@ impl Motions {
     }
 
     fn hold(&self, from: f64, to: f64) -> bool {
-        self.0.iter().any(|motion| motion.0 <= from && to <= motion.1)
+        self.0
+            .iter()
+            .any(|motion| motion.0 <= from && to <= motion.1)
     }
 
     fn touch(&self, from: f64, to: f64) -> bool {

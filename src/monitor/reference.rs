@@ -1,7 +1,7 @@
 //! What a monitor knows of rest: the level, the whitening filter and the sample X.
 
 use super::settings::{Design, MOST_ORDER};
-use crate::whiten::{self, Fit, Fitter, Whitening};
+use crate::whiten::{self, Chosen, Fit, Fitter, LjungBox, Whitening};
 use serde::{Deserialize, Serialize};
 
 /// What has been learnt from a record of rest.
@@ -15,7 +15,8 @@ pub struct Reference {
     /// The deviation of the whitened record, m/s²: σ_ξ of block means.
     pub deviation: f64,
     /// The p-value of the Ljung–Box test of the whitened record: how plausible it is that no colour is left.
-    pub whiteness: f64,
+    /// None where the record is too short for the test, or constant.
+    pub whiteness: Option<f64>,
     /// Blocks it was fitted to.
     pub training: usize,
     /// From when to when it was recorded, s.
@@ -68,24 +69,47 @@ impl Filter {
     /// would turn the sign of a start.
     fn fit(stretches: &[&[f64]], design: &Design) -> Self {
         let joined = stretches.concat();
-        let order = design.settings.order.unwrap_or(MOST_ORDER.min(2));
-        let w = Whitening::new(order, Fit::Burg, joined.len(), false, 0).unwrap();
-        let coefficients = Fitter::new(w, &[]).fit(&joined).to_vec();
+        let coefficients = match design.settings.order {
+            Some(0) => Vec::new(),
+            Some(order) => {
+                let whitening = Whitening::new(order, Fit::Burg, joined.len(), false, 0);
+                let whitening = whitening.expect("settings ask for enough training");
+                Fitter::new(whitening, &[]).fit(&joined).to_vec()
+            }
+            None => {
+                let chosen = Chosen::new(&joined, MOST_ORDER, Fit::Burg);
+                chosen
+                    .expect("settings ask for enough training")
+                    .coefficients
+            }
+        };
+        let order = coefficients.len();
         let mut whitened = Vec::new();
         for stretch in stretches {
             let mut part = vec![0.0; stretch.len() - order];
             whiten::whiten(&coefficients, stretch, order, &mut part);
             whitened.append(&mut part);
         }
-        Self { coefficients, whitened }
+        Self {
+            coefficients,
+            whitened,
+        }
     }
 
-    fn into_reference(self, level: f64, span: (f64, f64), training: usize, sample: Vec<f64>) -> Reference {
+    fn into_reference(
+        self,
+        level: f64,
+        span: (f64, f64),
+        training: usize,
+        sample: Vec<f64>,
+    ) -> Reference {
         let squares: f64 = self.whitened.iter().map(|y| y * y).sum();
         Reference {
             level,
             deviation: (squares / self.whitened.len() as f64).sqrt(),
-            whiteness: 1.0,
+            whiteness: LjungBox::of_residuals(&self.whitened, self.coefficients.len())
+                .ok()
+                .map(|test| test.p_value),
             coefficients: self.coefficients,
             training,
             span,

@@ -46,6 +46,9 @@ pub struct Settings {
 /// The highest order that BIC may choose.
 pub const MOST_ORDER: usize = 8;
 
+/// Blocks that the choice of an order needs.
+pub(super) const LEAST_TRAINING: usize = 5 * MOST_ORDER;
+
 /// Settings at one sampling rate.
 #[derive(Clone, Debug)]
 pub struct Design {
@@ -173,7 +176,7 @@ impl Settings {
         if let Some(order) = self.order.filter(|order| *order > MOST_ORDER) {
             return Err(SettingsError::Order(order));
         }
-        let needed = 3 * MOST_ORDER;
+        let needed = LEAST_TRAINING;
         match self.training < needed {
             true => Err(SettingsError::Training {
                 needed,

@@ -13,6 +13,7 @@ mod impulses;
 mod motion;
 mod noise;
 mod phase;
+pub mod recording;
 mod ride;
 mod sensor;
 

@@ -46,11 +46,11 @@ pub enum OrderError {
 const SAMPLES_PER_COEFFICIENT: usize = 5;
 
 impl Chosen {
-    /// The best of the orders 0 … `most` for this record of rest.
+    /// The best of the orders 0 … `most` for this record of rest, its coefficients by `fit`.
     ///
     /// # Errors
     /// Where the record has fewer than five samples per coefficient of the highest order.
-    pub fn new(record: &[f64], most: usize) -> Result<Self, OrderError> {
+    pub fn new(record: &[f64], most: usize, by: Fit) -> Result<Self, OrderError> {
         let needed = SAMPLES_PER_COEFFICIENT * most.max(1);
         if record.len() < needed {
             return Err(OrderError::TooShort {
@@ -66,7 +66,7 @@ impl Chosen {
         };
         let order = (1..=most).fold(0, least);
         Ok(Self {
-            coefficients: fit(record, order),
+            coefficients: fit(record, order, by),
             criteria,
         })
     }
@@ -77,12 +77,12 @@ impl Chosen {
     }
 }
 
-/// The least-squares filter of this order, of any.
-fn fit(record: &[f64], order: usize) -> Vec<f64> {
+/// The filter of this order, of any.
+fn fit(record: &[f64], order: usize, by: Fit) -> Vec<f64> {
     if order == 0 {
         return Vec::new();
     }
-    let whitening = Whitening::new(order, Fit::LeastSquares, record.len(), false, 0)
+    let whitening = Whitening::new(order, by, record.len(), false, 0)
         .expect("the record is long enough for a choice");
     Fitter::new(whitening, &[]).fit(record).to_vec()
 }
@@ -141,7 +141,7 @@ mod tests {
         let most = 6;
         let mean = record.iter().sum::<f64>() / 300.0;
         let centred: Vec<f64> = record.iter().map(|x| x - mean).collect();
-        let chosen = Chosen::new(&record, most).unwrap();
+        let chosen = Chosen::new(&record, most, Fit::LeastSquares).unwrap();
         let naive = |coefficients: &[f64]| {
             let mut errors = vec![0.0; 300 - most];
             whiten(coefficients, &centred, most, &mut errors);
@@ -150,12 +150,15 @@ mod tests {
             n * (energy / n).ln() + coefficients.len() as f64 * n.ln()
         };
         for (order, criterion) in chosen.criteria.iter().enumerate() {
-            let of_these = naive(&fit(&record[most - order..], order));
+            let of_these = naive(&fit(&record[most - order..], order, Fit::LeastSquares));
             println!("order {order}: {criterion:.6} {of_these:.6}");
             assert!(of_these > criterion - 1e-9 && of_these < criterion + 0.01);
-            assert!(naive(&fit(&record, order)) > criterion - 1e-9);
+            assert!(naive(&fit(&record, order, Fit::LeastSquares)) > criterion - 1e-9);
         }
-        assert_eq!(chosen.coefficients, fit(&record, chosen.order()));
+        assert_eq!(
+            chosen.coefficients,
+            fit(&record, chosen.order(), Fit::LeastSquares)
+        );
     }
 
     /// The true order is found in 95 % of records or more: at 95 % exactly, as few hits as this bound lets
@@ -167,7 +170,7 @@ mod tests {
         for ar in ars {
             let found = |index| {
                 let record = record(ar, samples, index);
-                Chosen::new(&record, 20).unwrap().order() == ar.len()
+                Chosen::new(&record, 20, Fit::LeastSquares).unwrap().order() == ar.len()
             };
             let hits = (0..trials).filter(|index| found(*index)).count() as u64;
             let p = binomial::lower_tail(hits, trials, 0.95);
@@ -178,23 +181,26 @@ mod tests {
 
     #[test]
     fn what_never_changes_is_white() {
-        let constant = Chosen::new(&[0.1; 100], 5).unwrap();
+        let constant = Chosen::new(&[0.1; 100], 5, Fit::LeastSquares).unwrap();
         assert_eq!(constant.order(), 0);
         let alternating: Vec<f64> = (0..100).map(|i| f64::from(i % 2)).collect();
-        let alternating = Chosen::new(&alternating, 5).unwrap();
+        let alternating = Chosen::new(&alternating, 5, Fit::LeastSquares).unwrap();
         assert!(alternating.order() >= 1);
         assert!((alternating.coefficients[0] + 1.0).abs() < 1e-9);
         let mut generator = Stream::new(1, "", "").at(0);
         let noise = crate::signal::Noise::new(crate::signal::Law::Normal).unwrap();
         let mut record = [0.0; 10];
         noise.fill(&mut generator, &mut record);
-        assert_eq!(Chosen::new(&record, 0).unwrap().order(), 0);
+        assert_eq!(
+            Chosen::new(&record, 0, Fit::LeastSquares).unwrap().order(),
+            0
+        );
     }
 
     #[test]
     fn refusals() {
-        let refused = Chosen::new(&[0.0; 99], 20).unwrap_err();
+        let refused = Chosen::new(&[0.0; 99], 20, Fit::LeastSquares).unwrap_err();
         assert!(refused.to_string().contains("at least 100 samples, got 99"));
-        assert!(Chosen::new(&[], 0).is_err());
+        assert!(Chosen::new(&[], 0, Fit::LeastSquares).is_err());
     }
 }

@@ -57,8 +57,16 @@ impl LjungBox {
         if !residuals.is_empty() {
             whiten(coefficients, record, order, &mut residuals);
         }
+        Self::of_residuals(&residuals, order)
+    }
+
+    /// Tests residuals of a filter of order `order`, by as many lags as their number allows.
+    ///
+    /// # Errors
+    /// As [`LjungBox::of_filter`].
+    pub fn of_residuals(residuals: &[f64], order: usize) -> Result<Self, PortmanteauError> {
         let lags = (order + LAGS_BEYOND_ORDER).min(residuals.len() / 5);
-        Self::new(&residuals, order, lags)
+        Self::new(residuals, order, lags)
     }
 
     /// Tests residuals of a filter of order `order` by their first `lags` correlations.
@@ -168,7 +176,7 @@ mod tests {
         let record = record(&[-1.5365, -0.75056], 500, 0);
         let test = LjungBox::of_filter(&[], &record).unwrap();
         assert!(test.p_value < 1e-12, "{test:?}");
-        let chosen = Chosen::new(&record, 10).unwrap();
+        let chosen = Chosen::new(&record, 10, Fit::LeastSquares).unwrap();
         let test = LjungBox::of_filter(&chosen.coefficients, &record).unwrap();
         assert_eq!((chosen.order(), test.lags, test.degrees), (2, 22, 20));
         assert!(test.p_value > 1e-3, "{test:?}");

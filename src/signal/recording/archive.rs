@@ -1,0 +1,140 @@
+//! The one member of a zip archive that is a table of accelerations.
+//!
+//! phyphox packs its table with a `meta` folder of tables about the device; Sensor Logger packs one table
+//! for each sensor, all with the same columns, so that their names must tell them apart. Of several
+//! accelerations the one with gravity is taken: it says which way is up.
+
+use super::error::{Names, RecordingError, RecordingProblem, nearest};
+use super::layout::Layout;
+use super::reading::Reading;
+use super::source::{Member, Source};
+use std::io::Read;
+use zip::{CompressionMethod, ZipArchive};
+
+/// The table to be read: the source itself, or a member of it.
+///
+/// # Errors
+/// Where an archive is damaged, or has no table, or more than one that would do.
+pub(super) fn table(source: Source, reading: &Reading) -> Result<Source, RecordingError> {
+    if is_archive(&source)? {
+        return member(&source, reading);
+    }
+    if source.name().to_lowercase().ends_with(".zip") {
+        return Err(source.error(None, RecordingProblem::NotAZip));
+    }
+    match &reading.member {
+        Some(member) => Err(source.error(None, RecordingProblem::NotAnArchive(member.clone()))),
+        None => Ok(source),
+    }
+}
+
+fn is_archive(source: &Source) -> Result<bool, RecordingError> {
+    let mut start = Vec::new();
+    let unreadable = |error| source.error(None, RecordingProblem::Unreadable(error));
+    let mut bytes = source.bytes()?.take(4);
+    bytes.read_to_end(&mut start).map_err(unreadable)?;
+    // A file header, or the end of an archive without files.
+    Ok(start == b"PK\x03\x04" || start == b"PK\x05\x06")
+}
+
+fn member(source: &Source, reading: &Reading) -> Result<Source, RecordingError> {
+    let members = members(source)?;
+    let names = || {
+        Names(
+            members
+                .iter()
+                .map(|found| found.member.name.clone())
+                .collect(),
+        )
+    };
+    if let Some(wanted) = &reading.member {
+        let found = members.iter().find(|found| found.member.name == *wanted);
+        return match found {
+            Some(found) => found.open(source),
+            None => Err(source.error(
+                None,
+                RecordingProblem::UnknownMember {
+                    got: wanted.clone(),
+                    hint: nearest(wanted, &names().0),
+                    found: names(),
+                },
+            )),
+        };
+    }
+    let mut tables = Vec::new();
+    for found in members.iter().filter(|found| found.may_be_table()) {
+        let table = found.open(source)?;
+        if let Ok(layout) = Layout::find(&table, reading) {
+            tables.push((layout.includes_gravity(table.name()), table));
+        }
+    }
+    let with_gravity = tables.iter().filter(|(gravity, _)| *gravity).count();
+    if with_gravity == 1 {
+        tables.retain(|(gravity, _)| *gravity);
+    }
+    let problem = match &mut tables[..] {
+        [_] => return Ok(tables.remove(0).1),
+        [] => RecordingProblem::NoTable(names()),
+        several => RecordingProblem::SeveralTables(Names(
+            several
+                .iter()
+                .filter_map(|(_, table)| table.member().map(str::to_owned))
+                .collect(),
+        )),
+    };
+    Err(source.error(None, problem))
+}
+
+/// A member and whether it can be unpacked here.
+struct Found {
+    member: Member,
+    is_packed_otherwise: bool,
+}
+
+impl Found {
+    fn open(&self, source: &Source) -> Result<Source, RecordingError> {
+        match self.is_packed_otherwise {
+            true => {
+                let problem = RecordingProblem::Packing(self.member.name.clone());
+                Err(source.error(None, problem))
+            }
+            false => Ok(source.with_member(self.member.clone())),
+        }
+    }
+
+    /// Tables of numbers, but for those about the device and what a system left behind.
+    fn may_be_table(&self) -> bool {
+        let name = self.member.name.to_lowercase();
+        let is_text = [".csv", ".txt", ".tsv"]
+            .iter()
+            .any(|end| name.ends_with(end));
+        let mut parts = name.split('/');
+        is_text && !parts.any(|part| part == "meta" || part == "__macosx" || part.starts_with('.'))
+    }
+}
+
+fn members(source: &Source) -> Result<Vec<Found>, RecordingError> {
+    let damaged = |error| source.error(None, RecordingProblem::Archive(error));
+    let mut archive = ZipArchive::new(source.bytes()?).map_err(damaged)?;
+    let mut members = Vec::new();
+    for index in 0..archive.len() {
+        let file = archive.by_index_raw(index).map_err(damaged)?;
+        let name = file.name().map_err(damaged)?.into_owned();
+        let (Some(start), false) = (file.data_start(), file.is_dir()) else {
+            continue;
+        };
+        let is_deflated = file.compression() == CompressionMethod::Deflated;
+        let is_stored = file.compression() == CompressionMethod::Stored;
+        members.push(Found {
+            member: Member {
+                name,
+                start,
+                packed: file.compressed_size(),
+                checksum: file.crc32(),
+                is_deflated,
+            },
+            is_packed_otherwise: file.encrypted() || !(is_deflated || is_stored),
+        });
+    }
+    Ok(members)
+}

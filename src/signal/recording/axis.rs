@@ -1,0 +1,36 @@
+//! Which way is up.
+
+use std::fmt;
+
+/// Which of a sensor's axes is vertical.
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+pub enum Axis {
+    /// The nearest to gravity; where gravity is taken out, the one with the ride.
+    #[default]
+    Auto,
+    /// The axis x.
+    X,
+    /// The axis y.
+    Y,
+    /// The axis z, out of the screen of a phone.
+    Z,
+    /// None of them: the acceleration along the direction of gravity.
+    Gravity,
+}
+
+impl Axis {
+    /// The axes, in the order of all triples.
+    pub(super) const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
+}
+
+impl fmt::Display for Axis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Auto => "auto",
+            Self::X => "x",
+            Self::Y => "y",
+            Self::Z => "z",
+            Self::Gravity => "gravity",
+        })
+    }
+}

@@ -1,0 +1,326 @@
+//! How a table is laid out, found from its first line.
+
+use super::axis::Axis;
+use super::cell::{Cell, DecimalMark};
+use super::column::{Column, Gravity, Role};
+use super::delimiter::{Delimiter, Splitter};
+use super::error::{Names, RecordingError, RecordingProblem, nearest};
+use super::lines::{Lines, NoLine};
+use super::reading::{Reading, TimeUnit, Unit};
+use super::source::Source;
+use std::fmt;
+
+/// Which app wrote a table.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Format {
+    /// phyphox: names with units in brackets.
+    Phyphox,
+    /// Science Journal: `relative_time` in ms, a row for every sensor's reading.
+    ScienceJournal,
+    /// Sensor Logger: `seconds_elapsed` beside `time` in ns.
+    SensorLogger,
+    /// None of these.
+    Plain,
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Phyphox => "phyphox",
+            Self::ScienceJournal => "Science Journal",
+            Self::SensorLogger => "Sensor Logger",
+            Self::Plain => "plain",
+        })
+    }
+}
+
+/// Where in a table the time and the acceleration stand, and in which units.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Layout {
+    pub format: Format,
+    pub delimiter: Delimiter,
+    /// Lines before the first row.
+    pub preamble: u64,
+    pub is_headed: bool,
+    pub columns: Vec<Column>,
+    pub time: usize,
+    pub time_unit: TimeUnit,
+    /// Whether the file or the reader says so.
+    pub is_time_unit_stated: bool,
+    pub acceleration: Accelerations,
+    pub unit: Unit,
+    /// Whether the file or the reader says so.
+    pub is_unit_stated: bool,
+}
+
+/// The columns that may hold the vertical acceleration.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Accelerations {
+    /// The reader named it.
+    Named(usize),
+    /// There is only one.
+    Only(usize),
+    /// Some axes, where they stand.
+    Axes(Vec<(Axis, usize)>),
+}
+
+impl Layout {
+    /// Reads the first line.
+    ///
+    /// # Errors
+    /// Where there is none, or no column is what it should be.
+    pub fn find(source: &Source, reading: &Reading) -> Result<Self, RecordingError> {
+        let mut lines = Lines::new(source.text()?);
+        let first = first(&mut lines).map_err(|problem| {
+            let line = (lines.number() > 0).then(|| lines.number());
+            source.error(
+                line.filter(|_| !matches!(problem, RecordingProblem::Empty)),
+                problem,
+            )
+        })?;
+        let number = lines.number();
+        Self::of(&first, number, source.name(), reading)
+            .map_err(|problem| source.error(Some(number), problem))
+    }
+
+    fn of(
+        first: &[u8],
+        number: u64,
+        owner: &str,
+        reading: &Reading,
+    ) -> Result<Self, RecordingProblem> {
+        reading.unit.check()?;
+        let delimiter = Delimiter::of(first);
+        let mut splitter = Splitter::new(delimiter);
+        splitter.split(first);
+        let is_headed = !is_row(&splitter, delimiter);
+        let columns = match is_headed {
+            true => headed(&splitter, owner),
+            false => numbered(splitter.cells().count()),
+        };
+        let time = time(&columns, reading)?;
+        let acceleration = accelerations(&columns, reading, time)?;
+        let format = format(&columns, time);
+        let found_time_unit = columns[time]
+            .time_unit
+            .or(clock_unit(format, &columns[time]));
+        let time_unit = reading.time_unit.or(found_time_unit);
+        let found_unit = columns[acceleration.columns()[0]].unit;
+        let unit = match reading.unit {
+            Unit::Found => found_unit,
+            given => Some(given),
+        };
+        Ok(Self {
+            format,
+            delimiter,
+            preamble: number - u64::from(!is_headed),
+            is_headed,
+            columns,
+            time,
+            time_unit: time_unit.unwrap_or(TimeUnit::Seconds),
+            is_time_unit_stated: time_unit.is_some(),
+            acceleration,
+            unit: unit.unwrap_or(Unit::MetresPerSecondSquared),
+            is_unit_stated: unit.is_some(),
+        })
+    }
+
+    /// Whether, by their names, the accelerations are those of a device that leaves gravity in. The
+    /// tables of Sensor Logger say so in the name of the file alone.
+    pub fn includes_gravity(&self, owner: &str) -> bool {
+        let is_total = |index: &usize| match self.columns[*index].role {
+            Role::Along { gravity, .. } => gravity == Gravity::In,
+            _ => false,
+        };
+        match self.format {
+            Format::SensorLogger => owner.to_lowercase().contains("totalacceleration"),
+            _ => self.acceleration.columns().iter().all(is_total),
+        }
+    }
+}
+
+impl Accelerations {
+    /// Where they stand.
+    pub fn columns(&self) -> Vec<usize> {
+        match self {
+            Self::Named(column) | Self::Only(column) => vec![*column],
+            Self::Axes(axes) => axes.iter().map(|(_, column)| *column).collect(),
+        }
+    }
+}
+
+/// The first line that says something, passing over blank lines, comments, and the line that tells a
+/// spreadsheet the separator.
+fn first<R: std::io::BufRead>(lines: &mut Lines<R>) -> Result<Vec<u8>, RecordingProblem> {
+    loop {
+        let line = match lines.next() {
+            Ok(Some(line)) => line.bytes,
+            Ok(None) => return Err(RecordingProblem::Empty),
+            Err(NoLine::TooLong) => return Err(RecordingProblem::TooLong),
+            Err(NoLine::Io(error)) => return Err(RecordingProblem::Unreadable(error)),
+        };
+        if line.iter().any(|&c| c.is_ascii_control() && c != b'\t') {
+            return Err(RecordingProblem::Binary);
+        }
+        if !is_remark(line) && !line.starts_with(b"sep=") {
+            return Ok(line.to_vec());
+        }
+    }
+}
+
+/// A line that says nothing: blank, or a comment.
+pub(super) fn is_remark(line: &[u8]) -> bool {
+    let line = line.trim_ascii_start();
+    matches!(line.first(), None | Some(b'#' | b'%'))
+}
+
+/// Whether the first line is a row of numbers already.
+fn is_row(splitter: &Splitter, delimiter: Delimiter) -> bool {
+    let mut mark = match delimiter {
+        Delimiter::Comma => DecimalMark::Point,
+        _ => DecimalMark::Unknown,
+    };
+    let cells: Vec<Cell> = splitter.cells().map(|cell| mark.read(cell)).collect();
+    let is_number = |cell: &Cell| matches!(cell, Cell::Number(_) | Cell::NotFinite);
+    cells.iter().any(is_number) && !cells.contains(&Cell::Text)
+}
+
+fn headed(splitter: &Splitter, owner: &str) -> Vec<Column> {
+    let names: Vec<String> = splitter
+        .cells()
+        .map(|cell| String::from_utf8_lossy(cell).into_owned())
+        .collect();
+    let used = names.iter().rposition(|name| !name.trim().is_empty());
+    names[..used.map_or(0, |last| last + 1)]
+        .iter()
+        .map(|name| Column::new(name, owner))
+        .collect()
+}
+
+/// Of two columns without names, the first is time and the second the acceleration.
+fn numbered(width: usize) -> Vec<Column> {
+    let role = |index| match (width, index) {
+        (2, 0) => Role::Time { rank: 0 },
+        (2, _) => Role::Acceleration,
+        _ => Role::Other,
+    };
+    (0..width)
+        .map(|index| Column {
+            name: (index + 1).to_string(),
+            role: role(index),
+            time_unit: None,
+            unit: None,
+        })
+        .collect()
+}
+
+fn names(columns: &[Column]) -> Names {
+    Names(columns.iter().map(|column| column.name.clone()).collect())
+}
+
+/// The column that the reader named, by the whole name or without regard to capitals.
+fn named(columns: &[Column], role: &'static str, got: &str) -> Result<usize, RecordingProblem> {
+    let wanted = got.trim();
+    let exact = columns.iter().position(|column| column.name == wanted);
+    let alike = |column: &Column| column.name.to_lowercase() == wanted.to_lowercase();
+    exact
+        .or_else(|| columns.iter().position(alike))
+        .ok_or_else(|| RecordingProblem::UnknownColumn {
+            role,
+            got: got.to_owned(),
+            hint: nearest(wanted, &names(columns).0),
+            found: names(columns),
+        })
+}
+
+fn time(columns: &[Column], reading: &Reading) -> Result<usize, RecordingProblem> {
+    if let Some(name) = &reading.time {
+        return named(columns, "time", name);
+    }
+    let clocks = columns.iter().enumerate().filter_map(|(index, column)| {
+        let Role::Time { rank } = column.role else {
+            return None;
+        };
+        Some((rank, index))
+    });
+    let best = clocks.min().map(|(_, index)| index);
+    best.ok_or_else(|| RecordingProblem::NoTime(names(columns)))
+}
+
+fn accelerations(
+    columns: &[Column],
+    reading: &Reading,
+    time: usize,
+) -> Result<Accelerations, RecordingProblem> {
+    if let Some(name) = &reading.acceleration {
+        return Ok(Accelerations::Named(named(columns, "acceleration", name)?));
+    }
+    let axes: Vec<(Axis, usize)> = Axis::ALL
+        .into_iter()
+        .filter_map(|axis| Some((axis, along(columns, axis)?)))
+        .collect();
+    let only = |index: &usize| *index != time && columns[*index].role == Role::Acceleration;
+    match reading.axis {
+        Axis::Auto if axes.is_empty() => (0..columns.len())
+            .find(only)
+            .map(Accelerations::Only)
+            .ok_or_else(|| RecordingProblem::NoAcceleration(names(columns))),
+        Axis::Auto => Ok(Accelerations::Axes(axes)),
+        Axis::Gravity if axes.len() == 3 => Ok(Accelerations::Axes(axes)),
+        Axis::Gravity => Err(RecordingProblem::NoGravity("fewer than three axes")),
+        axis => axes
+            .into_iter()
+            .find(|(found, _)| *found == axis)
+            .map(|found| Accelerations::Axes(vec![found]))
+            .ok_or_else(|| RecordingProblem::NoAxis {
+                axis,
+                found: names(columns),
+            }),
+    }
+}
+
+/// The column along `axis`, with gravity where there is a choice.
+fn along(columns: &[Column], axis: Axis) -> Option<usize> {
+    let found = columns
+        .iter()
+        .enumerate()
+        .filter_map(|(index, column)| match column.role {
+            Role::Along {
+                axis: found,
+                gravity,
+            } if found == axis => Some((gravity, index)),
+            _ => None,
+        });
+    found.min().map(|(_, index)| index)
+}
+
+fn format(columns: &[Column], time: usize) -> Format {
+    let has = |name: &str| {
+        columns
+            .iter()
+            .any(|column| column.name.eq_ignore_ascii_case(name))
+    };
+    let has_units = |column: &Column| column.unit.is_some() && column.name.ends_with(')');
+    let clock = &columns[time];
+    match () {
+        () if has("seconds_elapsed") => Format::SensorLogger,
+        () if has("relative_time") || (has("timestamp") && has("AccX")) => Format::ScienceJournal,
+        () if clock.time_unit.is_some()
+            && clock.name.ends_with(')')
+            && columns.iter().any(has_units) =>
+        {
+            Format::Phyphox
+        }
+        () => Format::Plain,
+    }
+}
+
+/// What the app counts time in, where the name does not say.
+fn clock_unit(format: Format, clock: &Column) -> Option<TimeUnit> {
+    match (format, clock.name.to_lowercase().as_str()) {
+        (Format::ScienceJournal, "relative_time" | "timestamp") => Some(TimeUnit::Milliseconds),
+        (Format::SensorLogger, "seconds_elapsed") => Some(TimeUnit::Seconds),
+        (Format::SensorLogger, "time") => Some(TimeUnit::Nanoseconds),
+        _ => None,
+    }
+}

@@ -1,0 +1,165 @@
+//! Where a recording's text comes from, to be read from the start as often as asked.
+//!
+//! Text in UTF-16 is told by its mark and turned into UTF-8; everything else is passed as it is. A member
+//! of a zip archive is unpacked as it is read.
+
+use super::error::{RecordingError, RecordingProblem};
+use encoding_rs_io::DecodeReaderBytesBuilder;
+use flate2::CrcReader;
+use flate2::read::DeflateDecoder;
+use std::fs::{self, File};
+use std::io::{self, BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Bytes that a reader takes at a time.
+const BUFFER: usize = 1 << 16;
+
+/// A reader of lines.
+pub(super) type Text = Box<dyn BufRead + Send>;
+
+/// Bytes that can be read again.
+#[derive(Clone, Debug)]
+pub(super) struct Source {
+    name: Arc<str>,
+    bytes: Bytes,
+    member: Option<Member>,
+}
+
+#[derive(Clone, Debug)]
+enum Bytes {
+    File(PathBuf),
+    Memory(Arc<[u8]>),
+}
+
+/// Where in an archive a member lies.
+#[derive(Clone, Debug)]
+pub(super) struct Member {
+    pub name: String,
+    pub start: u64,
+    pub packed: u64,
+    pub checksum: u32,
+    pub is_deflated: bool,
+}
+
+pub(super) trait ReadSeek: Read + Seek + Send {}
+impl<T: Read + Seek + Send> ReadSeek for T {}
+
+impl Source {
+    /// # Errors
+    /// Where there is no such file, or it cannot be read twice.
+    pub fn file(path: &Path) -> Result<Self, RecordingError> {
+        let name = path.display().to_string();
+        let refused = |problem| RecordingError::new(&name, None, problem);
+        let unreadable = |error| refused(RecordingProblem::Unreadable(error));
+        let metadata = fs::metadata(path).map_err(unreadable)?;
+        match () {
+            () if metadata.is_dir() => Err(refused(RecordingProblem::NotAFile("a directory"))),
+            () if !metadata.is_file() => {
+                Err(refused(RecordingProblem::NotAFile("a pipe or a device")))
+            }
+            () => Ok(Self {
+                name: name.into(),
+                bytes: Bytes::File(path.to_owned()),
+                member: None,
+            }),
+        }
+    }
+
+    pub fn memory(name: &str, bytes: Arc<[u8]>) -> Self {
+        Self {
+            name: name.into(),
+            bytes: Bytes::Memory(bytes),
+            member: None,
+        }
+    }
+
+    /// The same file, read at one of its members.
+    pub fn with_member(&self, member: Member) -> Self {
+        Self {
+            name: format!("{}:{}", self.name, member.name).into(),
+            bytes: self.bytes.clone(),
+            member: Some(member),
+        }
+    }
+
+    /// What messages call it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The member that is read.
+    pub fn member(&self) -> Option<&str> {
+        self.member.as_ref().map(|member| member.name.as_str())
+    }
+
+    /// Something is wrong with it, in a line where one is given.
+    pub fn error(&self, line: Option<u64>, problem: RecordingProblem) -> RecordingError {
+        RecordingError::new(&self.name, line, problem)
+    }
+
+    /// Its bytes, packed as they may be.
+    pub fn bytes(&self) -> Result<Box<dyn ReadSeek>, RecordingError> {
+        match &self.bytes {
+            Bytes::File(path) => match File::open(path) {
+                Ok(file) => Ok(Box::new(file)),
+                Err(error) => Err(self.error(None, RecordingProblem::Unreadable(error))),
+            },
+            Bytes::Memory(bytes) => Ok(Box::new(Cursor::new(bytes.clone()))),
+        }
+    }
+
+    /// Its text, from the start.
+    pub fn text(&self) -> Result<Text, RecordingError> {
+        let mut bytes = self.bytes()?;
+        let Some(member) = &self.member else {
+            return Ok(decoded(bytes));
+        };
+        bytes
+            .seek(SeekFrom::Start(member.start))
+            .map_err(|error| self.error(None, RecordingProblem::Unreadable(error)))?;
+        let packed = BufReader::with_capacity(BUFFER, bytes).take(member.packed);
+        let checksum = member.checksum;
+        Ok(match member.is_deflated {
+            true => decoded(Checked::new(DeflateDecoder::new(packed), checksum)),
+            false => decoded(Checked::new(packed, checksum)),
+        })
+    }
+}
+
+fn decoded(bytes: impl Read + Send + 'static) -> Text {
+    let utf8 = DecodeReaderBytesBuilder::new()
+        .utf8_passthru(true)
+        .strip_bom(true)
+        .bom_override(true)
+        .build(bytes);
+    Box::new(BufReader::with_capacity(BUFFER, utf8))
+}
+
+/// Unpacked bytes whose checksum is compared at their end.
+struct Checked<R> {
+    reader: CrcReader<R>,
+    checksum: u32,
+}
+
+impl<R: Read> Checked<R> {
+    fn new(reader: R, checksum: u32) -> Self {
+        Self {
+            reader: CrcReader::new(reader),
+            checksum,
+        }
+    }
+}
+
+impl<R: Read> Read for Checked<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let read = self.reader.read(buffer)?;
+        if read == 0 && !buffer.is_empty() && self.reader.crc().sum() != self.checksum {
+            return Err(io::Error::new(
+                io::ErrorKind::InvalidData,
+                "the archive is damaged: a checksum differs",
+            ));
+        }
+        Ok(read)
+    }
+}

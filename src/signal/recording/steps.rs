@@ -1,0 +1,112 @@
+//! The sensor's step, where its readings lie on a grid.
+//!
+//! From the first few thousand readings: sorted, the distances of neighbours are whole multiples of the
+//! smallest where there is a grid, and any number where there is none. The estimate is refined from the
+//! short multiples to the long, so that its error never reaches a tenth of a step.
+
+/// Readings that are looked at.
+pub(super) const LOOKED_AT: usize = 8192;
+
+/// Readings closer than this share of the largest are equal: apps print numbers of single precision, whose
+/// neighbours lie 1.2e-7 apart.
+const EQUAL: f64 = 4.0 * f32::EPSILON as f64;
+
+/// How far from a multiple a distance may lie, in steps. Distances that know no grid lie so near by chance
+/// one time in five.
+const NEAR: f64 = 0.1;
+
+/// Distances longer than this many steps say nothing: the error of the step would tell.
+const LONG: f64 = 50.0;
+
+/// Distances needed: five that fit by chance are 3e-4 likely.
+const FEWEST: u64 = 5;
+
+/// The share of distances that may lie off the grid.
+const ASTRAY: f64 = 0.01;
+
+/// What the first readings say.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Steps {
+    /// m/s².
+    pub quantum: Option<f64>,
+    /// Of the readings, how many equal another, as a share.
+    pub ties: f64,
+}
+
+impl Steps {
+    pub fn of(mut readings: Vec<f64>) -> Self {
+        let total = readings.len();
+        let largest = readings.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        readings.sort_by(f64::total_cmp);
+        readings.dedup_by(|next, kept| (*next - *kept).abs() <= EQUAL * largest);
+        let mut distances: Vec<f64> = readings.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        distances.sort_by(f64::total_cmp);
+        Self {
+            quantum: grid(&distances),
+            ties: 1.0 - readings.len() as f64 / total.max(1) as f64,
+        }
+    }
+}
+
+/// The step of which `distances`, from the shortest, are multiples.
+fn grid(distances: &[f64]) -> Option<f64> {
+    let mut step = *distances.first()?;
+    let (mut sum, mut multiples) = (0.0, 0.0);
+    let (mut fitting, mut astray) = (0, 0);
+    for distance in distances {
+        if *distance >= LONG * step {
+            break;
+        }
+        let multiple = (distance / step).round();
+        if (distance - multiple * step).abs() > NEAR * step {
+            astray += 1;
+            continue;
+        }
+        fitting += 1;
+        sum += distance;
+        multiples += multiple;
+        step = sum / multiples;
+    }
+    let is_grid = fitting >= FEWEST && f64::from(astray) <= ASTRAY * fitting as f64;
+    is_grid.then_some(step)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::Stream;
+    use rand::Rng;
+
+    /// Uniform in (−1, 1).
+    fn draws(size: usize) -> Vec<f64> {
+        let mut generator = Stream::new(2014, "noise", "steps").at(0);
+        let uniform = |bits: u64| (bits >> 11) as f64 / (1u64 << 52) as f64 - 1.0;
+        (0..size).map(|_| uniform(generator.next_u64())).collect()
+    }
+
+    #[test]
+    fn a_grid_is_found_through_single_precision() {
+        for step in [0.1, 0.00119, 0.0765] {
+            let on_grid = |x: f64| f64::from((9.8 + (3.0 * x / step).round() * step) as f32);
+            let steps = Steps::of(draws(5000).into_iter().map(on_grid).collect());
+            let found = steps.quantum.unwrap();
+            assert!((found / step - 1.0).abs() < 1e-3, "{found} for {step}");
+        }
+    }
+
+    #[test]
+    fn what_lies_on_none() {
+        for size in [2, 6, 100, 8192] {
+            let steps = Steps::of(draws(size));
+            assert_eq!(steps.quantum, None, "{size}");
+            assert_eq!(steps.ties, 0.0);
+        }
+        assert_eq!(Steps::of(vec![]).quantum, None);
+        assert_eq!(Steps::of(vec![1.0; 9]).quantum, None);
+    }
+
+    #[test]
+    fn ties_are_counted() {
+        assert_eq!(Steps::of(vec![1.0, 1.0, 2.0, 3.0]).ties, 0.25);
+    }
+}
