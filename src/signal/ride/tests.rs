@@ -6,6 +6,12 @@ use crate::rng::Stream;
 use crate::signal::{Digitiser, Disturbance, During, Impulses, Law, Noise, Sensor};
 use rand::RngExt;
 
+const LIFT: Drive = Drive {
+    speed: 1.0,
+    acceleration: 0.6,
+    jerk: 0.8,
+};
+
 fn trip(distance: f64, drive: Drive, ending: Ending) -> Trip {
     Trip {
         distance,
@@ -106,7 +112,7 @@ fn every_moment_is_at_a_limit() {
         let step = 1e-6 * duration;
         for i in 0..100 {
             let time = duration * (f64::from(i) + 0.37) / 100.0;
-            if course.jam_after().is_some_and(|after| time + step > after) {
+            if course.is_jammed() && time + step > course.uniform_motion().1 {
                 break;
             }
             let a = course.acceleration_at(time);
@@ -159,27 +165,27 @@ fn speed_and_position_are_the_integrals_of_acceleration() {
 /// The jam: half the top speed at half its time, v w/2 of way, and the peak that the head of the file says.
 #[test]
 fn jams_stop_within_their_time() {
-    let drive = drive(1.0, 0.6, 0.8);
     let ending = |after| Ending::Jam { after, within: 0.1 };
-    let course = trip(-12.0, drive, ending(6.0)).course().unwrap();
-    assert_eq!(course.duration(), 6.1);
-    assert_eq!(course.jam_after(), Some(6.0));
+    let course = trip(-12.0, LIFT, ending(6.0)).course().unwrap();
+    assert!((course.duration() - 6.1).abs() < 1e-12);
+    assert!(course.is_jammed());
+    assert!((course.uniform_motion().1 - 6.0).abs() < 1e-12);
     assert!((course.speed_at(6.05) + 0.5).abs() < 1e-12);
     assert!((course.acceleration_at(6.05) - 5.0 * std::f64::consts::PI).abs() < 1e-9);
     let start = 1.0 / 0.6 + 0.6 / 0.8;
     let way = start / 2.0 + (6.0 - start) + 0.05;
     assert!((course.distance() + way).abs() < 1e-12);
     assert_eq!(course.phase_at(6.05), Phase::Braking);
-    assert_eq!(course.phase_at(6.1), Phase::Rest);
+    assert_eq!(course.phase_at(6.101), Phase::Rest);
 }
 
 fn two_trips() -> Ride {
-    let up = trip(12.0, Drive::slow(), Ending::Commanded);
+    let up = trip(12.0, LIFT, Ending::Commanded);
     let jam = Ending::Jam {
         after: 7.3,
         within: 0.05,
     };
-    let down = trip(-9.0, Drive::slow(), jam);
+    let down = trip(-9.0, LIFT, jam);
     Ride::new(100.0, vec![5.003, 4.0, 3.0], vec![up, down]).unwrap()
 }
 
@@ -209,8 +215,15 @@ fn truth_tells_the_ride() {
     let journeys = ride.journeys();
     assert_eq!(journeys[0].start, 5.003);
     assert!((journeys[0].distance - 12.0).abs() < 1e-12);
-    assert_eq!((journeys[0].direction, journeys[0].jam), (1, None));
-    assert!((journeys[1].jam.unwrap() - journeys[1].start - 7.3).abs() < 1e-12);
+    assert_eq!((journeys[0].direction, journeys[0].jam()), (1, None));
+    assert!((journeys[1].jam().unwrap() - journeys[1].start - 7.3).abs() < 1e-12);
+    for (journey, trip) in journeys.iter().zip(truth.chunks(4)) {
+        let ends = [journey.start, journey.uniform, journey.braking];
+        let expected = [trip[0].to, trip[1].to, trip[2].to];
+        for (end, expected) in ends.into_iter().zip(expected) {
+            assert!((end - expected).abs() < 1e-12);
+        }
+    }
     assert!((journeys[1].stop - journeys[1].start - 7.35).abs() < 1e-12);
     assert!((ride.duration() - truth[truth.len() - 1].to).abs() < 1e-12);
 }
@@ -302,7 +315,7 @@ fn records_start_stationary() {
 /// rest 1. False failures: 1e-7.
 #[test]
 fn vibration_acts_in_motion() {
-    let trip = trip(2000.0, Drive::slow(), Ending::Commanded);
+    let trip = trip(2000.0, LIFT, Ending::Commanded);
     let ride = Ride::new(100.0, vec![1000.0, 1000.0], vec![trip]).unwrap();
     let pickup = Pickup {
         vibration: 2.0,
@@ -327,7 +340,7 @@ fn vibration_acts_in_motion() {
 /// Draws are shared by rides that differ in strength alone: impulses and their places are the difference.
 #[test]
 fn impulses_act_in_uniform_motion_alone() {
-    let trip = trip(200.0, Drive::slow(), Ending::Commanded);
+    let trip = trip(200.0, LIFT, Ending::Commanded);
     let ride = Ride::new(50.0, vec![3.0, 3.0], vec![trip]).unwrap();
     let quiet = Pickup::white(1.0);
     let knocked = Pickup {
@@ -365,6 +378,12 @@ fn digitised_records_are_whole_steps() {
         ..Pickup::white(0.02)
     };
     let record = two_trips().simulate(&pickup, 2014, 0).record;
+    let level = Pickup {
+        cosine: 0.0,
+        ..pickup.clone()
+    };
+    let level = two_trips().simulate(&level, 2014, 0).record;
+    assert!(level.iter().all(|r| (r - 9.81).abs() < 0.3), "no motion");
     for r in &record {
         let steps = r / quantum;
         assert!((steps - steps.round()).abs() < 1e-9, "{r}");
@@ -417,18 +436,17 @@ fn golden_draws() {
 
 #[test]
 fn refusals() {
-    let slow = Drive::slow();
     let of = |trip: Trip| trip.course().unwrap_err().to_string();
     let commanded = |distance, drive| of(trip(distance, drive, Ending::Commanded));
-    assert!(commanded(0.0, slow).contains("got 0"));
-    assert!(commanded(f64::NAN, slow).contains("NaN"));
+    assert!(commanded(0.0, LIFT).contains("got 0"));
+    assert!(commanded(f64::NAN, LIFT).contains("NaN"));
     assert!(commanded(1.0, drive(1.0, -1.0, 1.0)).contains("acceleration must be positive"));
     assert!(commanded(1.0, drive(1.0, 1.0, f64::INFINITY)).contains("jerk"));
-    let jam = |distance, after, within| of(trip(distance, slow, Ending::Jam { after, within }));
+    let jam = |distance, after, within| of(trip(distance, LIFT, Ending::Jam { after, within }));
     assert!(jam(1.0, 1.0, 0.1).contains("never moves uniformly"));
     assert!(jam(12.0, 1.0, 0.1).contains("2.417 to 12.000 s"));
     assert!(jam(12.0, 5.0, 0.0).contains("jam.within"));
-    let up = trip(12.0, slow, Ending::Commanded);
+    let up = trip(12.0, LIFT, Ending::Commanded);
     let new = |rate, rests: &[f64], trips: &[Trip]| {
         Ride::new(rate, rests.to_vec(), trips.to_vec()).unwrap_err()
     };
@@ -442,7 +460,7 @@ fn refusals() {
     assert!(matches!(rest, RideError::Rest { number: 2, .. }));
     assert!(matches!(new(1.0, &[0.1], &[]), RideError::Length { .. }));
     assert!(matches!(new(1e6, &[1e6], &[]), RideError::Length { .. }));
-    let nowhere = trip(0.0, slow, Ending::Commanded);
+    let nowhere = trip(0.0, LIFT, Ending::Commanded);
     let refused = new(1.0, &[1.0, 1.0, 1.0], &[up, nowhere]);
     assert!(matches!(refused, RideError::Trip { number: 2, .. }));
     let pickup = |change: fn(&mut Pickup)| {
@@ -455,6 +473,7 @@ fn refusals() {
         pickup(|p| p.bias = f64::NAN),
         PickupError::Bias(_)
     ));
+    assert_eq!(pickup(|p| p.cosine = 1.1), PickupError::Cosine(1.1));
     assert_eq!(pickup(|p| p.vibration = -1.0), PickupError::Vibration(-1.0));
     assert_eq!(
         pickup(|p| p.disturbed_from = -1.0),
