@@ -10,6 +10,7 @@ mod merge;
 mod plan;
 mod plot;
 mod progress;
+mod record;
 mod replay;
 mod signals;
 mod status;
@@ -54,6 +55,7 @@ enum Command {
     Threshold(threshold::Threshold),
     Plan(plan::PlanCommand),
     Replay(replay::ReplayCommand),
+    Record(record::Record),
     Completions(completions::Completions),
     Man(man::Man),
 }
@@ -99,6 +101,7 @@ impl Arguments {
             Command::Threshold(verb) => verb.run(),
             Command::Plan(verb) => verb.run(),
             Command::Replay(verb) => verb.run(),
+            Command::Record(verb) => verb.run(),
             Command::Completions(verb) => verb.run(),
             Command::Man(verb) => verb.run(),
         }

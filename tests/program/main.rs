@@ -5,6 +5,7 @@ mod commands;
 mod exhibits;
 mod figures;
 mod gate;
+mod record;
 mod replay;
 mod results;
 mod shards;

@@ -44,10 +44,10 @@ pub(super) struct Start {
 }
 
 impl Drive {
-    /// Limits of a slow passenger lift: 1 m/s, 0.6 m/s², 0.8 m/s³.
+    /// Limits of a slow passenger lift: 0.7 m/s, 0.6 m/s², 0.8 m/s³.
     pub fn slow() -> Self {
         Self {
-            speed: 1.0,
+            speed: 0.7,
             acceleration: 0.6,
             jerk: 0.8,
         }

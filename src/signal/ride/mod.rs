@@ -18,6 +18,7 @@
 //! ```
 
 mod drive;
+mod export;
 mod pickup;
 mod simulate;
 #[cfg(test)]
@@ -25,6 +26,7 @@ mod tests;
 mod trip;
 
 pub use drive::Drive;
+pub use export::{Experiment, write_phyphox, write_truth};
 pub use pickup::{Pickup, PickupError};
 pub use simulate::Simulated;
 pub use trip::{Course, Ending, Trip, TripError};
@@ -58,6 +60,10 @@ pub struct Stretch {
 pub struct Journey {
     /// s from the first sample.
     pub start: f64,
+    /// When it stops gaining speed, s.
+    pub uniform: f64,
+    /// When it begins to lose speed, by braking or by a jam, s.
+    pub braking: f64,
     /// When the cage stands again, s.
     pub stop: f64,
     /// 1 up, −1 down.
@@ -66,8 +72,15 @@ pub struct Journey {
     pub distance: f64,
     /// The highest speed, m/s.
     pub speed: f64,
+    /// Whether it ended in a jam.
+    pub jammed: bool,
+}
+
+impl Journey {
     /// When it jammed, s from the first sample.
-    pub jam: Option<f64>,
+    pub fn jam(&self) -> Option<f64> {
+        self.jammed.then_some(self.braking)
+    }
 }
 
 /// Why a ride was refused.
@@ -117,8 +130,8 @@ pub enum RideError {
     },
 }
 
-/// Samples of the longest ride: 8 GB.
-const MOST_SAMPLES: usize = 1_000_000_000;
+/// Samples of the longest ride: 1.6 GB.
+const MOST_SAMPLES: usize = 200_000_000;
 
 impl Ride {
     /// `trips` with `rests` (s) before, between and after them, sampled at `rate` Hz.
@@ -233,13 +246,18 @@ impl Ride {
 
     /// Its trips as they come to be.
     pub fn journeys(&self) -> Vec<Journey> {
-        let journey = |(start, course): (f64, &Course)| Journey {
-            start,
-            stop: start + course.duration(),
-            direction: course.direction(),
-            distance: course.distance(),
-            speed: course.top_speed(),
-            jam: course.jam_after().map(|after| start + after),
+        let journey = |(start, course): (f64, &Course)| {
+            let (uniform, braking) = course.uniform_motion();
+            Journey {
+                start,
+                uniform: start + uniform,
+                braking: start + braking,
+                stop: start + course.duration(),
+                direction: course.direction(),
+                distance: course.distance(),
+                speed: course.top_speed(),
+                jammed: course.is_jammed(),
+            }
         };
         self.started().map(journey).collect()
     }

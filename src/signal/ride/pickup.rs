@@ -1,6 +1,6 @@
 //! What a sensor in the cage adds to the acceleration.
 //!
-//! r = bias + a + σ(x + d + v + λ): x is the noise of the sensor, d what disturbs it at rest and in motion
+//! r = bias + a cos φ + σ(x + d + v + λ): φ is the angle between its axis and the vertical, x is the noise of the sensor, d what disturbs it at rest and in motion
 //! alike, v vibration and λ impulses, both in motion alone; then the digitiser. σ is the deviation of the
 //! noise that drives the sensor, in m/s²: the unit of everything else in [`crate::signal`].
 //!
@@ -22,6 +22,8 @@ pub struct Pickup {
     pub digitiser: Digitiser,
     /// What is written down for no acceleration, m/s²; gravity may be put here.
     pub bias: f64,
+    /// cos φ: 1 upright, 0 for an axis that does not feel the motion.
+    pub cosine: f64,
     /// Deviation, in σ, of the white normal noise that is added at the drive's full speed; in proportion
     /// to the speed below, for a cage that starts is still quiet.
     pub vibration: f64,
@@ -42,6 +44,9 @@ pub enum PickupError {
     /// A bias that is no acceleration.
     #[error("bias must be finite, got {0}")]
     Bias(f64),
+    /// A cosine that is none.
+    #[error("cosine must lie in [-1, 1], got {0}")]
+    Cosine(f64),
     /// A deviation that is none.
     #[error("vibration must be zero or positive, and finite, got {0}")]
     Vibration(f64),
@@ -60,6 +65,7 @@ impl Pickup {
             noise: Noise::new(Law::Normal).expect("the normal law has no parameter"),
             digitiser: Digitiser::default(),
             bias: 0.0,
+            cosine: 1.0,
             vibration: 0.0,
             impulses: Impulses::none(),
             disturbance: Disturbance::default(),
@@ -78,6 +84,9 @@ impl Pickup {
         }
         if !self.bias.is_finite() {
             return Err(PickupError::Bias(self.bias));
+        }
+        if !(-1.0..=1.0).contains(&self.cosine) {
+            return Err(PickupError::Cosine(self.cosine));
         }
         if !is_size(self.vibration) {
             return Err(PickupError::Vibration(self.vibration));

@@ -92,13 +92,14 @@ impl Ride {
     }
 
     fn accelerate(&self, pickup: &Pickup, record: &mut [f64]) {
+        let scale = self.rate * pickup.cosine / pickup.sigma;
         for (start, course) in self.started() {
             let edge = |i: usize| (i as f64 - 0.5) / self.rate - start;
             let first = (start * self.rate).round() as usize;
             let mut speed = 0.0;
             for (i, r) in record.iter_mut().enumerate().skip(first) {
                 let next = course.speed_at(edge(i + 1));
-                *r += (next - speed) * self.rate / pickup.sigma;
+                *r += (next - speed) * scale;
                 speed = next;
                 if edge(i + 1) >= course.duration() {
                     break;

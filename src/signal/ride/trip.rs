@@ -124,7 +124,7 @@ fn positive(name: &'static str, value: f64) -> Result<(), TripError> {
 impl Course {
     fn jammed(self, after: f64, within: f64, distance: f64) -> Result<Self, TripError> {
         positive("jam.within", within)?;
-        let (from, to) = (self.start.duration, self.start.duration + self.uniform);
+        let (from, to) = self.uniform_motion();
         // Where the drive just reaches its speed, rounding may leave a motion of no time.
         if self.uniform < 1e-9 {
             return Err(TripError::NeverUniform { distance });
@@ -149,9 +149,14 @@ impl Course {
         self.start.speed
     }
 
-    /// s from the start to the jam that ends it.
-    pub fn jam_after(&self) -> Option<f64> {
-        self.jam.map(|_| self.braking_from())
+    /// Whether it ends in a jam.
+    pub fn is_jammed(&self) -> bool {
+        self.jam.is_some()
+    }
+
+    /// From when to when it moves uniformly, s from the start; of no length where it never does.
+    pub fn uniform_motion(&self) -> (f64, f64) {
+        (self.start.duration, self.start.duration + self.uniform)
     }
 
     /// s from the start to the stand.
@@ -223,7 +228,7 @@ impl Course {
 
     /// s from the start to where the braking, or the jam, begins.
     fn braking_from(&self) -> f64 {
-        self.start.duration + self.uniform
+        self.uniform_motion().1
     }
 
     fn braking(&self) -> f64 {

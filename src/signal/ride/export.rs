@@ -1,0 +1,131 @@
+//! A simulated ride as files: the record as phyphox exports it, the truth beside it.
+//!
+//! The clock of a record starts with the period that its first sample is the mean of, so sample i stands at
+//! (i + ½)/rate, and the truth is moved by as much. Numbers in print do not depend on the machine.
+
+use super::{Journey, Ride};
+use libm::sqrt;
+use std::io::{self, Write};
+
+/// Which of phyphox's experiments a record looks like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Experiment {
+    /// Acceleration without g.
+    Linear,
+    /// Acceleration with g.
+    WithGravity,
+}
+
+impl Experiment {
+    fn quantity(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Linear => ("Linear Acceleration", "Absolute acceleration"),
+            Self::WithGravity => ("Acceleration", "Absolute acceleration"),
+        }
+    }
+}
+
+/// Writes three axes (m/s²) of equal length, without a final newline, as phyphox does.
+///
+/// # Errors
+/// Where `out` does not take them.
+pub fn write_phyphox(
+    out: &mut impl Write,
+    experiment: Experiment,
+    rate: f64,
+    [x, y, z]: [&[f64]; 3],
+) -> io::Result<()> {
+    let (axis, absolute) = experiment.quantity();
+    let columns = ["x", "y", "z"].map(|name| format!("\"{axis} {name} (m/s^2)\""));
+    let columns = columns.join(",");
+    write!(out, "\"Time (s)\",{columns},\"{absolute} (m/s^2)\"")?;
+    for (i, ((x, y), z)) in x.iter().zip(y).zip(z).enumerate() {
+        let time = (i as f64 + 0.5) / rate;
+        let absolute = sqrt(x * x + y * y + z * z);
+        // Adding zero makes −0 the same as 0.
+        let [x, y, z] = [x + 0.0, y + 0.0, z + 0.0];
+        write!(out, "\n{time:.9E},{x:.9E},{y:.9E},{z:.9E},{absolute:.9E}")?;
+    }
+    Ok(())
+}
+
+/// Writes the trips, one a line: times in s on the clock of the record, `uniform` and `braking` where the
+/// uniform motion begins and ends, the distance in m, up positive, the highest speed in m/s.
+///
+/// # Errors
+/// Where `out` does not take them.
+pub fn write_truth(out: &mut impl Write, ride: &Ride) -> io::Result<()> {
+    writeln!(
+        out,
+        "start,stop,direction,distance,speed,ended,uniform,braking"
+    )?;
+    for journey in ride.journeys() {
+        let Journey {
+            start,
+            uniform,
+            braking,
+            stop,
+            distance,
+            speed,
+            ..
+        } = journey;
+        let [start, uniform, braking, stop] =
+            [start, uniform, braking, stop].map(|time| time + 0.5 / ride.rate());
+        let direction = if journey.direction > 0 { "up" } else { "down" };
+        let ended = if journey.jammed { "jam" } else { "commanded" };
+        writeln!(
+            out,
+            "{start:.6},{stop:.6},{direction},{distance:.6},{speed:.6},{ended},{uniform:.6},{braking:.6}"
+        )?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::signal::{Drive, Ending, Trip};
+
+    #[test]
+    fn phyphox_layout() {
+        let mut out = Vec::new();
+        let axes: [&[f64]; 3] = [&[3.0, -0.0], &[0.0, 0.0], &[-4.0, 1.25e-3]];
+        write_phyphox(&mut out, Experiment::Linear, 50.0, axes).unwrap();
+        let expected = "\"Time (s)\",\"Linear Acceleration x (m/s^2)\",\
+            \"Linear Acceleration y (m/s^2)\",\"Linear Acceleration z (m/s^2)\",\
+            \"Absolute acceleration (m/s^2)\"\n\
+            1.000000000E-2,3.000000000E0,0.000000000E0,-4.000000000E0,5.000000000E0\n\
+            3.000000000E-2,0.000000000E0,0.000000000E0,1.250000000E-3,1.250000000E-3";
+        assert_eq!(String::from_utf8(out).unwrap(), expected);
+        let mut out = Vec::new();
+        write_phyphox(&mut out, Experiment::WithGravity, 50.0, [&[]; 3]).unwrap();
+        assert!(out.starts_with(b"\"Time (s)\",\"Acceleration x (m/s^2)\","));
+    }
+
+    /// Times by hand: v = 1 after T = v/A + A/J = 2, uniform for D/v − T = 1.
+    #[test]
+    fn truth_layout() {
+        let drive = Drive {
+            speed: 1.0,
+            acceleration: 1.0,
+            jerk: 1.0,
+        };
+        let jam = Ending::Jam {
+            after: 2.5,
+            within: 0.5,
+        };
+        let trip = |distance, ending| Trip {
+            distance,
+            drive,
+            ending,
+        };
+        let trips = vec![trip(3.0, Ending::Commanded), trip(-3.0, jam)];
+        let ride = Ride::new(100.0, vec![1.0; 3], trips).unwrap();
+        let mut out = Vec::new();
+        write_truth(&mut out, &ride).unwrap();
+        let expected = "start,stop,direction,distance,speed,ended,uniform,braking\n\
+            1.005000,6.005000,up,3.000000,1.000000,commanded,3.005000,4.005000\n\
+            7.005000,10.005000,down,-1.750000,1.000000,jam,9.005000,9.505000\n";
+        assert_eq!(String::from_utf8(out).unwrap(), expected);
+    }
+}
