@@ -24,6 +24,9 @@ const LONG: f64 = 50.0;
 /// Distances needed: five that fit by chance are 3e-4 likely.
 const FEWEST: u64 = 5;
 
+/// The share of ties that proves a grid by itself, however few its levels.
+const TIED: f64 = 0.9;
+
 /// The share of distances that may lie off the grid.
 const ASTRAY: f64 = 0.01;
 
@@ -34,6 +37,8 @@ pub(super) struct Steps {
     pub quantum: Option<f64>,
     /// Of the readings, how many equal another, as a share.
     pub ties: f64,
+    /// Values that differ.
+    pub levels: usize,
 }
 
 impl Steps {
@@ -42,19 +47,21 @@ impl Steps {
         let largest = readings.iter().fold(GRAVITY, |most, x| most.max(x.abs()));
         readings.sort_by(f64::total_cmp);
         readings.dedup();
-        let ties = 1.0 - readings.len() as f64 / total.max(1) as f64;
+        let levels = readings.len();
+        let ties = 1.0 - levels as f64 / total.max(1) as f64;
         readings.dedup_by(|next, kept| (*next - *kept).abs() <= EQUAL * largest);
         let mut distances: Vec<f64> = readings.windows(2).map(|pair| pair[1] - pair[0]).collect();
         distances.sort_by(f64::total_cmp);
         Self {
-            quantum: grid(&distances),
+            quantum: grid(&distances, if ties > TIED { 1 } else { FEWEST }),
             ties,
+            levels,
         }
     }
 }
 
-/// The step of which `distances`, from the shortest, are multiples.
-fn grid(distances: &[f64]) -> Option<f64> {
+/// The step of which `distances`, from the shortest, are multiples: at least the `fewest` of them.
+fn grid(distances: &[f64], fewest: u64) -> Option<f64> {
     let mut step = *distances.first()?;
     let (mut sum, mut multiples) = (0.0, 0.0);
     let (mut fitting, mut astray) = (0, 0);
@@ -72,7 +79,7 @@ fn grid(distances: &[f64]) -> Option<f64> {
         multiples += multiple;
         step = sum / multiples;
     }
-    let is_grid = fitting >= FEWEST && f64::from(astray) <= ASTRAY * fitting as f64;
+    let is_grid = fitting >= fewest && f64::from(astray) <= ASTRAY * fitting as f64;
     is_grid.then_some(step)
 }
 
@@ -97,6 +104,14 @@ mod tests {
             let found = steps.quantum.unwrap();
             assert!((found / step - 1.0).abs() < 1e-3, "{found} for {step}");
         }
+    }
+
+    #[test]
+    fn a_grid_of_few_levels() {
+        let levels = [9.7, 9.8, 9.9];
+        let steps = Steps::of((0..100).map(|i| levels[i % 3]).collect());
+        assert!((steps.quantum.unwrap() - 0.1).abs() < 1e-12);
+        assert_eq!(steps.levels, 3);
     }
 
     #[test]

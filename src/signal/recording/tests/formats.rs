@@ -45,6 +45,14 @@ fn utf_16() {
     }
 }
 
+#[test]
+fn latin_1() {
+    let text = b"Time (s),Acceleration z (m/s\xb2)\n0.01,-0.15\n0.02,0.25\n0.03,0.5\n";
+    let recording = Recording::from_bytes("ride", &text[..], &Reading::default()).unwrap();
+    assert_eq!(read(&recording), EXPECTED);
+    assert_eq!(recording.format(), Format::Phyphox);
+}
+
 /// Each sensor writes its own rows, and z is read at 20 ms.
 #[test]
 fn science_journal() {
@@ -170,7 +178,11 @@ fn tilted_axes_are_projected() {
     // In different rows they cannot be.
     let apart = |i: i32| match i % 2 {
         0 => format!("{},0,{half},\n", 0.01 * f64::from(i)),
-        _ => format!("{},,,{}\n", 0.01 * f64::from(i), half + 0.1 * f64::from(i % 4)),
+        _ => format!(
+            "{},,,{}\n",
+            0.01 * f64::from(i),
+            half + 0.1 * f64::from(i % 4)
+        ),
     };
     let rows: String = (0..200).map(apart).collect();
     let recording = open(&format!("time,x,y,z\n{rows}"));

@@ -38,11 +38,11 @@ fn no_such_column() {
     let text = "time,acc,pressure\n0,1,2\n0.1,2,3\n";
     assert_eq!(
         refused_as(text, &named("tme", "acc")),
-        "ride.csv:1: no column \"tme\" for the time, did you mean \"time\"?, the columns are \
-         \"time\", \"acc\", \"pressure\""
+        "ride.csv:1: no column \"tme\" for the time, did you mean \"time\"? (the columns \
+         are \"time\", \"acc\", \"pressure\")"
     );
     assert!(
-        refused_as(text, &named("time", "volume")).contains("\"volume\" for the acceleration, the")
+        refused_as(text, &named("time", "volume")).contains("\"volume\" for the acceleration (the")
     );
     assert!(
         refused("when,acc\n0,1\n").contains("no column looks like time, the columns are \"when\"")
@@ -115,9 +115,7 @@ fn time() {
     );
     // Milliseconds that nobody called so.
     let counted = "time,acc\n0,1\n20,2\n40,1\n";
-    assert!(
-        refused(counted).contains("column \"time\" names no unit; read as seconds it gives 0.05")
-    );
+    assert!(refused(counted).contains("column \"time\": counted in s it gives 0.05"));
     let reading = Reading {
         time_unit: Some(TimeUnit::Milliseconds),
         ..Reading::default()
