@@ -51,7 +51,7 @@ impl fmt::Display for Report {
 #[derive(Debug, thiserror::Error)]
 pub enum RecordingProblem {
     /// The system refuses.
-    #[error("cannot be read: {0} (check the path)")]
+    #[error("cannot be read: {0} (check the path and the file)")]
     Unreadable(#[source] io::Error),
     /// Not a file, and so not to be read twice.
     #[error("must be a file, got {0} (a stream of readings is for the monitor)")]

@@ -14,7 +14,10 @@
 //!   the rows is then to be trusted;
 //! - a last row that is cut short is left out with a warning. A number that lost its last digits and is
 //!   still a number cannot be told from a whole one;
-//! - everything else that is no finite number is refused with its line.
+//! - everything else that is no finite number is refused with its line;
+//! - only where [`Reading::resample`] asks for it are samples brought to a uniform grid: each is then the
+//!   mean over a block of 1/rate of the straight lines that join the readings, and where a gap reaches
+//!   into a block there is none.
 //!
 //! A [`LineReader`] reads what comes through a pipe, a line at a time.
 //!
