@@ -10,7 +10,7 @@ const FLOORS: [&[&str]; 9] = [
     &["tally", "ledger"],
     &["signal", "whiten", "detect"],
     &["chain", "monitor"],
-    &["config", "ensemble"],
+    &["config", "ensemble", "detection"],
     &["plan"],
     &["pilot", "run", "gate", "results"],
     &["exhibit", "claim"],

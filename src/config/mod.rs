@@ -17,12 +17,14 @@ mod story;
 mod tests;
 mod trace;
 mod value;
+mod watch;
 
 pub use axis::{Axis, AxisValue, Parameter};
 pub use claim::{Claim, ClaimProblem, Contrast, Contrasts, Narrative, Test};
 pub use error::{ConfigError, Problem};
 pub use exhibit::{ExhibitConfig, ExhibitKind, Experiment, Search};
 pub use trace::{Part, Trace};
+pub use watch::WatchConfig;
 
 use crate::tally;
 use error::Source;

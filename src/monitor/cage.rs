@@ -71,6 +71,10 @@ pub(super) struct Motion {
     calm: u64,
     /// Whether it has ever looked like rest for N blocks.
     looks_like_rest: bool,
+    /// The pulse that began it, once it has ended.
+    first: Option<Pulse>,
+    /// Whether its pulses are those of a sensor behind a high-pass filter.
+    decays: bool,
     leg: Leg,
 }
 
@@ -109,18 +113,24 @@ impl Cage {
 
     /// Of a motion under way, whether it has looked like rest.
     pub fn looks_like_rest(&self) -> Option<bool> {
+        self.motion().map(|motion| motion.looks_like_rest)
+    }
+
+    /// Whether the pulses of a motion under way are those of a sensor behind a high-pass filter.
+    pub fn decays(&self) -> bool {
+        self.motion().is_some_and(|motion| motion.decays)
+    }
+
+    fn motion(&self) -> Option<&Motion> {
         match self {
-            Self::Moving(motion) => Some(motion.looks_like_rest),
+            Self::Moving(motion) => Some(motion),
             Self::Unknown(_) | Self::Rest => None,
         }
     }
 
     /// A change to this state at `time`, said at `reported`.
     pub fn change(&self, time: f64, reported: f64, decision: Option<Decision>) -> Event {
-        let motion = match self {
-            Self::Moving(motion) => Some(motion),
-            Self::Unknown(_) | Self::Rest => None,
-        };
+        let motion = self.motion();
         let kind = Kind::Change {
             state: self.state(),
             direction: motion.map(|motion| Direction::of(motion.sign)),
@@ -227,6 +237,8 @@ impl Motion {
             start,
             calm: 0,
             looks_like_rest: false,
+            first: None,
+            decays: false,
             leg: Leg::Accelerating,
         }
     }
@@ -270,6 +282,7 @@ impl Motion {
         }
         self.speed = pulse.speed;
         self.top_speed = pulse.speed;
+        self.first = Some(pulse);
         self.on(Leg::Inertial, scene.ends(pulse.end))
     }
 
@@ -297,6 +310,9 @@ impl Motion {
         let Some(pulse) = scene.ended(-self.sign) else {
             return self.stay(scene);
         };
+        let at_once = scene.blocks(LONGEST_SHOCK);
+        let decays = |first: Pulse| first.decays_into(&pulse, at_once);
+        self.decays = self.first.is_some_and(decays);
         let left = self.speed - pulse.speed;
         match left > self.top_speed / 2.0 && !scene.is_violent(&pulse) {
             true => {

@@ -69,6 +69,11 @@ impl Scene<'_> {
         (pulse.end - pulse.onset) as f64 * self.design.block
     }
 
+    /// How many blocks there are in so many seconds.
+    pub fn blocks(&self, seconds: f64) -> u64 {
+        (seconds / self.design.block) as u64
+    }
+
     /// Whether there are N blocks after a pulse.
     pub fn is_after(&self, pulse: &Pulse) -> bool {
         self.now >= pulse.end + self.reference_length()

@@ -131,13 +131,40 @@ impl Default for Settings {
     }
 }
 
+impl SettingsError {
+    /// The setting to change.
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Rate(_) => "rate",
+            Self::NotPositive { name, .. } => name,
+            Self::Block(_) => "block",
+            Self::Accelerations { .. } => "most_acceleration",
+            Self::Order(_) => "order",
+            Self::Training { .. } => "training",
+            Self::Samples(SamplesError::Reference) | Self::Law(_) => "reference",
+            Self::Samples(SamplesError::Shift) => "shift",
+            Self::Samples(SamplesError::Scale) => "scale",
+            Self::Samples(SamplesError::Decimation) => "block",
+            Self::Region(_) => "alpha",
+        }
+    }
+}
+
 impl Settings {
+    /// Whether they can be used, whatever the rate.
+    ///
+    /// # Errors
+    /// As [`Settings::at`].
+    pub fn check(&self) -> Result<(), SettingsError> {
+        self.at(1.0 / self.block.clamp(1e-6, 1.0)).map(drop)
+    }
+
     /// The same at `rate` samples per second.
     ///
     /// # Errors
     /// Where a value is out of its range, or no region has the level asked for.
     pub fn at(&self, rate: f64) -> Result<Design, SettingsError> {
-        self.check(rate)?;
+        self.check_values(rate)?;
         let decimation = (self.block * rate).round().max(1.0) as usize;
         let samples = Samples::new(self.reference, self.shift, self.scale, self.gap, decimation)?;
         let laws = NullLaws::new(Alternative::TwoSided, &samples)?;
@@ -150,7 +177,7 @@ impl Settings {
         })
     }
 
-    fn check(&self, rate: f64) -> Result<(), SettingsError> {
+    fn check_values(&self, rate: f64) -> Result<(), SettingsError> {
         if !(1.0..=1e6).contains(&rate) {
             return Err(SettingsError::Rate(rate));
         }

@@ -207,3 +207,61 @@ pub(super) fn shortened(text: &[u8]) -> String {
     }
     short
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all(text: &str) -> Vec<String> {
+        let mut reader = LineReader::new(text.as_bytes());
+        let mut found = Vec::new();
+        loop {
+            found.push(match reader.next() {
+                Ok(None) => return found,
+                Ok(Some(LineReading {
+                    time: None,
+                    acceleration,
+                })) => acceleration.to_string(),
+                Ok(Some(LineReading {
+                    time: Some(time),
+                    acceleration,
+                })) => {
+                    format!("{time} {acceleration}")
+                }
+                Err(error) => error.to_string(),
+            });
+        }
+    }
+
+    #[test]
+    fn one_or_two_cells() {
+        assert_eq!(
+            all("9.5\n\n 9.25 \r\n# rest\n9.75"),
+            ["9.5", "9.25", "9.75"]
+        );
+        for separator in [",", ";", "\t", "  ", " , ", "\t\t"] {
+            let text = format!("\u{feff}t{separator}a\n0.5{separator}1\n1{separator}-2e-1\n");
+            assert_eq!(all(&text), ["0.5 1", "1 -0.2"], "{separator:?}");
+        }
+    }
+
+    #[test]
+    fn refusals_do_not_end_it() {
+        assert_eq!(
+            all("time,a\n1,2\nx,3\n4,nan\n5\n6,7,8\n9,\n10,11"),
+            [
+                "1 2",
+                "line 3: must be `acceleration` or `time,acceleration`, got \"x,3\"",
+                "line 4: numbers must be finite, got \"4,nan\" (leave the line out where nothing was read)",
+                "line 5: must have 2 numbers as the first reading had, got 1 number",
+                "line 6: must be `acceleration` or `time,acceleration`, got \"6,7,8\"",
+                "line 7: must be `acceleration` or `time,acceleration`, got \"9,\"",
+                "10 11",
+            ]
+        );
+        assert!(all("\u{1}a\n1\n")[0].starts_with("line 1: must be"));
+        let long = format!("1\n{}\n2", "9".repeat(LONGEST_LINE + 1));
+        assert!(all(&long)[1].starts_with("line 2: must be at most 1048576 bytes long"));
+        assert_eq!(all(&long)[2], "2");
+    }
+}
