@@ -9,6 +9,7 @@ mod figures;
 mod found;
 mod man;
 mod merge;
+mod monitor;
 mod plan;
 mod plot;
 mod progress;
@@ -61,6 +62,7 @@ enum Command {
     Replay(replay::ReplayCommand),
     Record(record::Record),
     Detect(Box<detect::Detect>),
+    Monitor(Box<monitor::MonitorCommand>),
     Completions(completions::Completions),
     Man(man::Man),
 }
@@ -108,6 +110,7 @@ impl Arguments {
             Command::Replay(verb) => verb.run(),
             Command::Record(verb) => verb.run(),
             Command::Detect(verb) => verb.run(self.quiet),
+            Command::Monitor(verb) => verb.run(self.quiet),
             Command::Completions(verb) => verb.run(),
             Command::Man(verb) => verb.run(),
         }

@@ -165,6 +165,11 @@ impl Monitor {
         self.reference.as_ref()
     }
 
+    /// What there is to say before the first sample, which is taken at `time`.
+    pub fn beginning(&self, time: f64) -> Event {
+        self.cage.change(time, time, None)
+    }
+
     /// What the cage does, as far as is known by now.
     pub fn state(&self) -> State {
         self.cage.state()
