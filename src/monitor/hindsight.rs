@@ -17,6 +17,9 @@ use crate::signal::recording::Sample;
 /// Seconds in a window.
 const WINDOW: f64 = 0.5;
 
+/// Blocks in a window, so that a filter of the highest order has something to work on.
+const LEAST_WINDOW: usize = 10;
+
 /// A window noisier than most by this factor is somebody handling the sensor.
 const NOISIEST: f64 = 4.0;
 
@@ -107,7 +110,7 @@ impl Windows {
         Self {
             blocks: Blocks::new(design.samples.decimation()),
             open: Window::default(),
-            length: (WINDOW / design.block).round().max(4.0) as usize,
+            length: ((WINDOW / design.block).round() as usize).max(LEAST_WINDOW),
             design: design.clone(),
             kept: Vec::new(),
             stride: 1,

@@ -26,14 +26,20 @@ pub struct Pulse {
 
 impl Pulse {
     /// Whether `next` looks like what a high-pass filter makes of the end of this pulse: it follows at once with
-    /// the opposite sign, and both die away instead of ending. The pulses of lifts have their centres
-    /// between 0.40 and 0.55; a decay that is seen until a tenth is left has 0.29.
+    /// the opposite sign and dies away instead of ending. So does a hop of a lift that never moves
+    /// uniformly, but for its shape: the pulses of real lifts have their centres between 0.40 and 0.55, and braking
+    /// takes no longer than starting. Behind a filter with a time constant from 0.5 to 4 s the second pulse has
+    /// its centre between 0.33 and 0.43 and is the longer one, or both have early centres.
     pub fn decays_into(&self, next: &Self, most_between: u64) -> bool {
-        let dies_away = |pulse: &Self| pulse.centre < LATEST_CENTRE;
-        next.sign != self.sign
-            && next.onset <= self.end + most_between
-            && dies_away(self)
-            && dies_away(next)
+        let follows = next.sign != self.sign && next.onset <= self.end + most_between;
+        let both_die_away = self.centre + next.centre < 2.0 * EARLY_CENTRE;
+        let is_longer = next.length() as f64 > LONGER * self.length() as f64;
+        follows && (both_die_away || is_longer && next.centre < LATEST_CENTRE)
+    }
+
+    /// Blocks from onset to end.
+    pub fn length(&self) -> u64 {
+        self.end - self.onset
     }
 
     /// Whether two pulses leave no more than a quarter of the larger one's change of speed.
@@ -43,8 +49,14 @@ impl Pulse {
     }
 }
 
-/// The latest centre of a pulse that dies away.
-const LATEST_CENTRE: f64 = 0.4;
+/// Where two pulses that both die away have their centres, on average, at the latest.
+const EARLY_CENTRE: f64 = 0.39;
+
+/// The latest centre of a pulse that dies away after one that does not.
+const LATEST_CENTRE: f64 = 0.43;
+
+/// How much longer than the first such a pulse must be.
+const LONGER: f64 = 1.25;
 
 /// Looks for pulses of one sign.
 #[derive(Clone, Debug)]

@@ -66,7 +66,7 @@ impl Scene<'_> {
 
     /// How long a pulse has lasted, s.
     pub fn lasts(&self, pulse: &Pulse) -> f64 {
-        (pulse.end - pulse.onset) as f64 * self.design.block
+        pulse.length() as f64 * self.design.block
     }
 
     /// How many blocks there are in so many seconds.
