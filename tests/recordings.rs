@@ -195,7 +195,12 @@ struct Choice {
 }
 
 fn choices() -> Vec<Choice> {
-    let around = |centre: f64, factors: &[f64]| factors.iter().map(|f| f * centre).collect();
+    let around = |centre: f64, factors: &[f64]| {
+        factors
+            .iter()
+            .map(|f| (f * centre * 1e6).round() / 1e6)
+            .collect()
+    };
     let wide = [0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 5.0, 10.0];
     let default = Settings::default();
     vec![
