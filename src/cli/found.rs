@@ -2,7 +2,7 @@
 
 use super::table;
 use liftsim::detection::{Detection, Ride};
-use liftsim::monitor::Decision;
+use liftsim::monitor::{Decision, Kind};
 use liftsim::signal::recording::Recording;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -122,8 +122,8 @@ impl Found<'_> {
         let mut text = String::new();
         if let Some(reference) = &knowledge.reference {
             text += &format!(
-                "rest: {:.4} m/s^2, deviation {:.4} m/s^2 in blocks of {:.0} ms after whitening with order {}",
-                reference.level,
+                "rest: {} m/s^2, deviation {:.4} m/s^2 in blocks of {:.0} ms after whitening with order {}",
+                without_sign_of_zero(format!("{:.4}", reference.level)),
                 reference.deviation,
                 1000.0 * design.block,
                 reference.coefficients.len(),
@@ -175,7 +175,26 @@ impl Found<'_> {
             "speed",
             "ended by",
         ];
-        table(&header, &rows) + "times in s of the recording's clock, speed in m/s\n"
+        table(&header, &rows)
+            + "times in s of the recording's clock, speed in m/s\n"
+            + &self.alarms()
+    }
+
+    fn alarms(&self) -> String {
+        let alarms = self
+            .detection
+            .events
+            .iter()
+            .filter_map(|event| match event.kind {
+                Kind::Alarm(alarm) => Some(format!(
+                    "\nALARM: {} at {:.2} s, known at {:.2} s\n",
+                    alarm.name(),
+                    event.time,
+                    event.reported
+                )),
+                Kind::Change { .. } => None,
+            });
+        alarms.collect()
     }
 
     fn decisions(&self) -> String {
@@ -328,5 +347,12 @@ fn at_rest_words(decisions: u64, alarms: u64) -> String {
             "at rest {alarms} of {decisions} were for motion ({:.2} %)",
             100.0 * alarms as f64 / decisions as f64
         ),
+    }
+}
+
+fn without_sign_of_zero(number: String) -> String {
+    match number.strip_prefix('-') {
+        Some(zero) if zero.chars().all(|c| matches!(c, '0' | '.')) => zero.to_owned(),
+        _ => number,
     }
 }

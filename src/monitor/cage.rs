@@ -6,13 +6,14 @@
 //! alike, so the state is remembered, and where it was never seen it is unknown.
 //!
 //! # Out of the unknown
-//! Vibration cannot be trusted to tell: people who get in shake a cage more than many a motion does. What tells
-//! is, in this order,
-//! - blocks like the reference of rest, where that is evidence: the motions of this cage
-//!   have been seen to look different, or the record is known to begin at rest;
-//! - a reversal. Of the speeds between pulses every other one is zero. Of three pulses in a row with signs
-//!   + − − the first two cancel out if and only if the cage stood after the second (else it
-//!   would stand with three different speeds), so it moves now; with − − + it stands now;
+//! Vibration cannot be trusted to tell: people who get in shake a cage more than many a motion does. What
+//! tells is, in this order:
+//!
+//! - blocks like the reference of rest, where that is evidence, because the motions of this cage have been
+//!   seen to look different, or the record is known to begin at rest;
+//! - a reversal. Of the speeds between pulses every other one is zero. Of three pulses with signs + − −,
+//!   the first two cancelling out, the cage stood after the second: else it would have stood with two
+//!   different speeds. So it moves now; and with − − + it stands now;
 //! - no pulse for as long as the longest motion takes.
 //!
 //! | state | leaves it when |
