@@ -46,6 +46,7 @@ mod reference;
 mod scene;
 mod settings;
 
+pub use blocks::STRONGEST;
 pub use briefing::{Briefing, BriefingError};
 pub use event::{Alarm, Decision, Direction, Event, Kind, State};
 pub use hindsight::NoRest;
