@@ -48,6 +48,7 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
+pub use blocks::STRONGEST;
 pub use briefing::{Briefing, BriefingError};
 pub use event::{Alarm, Decision, Direction, Event, Kind, State};
 pub use hindsight::NoRest;
