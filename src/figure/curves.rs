@@ -99,6 +99,7 @@ impl Curves {
         let manner = Manner {
             is_named: ruler.is_named(),
             is_logarithmic,
+            joins_bounds: true,
             nominal: nominal.map(|alpha| match is_logarithmic {
                 true => libm::log10(alpha),
                 false => alpha,

@@ -53,6 +53,8 @@ pub(super) struct Manner {
     /// The axis holds names, with curves side by side at each.
     pub is_named: bool,
     pub is_logarithmic: bool,
+    /// Lines lead through limits that stand for points.
+    pub joins_bounds: bool,
     /// The level that false-alarm rates are held against.
     pub nominal: Option<f64>,
 }
@@ -116,7 +118,7 @@ impl Panel {
             frame.draw_level(sheet, nominal, &[])?;
         }
         match manner.is_named {
-            false => self.draw_lines(sheet, frame)?,
+            false => self.draw_lines(sheet, frame, manner)?,
             true => self.draw_bars(sheet, frame, manner)?,
         }
         self.draw_markers(sheet, frame, manner)
@@ -126,8 +128,11 @@ impl Panel {
         &self,
         sheet: &Sheet<B>,
         frame: &Frame,
+        manner: Manner,
     ) -> Result<(), FigureError> {
         for Curve { points, look } in &self.curves {
+            let joined = |point: &&Point| manner.joins_bounds || point.bound.is_none();
+            let points: Vec<&Point> = points.iter().filter(joined).collect();
             let upper = points.iter().map(|p| frame.at(p.x, p.high));
             let lower = points.iter().rev().map(|p| frame.at(p.x, p.low));
             let band: Vec<_> = upper.chain(lower).map(|at| within(frame, at)).collect();

@@ -8,6 +8,8 @@
 mod keys;
 mod point;
 mod problem;
+#[cfg(test)]
+mod tests;
 
 pub use point::RidePoint;
 pub use problem::RideProblem;

@@ -14,7 +14,7 @@ pub(super) struct Truth {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Account {
     pub trips: Vec<Trip>,
-    /// Starts told while the cage stood.
+    /// Starts told while the cage stood, of a time when it stood.
     pub false_motions: u64,
     /// Jam alarms without a jam.
     pub false_alarms: u64,
@@ -55,16 +55,15 @@ impl Account {
             .filter(|event| event.kind == Kind::Alarm(Alarm::Jam))
             .collect();
         let said = Said::new(truth, events);
-        let is_near = |a: f64, b: f64| (a - b).abs() <= tolerance;
         let journeys = &truth.journeys;
         let belongs = |sighting: &&Sighting| {
-            let start = sighting.start.0;
+            let (start, told) = sighting.start;
             let mut near = journeys.iter();
-            near.any(|of| of.start - tolerance <= start && start <= of.stop + tolerance)
+            near.any(|of| of.start - tolerance <= told && start <= of.stop + tolerance)
         };
         let is_of_a_jam = |alarm: &&&Event| {
-            let mut jams = journeys.iter().filter_map(Journey::jam);
-            jams.any(|jam| is_near(alarm.time, jam))
+            let mut near = journeys.iter();
+            near.any(|journey| journey.is_told_by(alarm, tolerance))
         };
         let first = journeys.first();
         let second = journeys.get(1).map_or(truth.to, |second| second.start);
@@ -109,7 +108,8 @@ impl Trip {
         };
         let start = sightings.iter().find(starts);
         let alarm = |jam: f64| {
-            let alarm = alarms.iter().find(|alarm| is_near(alarm.time, jam));
+            let mut alarms = alarms.iter();
+            let alarm = alarms.find(|alarm| journey.is_told_by(alarm, tolerance));
             alarm.map_or(f64::INFINITY, |alarm| alarm.reported - jam)
         };
         Self {
@@ -118,6 +118,14 @@ impl Trip {
             stop_delay: sightings.iter().find_map(stop).unwrap_or(f64::INFINITY),
             alarm_delay: journey.jam().map(alarm),
         }
+    }
+}
+
+impl Journey {
+    /// Whether it jammed and an alarm is of that: told since, of the jam or of what came before.
+    fn is_told_by(&self, alarm: &Event, tolerance: f64) -> bool {
+        let told = |jam| jam <= alarm.reported && alarm.time <= self.stop + tolerance;
+        self.jam().is_some_and(told)
     }
 }
 

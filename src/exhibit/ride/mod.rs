@@ -10,10 +10,10 @@
 //! | `found` | trials | rides of which every trip is found: start and stop told within the tolerance of the truth, in the right direction |
 //! | `start_delay_05`, `_50`, `_95` | trips | quantiles of the time from a start to when it is told |
 //! | `stop_delay_…` | trips | the same for stops |
-//! | `false_motions` | hours | starts told while the cage stood, per hour for which the monitor said `rest` of a cage at rest |
+//! | `false_motions` | hours | starts told while the cage stood, of a time when it stood, per hour for which the monitor said `rest` of a cage at rest |
 //! | `hours_between` | hours | the mean time between them |
 //! | `disturbed` | trials | rests with a false motion |
-//! | `alarmed` | trials | jams that alarm within the tolerance of when they happened |
+//! | `alarmed` | trials | jams with an alarm that is told after them, of no later time than the stand |
 //! | `alarm_delay_…` | jams | the time from a jam to its alarm |
 //! | `false_alarms` | trials | jam alarms without a jam, per trial |
 //! | `misled` | trials | switched on in motion, the monitor said `rest` before the cage stood |
@@ -24,6 +24,8 @@
 mod account;
 mod estimate;
 mod row;
+#[cfg(test)]
+mod tests;
 mod watch;
 
 pub use row::Row;

@@ -10,10 +10,14 @@ use crate::results::Manifest;
 
 /// The axis in words.
 pub(super) fn axis_label(study: &RideStudy) -> String {
-    if study.measure == Measure::Tradeoff {
-        return "median delay from a start to H_1*, s".to_owned();
+    match study.measure {
+        Measure::Tradeoff => "median delay from a start to H_1*, s".to_owned(),
+        _ => key_in_words(study.axis),
     }
-    match study.axis {
+}
+
+fn key_in_words(key: &str) -> String {
+    match key {
         "delta_over_sigma" => "Δ/σ, acceleration of the drive in deviations of a sample",
         "sigma" => "σ, deviation of a sample, m/s²",
         "density" => "density of the noise, m/s²/√Hz",
@@ -42,9 +46,14 @@ pub(super) fn caption(study: &RideStudy, rows: &[Row], manifest: &Manifest) -> V
     let percent = 100.0 * rows[0].confidence;
     parts.push(format!("{} trials per point", thousands(rows[0].trials)));
     parts.push(format!("seed {}", manifest.seed));
+    if study.measure == Measure::Tradeoff {
+        let (first, last) = (rows[0].x, rows[rows.len() - 1].x);
+        let key = key_in_words(study.axis);
+        parts.push(format!("along each curve {key}, from {first} to {last}"));
+    }
     parts.push(match study.measure {
         Measure::Rides | Measure::Jam => {
-            format!("bands: exact {percent} % intervals above, 5 % to 95 % of delays below")
+            format!("bands: exact {percent} % intervals above, 5 % to 95 % of the delays below, where so many were told")
         }
         Measure::Rest | Measure::Tradeoff => {
             format!("bands: exact {percent} % intervals; arrows: limits where nothing happened")
