@@ -2,12 +2,12 @@
 
 use super::found::Found;
 use super::reading::ReadingArguments;
-use super::watch::{Told, Watch};
+use super::watch::{Told, Watch, check_strength};
 use super::{Failure, Outcome, print};
 use anyhow::{Context, anyhow};
 use clap::Args;
 use liftsim::detection::Detection;
-use liftsim::figure;
+use liftsim::figure::{self, FigureError};
 use liftsim::monitor::{Briefing, Design, Knowledge};
 use liftsim::signal::recording::Recording;
 use std::fs::OpenOptions;
@@ -65,6 +65,12 @@ impl Detect {
                 eprintln!("warning: {warning}");
             }
         };
+        let named = || self.recording.display().to_string();
+        let facts = recording.facts();
+        check_strength(facts.least)
+            .and(check_strength(facts.greatest))
+            .with_context(named)
+            .map_err(Failure::Input)?;
         for warning in recording.warnings() {
             warn(&warning.to_string());
         }
@@ -72,7 +78,8 @@ impl Detect {
             Some(briefing) => briefing,
             None => {
                 let rate = recording.rate();
-                let design = config.settings.at(rate).map_err(Failure::input)?;
+                let design = config.settings.at(rate).with_context(named);
+                let design = design.map_err(Failure::Input)?;
                 Briefing {
                     knowledge: learn(&design, &recording, &self.recording)?,
                     settings: config.settings,
@@ -92,15 +99,18 @@ impl Detect {
         for warning in found.warnings() {
             warn(&warning);
         }
+        let drawn = (self.figure.as_ref()).map(|_| figure::detection(&detection, &found.name()));
+        let drawn = drawn.transpose().map_err(|error| match error {
+            FigureError::Short => Failure::Input(anyhow!("{}: {error}", named())),
+            error => Failure::run(error),
+        })?;
         if let Some(path) = &self.save_state {
             write(path, briefing.to_json().as_bytes(), self.force)?;
         }
         if let Some(path) = &self.csv {
             write(path, &found.csv(), self.force)?;
         }
-        if let Some(path) = &self.figure {
-            let name = found.name();
-            let drawing = figure::detection(&detection, &name).map_err(Failure::run)?;
+        if let (Some(path), Some(drawing)) = (&self.figure, drawn) {
             let bytes = match is_svg(path) {
                 true => drawing.svg,
                 false => drawing.png,
