@@ -3,13 +3,13 @@
 use super::found::Found;
 use super::progress;
 use super::reading::ReadingArguments;
-use super::watch::{Told, Watch};
+use super::watch::{Told, Watch, check_strength};
 use super::{Failure, Outcome, print};
 use anyhow::{Context, anyhow};
 use clap::Args;
 use indicatif::ProgressBar;
 use liftsim::detection::Detection;
-use liftsim::figure;
+use liftsim::figure::{self, FigureError};
 use liftsim::monitor::{Briefing, Design, Knowledge};
 use liftsim::signal::recording::Recording;
 use std::fs::OpenOptions;
@@ -62,6 +62,12 @@ impl Detect {
         let Told { config, briefing } = self.watch.told()?;
         let reading = self.reading.over(config.reading)?;
         let recording = Recording::open(&self.recording, &reading).map_err(Failure::input)?;
+        let named = || self.recording.display().to_string();
+        let facts = recording.facts();
+        check_strength(facts.least)
+            .and(check_strength(facts.greatest))
+            .with_context(named)
+            .map_err(Failure::Input)?;
         for warning in recording.warnings() {
             eprintln!("warning: {warning}");
         }
@@ -71,7 +77,8 @@ impl Detect {
             Some(briefing) => briefing,
             None => {
                 let rate = recording.rate();
-                let design = config.settings.at(rate).map_err(Failure::input)?;
+                let design = config.settings.at(rate).with_context(named);
+                let design = design.map_err(Failure::Input)?;
                 Briefing {
                     knowledge: learn(&design, &recording, &self.recording, &bar)?,
                     settings: config.settings,
@@ -93,15 +100,18 @@ impl Detect {
         for warning in found.warnings() {
             eprintln!("warning: {warning}");
         }
+        let drawn = (self.figure.as_ref()).map(|_| figure::detection(&detection, &found.name()));
+        let drawn = drawn.transpose().map_err(|error| match error {
+            FigureError::Short => Failure::Input(anyhow!("{}: {error}", named())),
+            error => Failure::run(error),
+        })?;
         if let Some(path) = &self.save_state {
             write(path, briefing.to_json().as_bytes(), self.force)?;
         }
         if let Some(path) = &self.csv {
             write(path, &found.csv(), self.force)?;
         }
-        if let Some(path) = &self.figure {
-            let name = found.name();
-            let drawing = figure::detection(&detection, &name).map_err(Failure::run)?;
+        if let (Some(path), Some(drawing)) = (&self.figure, drawn) {
             let bytes = match is_svg(path) {
                 true => drawing.svg,
                 false => drawing.png,

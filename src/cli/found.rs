@@ -18,6 +18,11 @@ pub struct Found<'a> {
 /// Below this p-value a filter is said to leave colour.
 const COLOURED: f64 = 0.01;
 
+/// The CSV of no rides.
+const HEADER: &str = "ride,direction,start,inertial,braking,stop,speed,ended,start_reported,start_rank_sum,\
+    start_exceedances,start_lower,start_upper,stop_reported,stop_rank_sum,stop_exceedances,stop_lower,stop_upper,\
+    alpha\n";
+
 /// A row of the CSV.
 #[derive(Serialize)]
 struct Row {
@@ -122,8 +127,9 @@ impl Found<'_> {
         let mut text = String::new();
         if let Some(reference) = &knowledge.reference {
             text += &format!(
-                "rest: {} m/s^2, deviation {:.4} m/s^2 in blocks of {:.0} ms after whitening with order {}",
-                without_sign_of_zero(format!("{:.4}", reference.level)),
+                "rest: {:.4} m/s^2, deviation {:.4} m/s^2 in blocks of {:.0} ms after whitening with order {}",
+                // Of a rounded level that is nothing, the sign says nothing.
+                (1e4 * reference.level).round() / 1e4 + 0.0,
                 reference.deviation,
                 1000.0 * design.block,
                 reference.coefficients.len(),
@@ -301,7 +307,10 @@ impl Found<'_> {
                 alpha: self.detection.design.settings.alpha,
             }
         });
-        liftsim::results::csv_bytes(&rows.collect::<Vec<_>>())
+        match self.detection.rides.is_empty() {
+            true => HEADER.as_bytes().to_vec(),
+            false => liftsim::results::csv_bytes(&rows.collect::<Vec<_>>()),
+        }
     }
 }
 
@@ -347,12 +356,5 @@ fn at_rest_words(decisions: u64, alarms: u64) -> String {
             "at rest {alarms} of {decisions} were for motion ({:.2} %)",
             100.0 * alarms as f64 / decisions as f64
         ),
-    }
-}
-
-fn without_sign_of_zero(number: String) -> String {
-    match number.strip_prefix('-') {
-        Some(zero) if zero.chars().all(|c| matches!(c, '0' | '.')) => zero.to_owned(),
-        _ => number,
     }
 }

@@ -1,6 +1,6 @@
 //! `liftsim monitor`: watches a lift, sample by sample, from standard input.
 
-use super::watch::{Told, Watch};
+use super::watch::{Told, Watch, check_strength};
 use super::{Failure, Outcome};
 use anyhow::{Context, anyhow};
 use clap::{Args, ValueEnum};
@@ -54,6 +54,9 @@ enum Beginning {
 
 /// Readings from which a rate is measured.
 const MEASURED: usize = 100;
+
+/// s, in size: no clock is later, and a double still tells milliseconds apart.
+const LATEST: f64 = 1e12;
 
 /// A sample, and whether the drum turns.
 type Reading = (Sample, Option<bool>);
@@ -160,6 +163,11 @@ impl<R: io::BufRead> Readings<R> {
                 break;
             }
         }
+        if first.is_empty() {
+            return Err(Failure::Input(anyhow!(
+                "standard input: is empty (does the sensor send anything?)"
+            )));
+        }
         let mut intervals: Vec<f64> = (first.windows(2))
             .map(|pair| pair[1].0.time - pair[0].0.time)
             .collect();
@@ -169,7 +177,7 @@ impl<R: io::BufRead> Readings<R> {
             .map(|median| 1.0 / median);
         match (known, measured) {
             (None, None) => Err(Failure::Input(anyhow!(
-                "standard input: {} readings, and the rate is measured from at least two (give --rate)",
+                "standard input: the rate is measured from two readings or more, got {} (give --rate)",
                 first.len()
             ))),
             (Some(known), measured) => {
@@ -210,6 +218,8 @@ impl<R: io::BufRead> Readings<R> {
     #[inline]
     fn timed(&mut self, reading: &LineReading) -> Result<Sample, anyhow::Error> {
         let acceleration = reading.acceleration;
+        let line = self.lines.number();
+        check_strength(acceleration).with_context(|| format!("line {line}"))?;
         let Some(time) = reading.time else {
             let Some(interval) = self.interval else {
                 return Err(anyhow!("samples without times need a rate (give --rate)"));
@@ -220,10 +230,13 @@ impl<R: io::BufRead> Readings<R> {
                 acceleration,
             });
         };
-        let line = self.lines.number();
         match self.last {
+            _ if time.abs() > LATEST => Err(anyhow!(
+                "line {line}: times must lie within {LATEST:e} s, got {time:e} (are they counted in s?)"
+            )),
             Some(last) if time <= last => Err(anyhow!(
-                "line {line}: time must grow, got {time} after {last} (are lines out of order, or twice there?)"
+                "line {line}: time must increase, got {time} s after {last} s (are lines out of order or \
+                 repeated, or is a comma the decimal mark?)"
             )),
             _ => {
                 self.last = Some(time);

@@ -1,9 +1,10 @@
 //! What `detect` and `monitor` share: how the monitor is set up.
 
 use super::Failure;
+use anyhow::anyhow;
 use clap::Args;
 use liftsim::config::WatchConfig;
-use liftsim::monitor::{Briefing, MOST_ORDER, Settings};
+use liftsim::monitor::{Briefing, MOST_ORDER, STRONGEST, Settings};
 use std::path::PathBuf;
 
 /// How the monitor is set up. Flags go over the config, the config over the defaults.
@@ -36,6 +37,16 @@ pub struct Told {
     pub config: WatchConfig,
     /// From a saved state, which goes before the settings of the config.
     pub briefing: Option<Briefing>,
+}
+
+/// Refuses an acceleration that a monitor would take for a weaker one.
+pub fn check_strength(acceleration: f64) -> anyhow::Result<()> {
+    match acceleration.abs() > STRONGEST {
+        true => Err(anyhow!(
+            "accelerations must lie within {STRONGEST} m/s^2, got {acceleration} (are they in another unit?)"
+        )),
+        false => Ok(()),
+    }
 }
 
 impl Watch {

@@ -63,7 +63,7 @@ pub enum FigureError {
     )]
     Empty(&'static str),
     /// A recording of not even one block.
-    #[error("figure: the recording is too short to be drawn (record a ride)")]
+    #[error("figure: too short to be drawn, without a single block (record a ride)")]
     Short,
     /// No rows, or rows that do not belong to the config.
     #[error("figure: the rows are not those of a [{0}] (compute it again with `liftsim sweep`)")]

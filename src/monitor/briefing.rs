@@ -11,7 +11,7 @@ const LONGEST: u64 = 1 << 20;
 
 /// What a monitor is told and what it knows, at one sampling rate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a saved state")]
 pub struct Briefing {
     /// What it is told.
     pub settings: Settings,

@@ -74,7 +74,7 @@ pub struct Design {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SettingsError {
     /// The sampling rate is none.
-    #[error("rate must lie in [1, 1e6] Hz, got {0} (is time counted in s?)")]
+    #[error("rate must lie in [1, 1e6] Hz, got {0}")]
     Rate(f64),
     /// A quantity is not positive.
     #[error("{name} must be positive and finite, got {value}")]

@@ -6,6 +6,7 @@ mod exhibits;
 mod figures;
 mod gate;
 mod record;
+mod recordings;
 mod replay;
 mod results;
 mod shards;

@@ -90,8 +90,8 @@ pub enum RecordingProblem {
     /// Names and no numbers.
     #[error("has a header and no readings (was it exported whole?)")]
     HeaderOnly,
-    /// One reading makes no signal.
-    #[error("must have at least 2 readings of the acceleration, got {0}")]
+    /// One reading makes no signal, nor do several at one time.
+    #[error("must have at least 2 readings of the acceleration at different times, got {0}")]
     TooFew(u64),
     /// A dead sensor.
     #[error("every reading of the acceleration is {0} (is this the right column?)")]

@@ -82,12 +82,12 @@ pub enum LineError {
         got: usize,
     },
     /// The pipe broke.
-    #[error("line {line}: cannot be read: {source}")]
+    #[error("line {line}: cannot be read: {error}")]
     Io {
         /// From 1.
         line: u64,
         /// What the system said.
-        source: io::Error,
+        error: io::Error,
     },
 }
 
@@ -142,10 +142,10 @@ impl<R: BufRead> LineReader<R> {
                 Ok(Some(line)) => without_mark(line.bytes).trim_ascii(),
                 Ok(None) => return Ok(None),
                 Err(NoLine::TooLong) => return Err(LineError::TooLong { line: number }),
-                Err(NoLine::Io(source)) => {
+                Err(NoLine::Io(error)) => {
                     return Err(LineError::Io {
                         line: number,
-                        source,
+                        error,
                     });
                 }
             };

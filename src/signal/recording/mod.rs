@@ -276,7 +276,10 @@ fn check_resample(reading: &Reading, facts: &Facts) -> Result<(), RecordingProbl
     let latest = facts.start.abs().max(facts.end.abs());
     let limit = (10.0 * facts.rate).min(1.0 / (16.0 * f64::EPSILON * latest));
     match reading.resample {
-        Some(got) if !(got > 0.0 && got <= limit) => Err(RecordingProblem::Resample { got, limit }),
+        Some(got) if !(got > 0.0 && got <= limit) => Err(RecordingProblem::Resample {
+            got,
+            limit: (1e6 * limit).round() / 1e6,
+        }),
         _ => Ok(()),
     }
 }

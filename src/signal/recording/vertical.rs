@@ -64,10 +64,11 @@ impl fmt::Display for Vertical {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.direction {
             Direction::Along { axis, sign, .. } => {
-                let minus = if *sign < 0.0 { "-" } else { "" };
+                let is_down = *sign < 0.0;
                 match axis {
-                    Some(axis) => write!(f, "{minus}{axis}")?,
-                    None => write!(f, "{minus}1 times its column")?,
+                    Some(axis) => write!(f, "{}{axis}", if is_down { "-" } else { "" })?,
+                    None if is_down => f.write_str("as the column upside down")?,
+                    None => f.write_str("as the column")?,
                 }
             }
             Direction::Projected { up: [x, y, z], .. } => {

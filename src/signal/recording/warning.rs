@@ -74,6 +74,11 @@ pub enum Warning {
         /// Its name.
         column: String,
     },
+    /// The mean is far beyond gravity's.
+    PerhapsCounts {
+        /// As read.
+        mean: f64,
+    },
     /// The header names no unit, and the mean is 1.
     PerhapsGravity {
         /// As read.
@@ -91,6 +96,9 @@ const COARSE: f64 = 0.2;
 
 /// Degrees.
 const TILTED: f64 = 25.0;
+
+/// m/s², twice that of gravity: no recording of a lift has such a mean.
+const BEYOND_GRAVITY: f64 = 20.0;
 
 impl Warning {
     /// All that apply.
@@ -113,6 +121,7 @@ impl Warning {
         let found = [
             magnitude,
             may_be_g.then_some(Self::PerhapsGravity { mean: facts.mean }),
+            (facts.mean.abs() > BEYOND_GRAVITY).then_some(Self::PerhapsCounts { mean: facts.mean }),
             (vertical.reason == Reason::NearTie).then(|| Self::NearTie(vertical.clone())),
             tilt.filter(|angle| *angle > TILTED)
                 .map(|angle| Self::Tilted { angle }),
@@ -208,6 +217,10 @@ impl fmt::Display for Warning {
             Self::Magnitude { column } => write!(
                 f,
                 "column \"{column}\" is a magnitude: it cannot tell up from down (name an axis)"
+            ),
+            Self::PerhapsCounts { mean } => write!(
+                f,
+                "the mean is {mean:.1} m/s^2, that of gravity 9.8 (in which unit are the readings?)"
             ),
             Self::PerhapsGravity { mean } => write!(
                 f,

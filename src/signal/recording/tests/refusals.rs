@@ -9,7 +9,8 @@ fn no_table() {
     assert_eq!(refused("\n\n# nothing\n"), refused(""));
     assert!(refused("time,acc\n").contains("has a header and no readings"));
     assert!(
-        refused("time,acc\n0.1,1\n").contains("at least 2 readings of the acceleration, got 1")
+        refused("time,acc\n0.1,1\n")
+            .contains("at least 2 readings of the acceleration at different times, got 1")
     );
     assert!(refused("time,acc\n0.1,\n0.2,\n").contains("got 0"));
     assert!(
@@ -211,6 +212,11 @@ fn what_is_only_warned_of() {
     );
     let uneven = warnings(text(&|i| (even(i) + 0.002 * wave(97 * i), wave(i))));
     assert!(matches!(uneven[..], [Warning::Uneven { .. }]), "{uneven:?}");
+    let in_counts = warnings(text(&|i| (even(i), 512.0 + wave(i))));
+    assert!(
+        matches!(in_counts[..], [Warning::PerhapsCounts { .. }]),
+        "{in_counts:?}"
+    );
     let in_g = warnings(text(&|i| (even(i), 1.0 + 0.1 * wave(i))));
     assert!(
         matches!(in_g[..], [Warning::PerhapsGravity { .. }]),

@@ -1,0 +1,541 @@
+//! `liftsim detect` and `liftsim monitor`: the rides of a recording, the same from a pipe; and every bad input:
+//! exit 2, a message that says where, what was got and what to do, no panic, and nothing left behind.
+
+use super::{liftsim, outcome, project};
+use serde_json::Value;
+use std::fmt::Write as _;
+use std::fs;
+use std::io::{BufRead, BufReader, Write as _};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use tempfile::TempDir;
+
+type Said = (i32, String, String);
+
+fn detect(directory: &Path, arguments: &[&str]) -> Said {
+    let mut command = liftsim();
+    command.current_dir(directory).arg("detect").args(arguments);
+    outcome(&mut command)
+}
+
+fn monitor(directory: &Path, arguments: &[&str], input: impl Into<Vec<u8>>) -> Said {
+    let mut command = liftsim();
+    command
+        .current_dir(directory)
+        .arg("monitor")
+        .args(arguments)
+        .write_stdin(input);
+    outcome(&mut command)
+}
+
+/// What must go well, without a word of warning.
+fn well((code, out, err): Said) -> String {
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    out
+}
+
+/// A directory with a simulated ride, `ride.csv`.
+fn recorded(flags: &[&str]) -> TempDir {
+    let directory = tempfile::tempdir().unwrap();
+    let mut command = liftsim();
+    command.current_dir(&directory);
+    command.args(["record", "--out", "ride.csv"]).args(flags);
+    well(outcome(&mut command));
+    directory
+}
+
+fn found(directory: &Path, arguments: &[&str]) -> Value {
+    let out = well(detect(directory, &[&["--json"], arguments].concat()));
+    serde_json::from_str(&out).unwrap()
+}
+
+/// The times and the vertical acceleration of `ride.csv`, as they are written there.
+fn rows(directory: &Path) -> Vec<(String, String)> {
+    let text = fs::read_to_string(directory.join("ride.csv")).unwrap();
+    let row = |line: &str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        (cells[0].to_owned(), cells[3].to_owned())
+    };
+    text.lines().skip(1).map(row).collect()
+}
+
+/// The same as lines, their cells parted by `separator`.
+fn lines(directory: &Path, separator: &str) -> String {
+    let line = |(time, acceleration)| format!("{time}{separator}{acceleration}\n");
+    rows(directory).into_iter().map(line).collect()
+}
+
+fn objects(lines: &str) -> Vec<Value> {
+    let object = |line| serde_json::from_str(line).unwrap();
+    lines.lines().map(object).collect()
+}
+
+/// Both trips of the example, their times within 0.2 s of the truth.
+#[test]
+fn finds_the_rides_of_the_example() {
+    let directory = recorded(&[]);
+    let found = found(directory.path(), &["ride.csv"]);
+    let truth = fs::read_to_string(project().join("examples/ride.truth.csv")).unwrap();
+    let rides = found["rides"].as_array().unwrap();
+    assert_eq!(rides.len(), 2);
+    for (ride, truth) in rides.iter().zip(truth.lines().skip(1)) {
+        let cells: Vec<&str> = truth.split(',').collect();
+        for (name, true_time) in [("start", cells[0]), ("stop", cells[1])] {
+            let (time, true_time) = (ride[name].as_f64().unwrap(), true_time.parse::<f64>());
+            assert!((time - true_time.unwrap()).abs() < 0.2, "{ride} {truth}");
+        }
+        assert_eq!(ride["direction"], cells[2]);
+        assert_eq!(ride["end"], "stop");
+    }
+    let table = well(detect(directory.path(), &["ride.csv"]));
+    assert!(
+        table.contains("   1  up ") && table.contains("   2  down "),
+        "{table}"
+    );
+}
+
+#[test]
+fn writes_csv_and_pictures() {
+    let directory = recorded(&[]);
+    let path = |name| directory.path().join(name);
+    let outputs = ["--csv", "rides.csv", "--figure", "ride.png"];
+    well(detect(
+        directory.path(),
+        &[&["ride.csv"], &outputs[..]].concat(),
+    ));
+    well(detect(
+        directory.path(),
+        &["ride.csv", "--figure", "ride.svg"],
+    ));
+    assert!(fs::read(path("ride.png")).unwrap().starts_with(b"\x89PNG"));
+    assert!(
+        fs::read_to_string(path("ride.svg"))
+            .unwrap()
+            .contains("</svg>")
+    );
+    let rides = fs::read_to_string(path("rides.csv")).unwrap();
+    assert_eq!(rides.lines().count(), 3, "{rides}");
+    // What is there is not replaced unasked, and nothing else is then written.
+    for (flag, name) in [
+        ("--csv", "rides.csv"),
+        ("--figure", "ride.png"),
+        ("--save-state", "ride.csv"),
+    ] {
+        let before = fs::read(path(name)).unwrap();
+        let (code, out, err) = detect(directory.path(), &["ride.csv", flag, name]);
+        assert_eq!((code, out.as_str()), (2, ""));
+        let sentence = "is there already (give another name, or --force to replace it)";
+        assert_eq!(err, format!("error: {name}: {sentence}\n"));
+        assert_eq!(fs::read(path(name)).unwrap(), before);
+    }
+    well(detect(
+        directory.path(),
+        &[&["ride.csv", "--force"], &outputs[..]].concat(),
+    ));
+    // No rides are a table too.
+    let still = recorded(&["--still"]);
+    let along_z = ["ride.csv", "--axis", "z", "--csv", "rides.csv"];
+    well(detect(still.path(), &along_z));
+    let none = fs::read_to_string(still.path().join("rides.csv")).unwrap();
+    assert_eq!(Some(none.trim_end()), rides.lines().next());
+}
+
+/// The monitor says what the detection found, from the same knowledge and the same samples, however their
+/// cells are parted.
+#[test]
+fn the_monitor_says_the_same() {
+    let directory = recorded(&[]);
+    let path = directory.path();
+    let found_in = |name, more: &[&str]| found(path, &[&[name], more].concat());
+    let expected = found_in("ride.csv", &["--save-state", "lift.json"]);
+    let events = expected["events"].as_array().unwrap();
+    assert!(events.len() > 8);
+    for separator in [",", ";", "\t", " "] {
+        let input = lines(path, separator);
+        let said = well(monitor(path, &["--quiet", "--state", "lift.json"], input));
+        let said = objects(&said);
+        assert_eq!(said[0]["state"], "unknown");
+        assert_eq!(said[1..], events[..], "{separator:?}");
+    }
+    for separator in [",", ";", "\t"] {
+        let text = format!("time{separator}acceleration\n{}", lines(path, separator));
+        fs::write(path.join("plain.csv"), text).unwrap();
+        for state in [&[][..], &["--state", "lift.json"]] {
+            let found = found_in("plain.csv", state);
+            assert_eq!(found["events"], expected["events"], "{separator:?}");
+        }
+    }
+    // Of a saved state one is told what it assumes.
+    let (code, _, err) = monitor(path, &["--state", "lift.json"], lines(path, ","));
+    assert_eq!(code, 0);
+    assert!(
+        err.starts_with("note: the saved state says that the cage stands"),
+        "{err}"
+    );
+}
+
+#[test]
+fn a_jam_is_an_alarm() {
+    let directory = recorded(&["--trip", "up:6", "--trip", "down:20:jam"]);
+    let found = found(directory.path(), &["ride.csv", "--save-state", "lift.json"]);
+    assert_eq!(found["rides"][1]["end"], "jam", "{found}");
+    let arguments = ["--quiet", "--state", "lift.json"];
+    let said = well(monitor(
+        directory.path(),
+        &arguments,
+        lines(directory.path(), ","),
+    ));
+    let is_jam = |event: &&Value| event["alarm"] == "jam";
+    let alarms: Vec<Value> = objects(&said).iter().filter(is_jam).cloned().collect();
+    assert_eq!(alarms.len(), 1, "{said}");
+    assert!(found["events"].as_array().unwrap().contains(&alarms[0]));
+}
+
+/// The drum turns from 20 s on, and the cage stands.
+#[test]
+fn slack_is_an_alarm() {
+    let directory = recorded(&["--still", "--rest", "30"]);
+    let drum = |index| usize::from(index >= 2000);
+    let line = |(index, (_, acceleration))| format!("{acceleration},{}\n", drum(index));
+    let input: String = rows(directory.path())
+        .into_iter()
+        .enumerate()
+        .map(line)
+        .collect();
+    let arguments = ["--rate", "100", "--begins", "rest", "--expected-moving"];
+    let said = objects(&well(monitor(directory.path(), &arguments, input)));
+    let [beginning, rest, alarm] = &said[..] else {
+        panic!("{said:?}");
+    };
+    assert_eq!(
+        (&beginning["state"], &rest["state"]),
+        (&"unknown".into(), &"rest".into())
+    );
+    assert_eq!(alarm["alarm"], "slack");
+    assert!(
+        (alarm["time"].as_f64().unwrap() - 20.0).abs() < 0.2,
+        "{alarm}"
+    );
+}
+
+/// Where nobody listens any more, the monitor ends in peace.
+#[test]
+fn a_closed_pipe_ends_the_monitor() {
+    let directory = recorded(&[]);
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin("liftsim"))
+        .args(["monitor", "--rate", "100", "--begins", "rest"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut stdin = child.stdin.take().unwrap();
+    let input = lines(directory.path(), ",");
+    let (first, rest) = input.split_at(8000);
+    stdin.write_all(first.as_bytes()).unwrap();
+    let mut said = String::new();
+    let mut stdout = BufReader::new(child.stdout.take().unwrap());
+    stdout.read_line(&mut said).unwrap();
+    assert!(said.contains("unknown"), "{said}");
+    drop(stdout);
+    // It may have ended before it has read all.
+    let _ = stdin.write_all(rest.as_bytes());
+    drop(stdin);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), output.stderr.len()), (Some(0), 0));
+}
+
+/// Five million samples leave no trace in memory.
+#[cfg(target_os = "linux")]
+#[test]
+fn memory_stays_constant() {
+    let directory = recorded(&["--rest", "30"]);
+    let lines: String = (rows(directory.path()).into_iter())
+        .map(|(_, acceleration)| acceleration + "\n")
+        .collect();
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin("liftsim"))
+        .args(["monitor", "--rate", "100", "--begins", "rest"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    let mut stdin = child.stdin.take().unwrap();
+    for _ in 0..5_000_000 / lines.lines().count() {
+        stdin.write_all(lines.as_bytes()).unwrap();
+    }
+    let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kilobytes = peak.and_then(|peak| peak.trim().strip_suffix(" kB"));
+    let kilobytes: u64 = kilobytes.unwrap().trim().parse().unwrap();
+    println!("peak memory: {kilobytes} kB");
+    assert!(kilobytes < 20_000, "{kilobytes} kB");
+    drop(stdin);
+    assert!(child.wait().unwrap().success());
+}
+
+const NO_TABLE: &[u8] = b"PK\x05\x06\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0";
+
+/// What the message is about, the recording, and further arguments.
+const RECORDINGS: &[(&str, &[u8], &[&str])] = &[
+    ("an empty file", b"", &[]),
+    ("a header only", b"time,acc\n", &[]),
+    ("one sample", b"time,acc\n0.1,9.8\n", &[]),
+    ("all equal", b"0.01,9.81\n0.02,9.81\n0.03,9.81\n", &[]),
+    ("NaN", b"time,acc\n0,9.8\n0.01,NaN\n0.02,9.7\n", &[]),
+    ("blank cells", b"time,acc\n0,9.8\n0.01,\n0.02,\n", &[]),
+    (
+        "time going back",
+        b"time,acc\n0,9.8\n0.02,9.7\n0.01,9.8\n",
+        &[],
+    ),
+    (
+        "time that only repeats",
+        b"time,acc\n0,9.8\n0,9.7\n0,9.6\n",
+        &[],
+    ),
+    (
+        "mixed separators",
+        b"time,acc\n0,9.8\n0.02;9.7\n0.03,9.8\n",
+        &[],
+    ),
+    ("wrong columns", b"when,pressure\n0,9.8\n0.02,9.7\n", &[]),
+    (
+        "a misspelt column",
+        b"time,pressure\n0,9.8\n0.02,9.7\n",
+        &["--acceleration", "presure"],
+    ),
+    ("binary junk", b"\x7fELF\x02\x01\x01\0\0\0", &[]),
+    ("junk after a header", b"time,acc\n0,9.8\n\0\0\0\0\n", &[]),
+    ("a zip without a table", NO_TABLE, &[]),
+    ("a damaged zip", b"PK\x03\x04 and no more", &[]),
+    (
+        "a rest too short",
+        b"0.01,9.81\n0.02,9.82\n0.03,9.81\n",
+        &[],
+    ),
+    (
+        "milliseconds as seconds",
+        b"0,9.81\n10,9.82\n20,9.81\n30,9.82\n",
+        &[],
+    ),
+    (
+        "counts of a converter",
+        b"0.01,16384\n0.02,16380\n0.03,16390\n",
+        &[],
+    ),
+    (
+        "counts without a scale",
+        b"0.01,16384\n0.02,16380\n",
+        &["--unit", "counts"],
+    ),
+    (
+        "a slow grid",
+        b"0.01,9.81\n0.02,9.82\n0.03,9.81\n",
+        &["--resample", "0.5"],
+    ),
+    (
+        "a fine grid",
+        b"0.01,9.81\n0.02,9.82\n0.03,9.81\n",
+        &["--resample", "1e9"],
+    ),
+    (
+        "a wrong picture",
+        b"0.01,9.81\n0.02,9.82\n",
+        &["--figure", "ride.jpg"],
+    ),
+    ("a level of 0", b"0.01,9.81\n0.02,9.82\n", &["--alpha", "0"]),
+    (
+        "a block of NaN",
+        b"0.01,9.81\n0.02,9.82\n",
+        &["--block", "nan"],
+    ),
+    (
+        "a block of 1 s",
+        b"0.01,9.81\n0.02,9.82\n",
+        &["--block", "1"],
+    ),
+    (
+        "no such config",
+        b"0.01,9.81\n0.02,9.82\n",
+        &["--config", "nowhere.toml"],
+    ),
+    (
+        "no such state",
+        b"0.01,9.81\n0.02,9.82\n",
+        &["--state", "nowhere.json"],
+    ),
+    (
+        "no state",
+        b"0.01,9.81\n0.02,9.82\n",
+        &["--state", "ride.csv"],
+    ),
+    (
+        "a state and a level",
+        b"0.01,9.81\n0.02,9.82\n",
+        &["--state", "lift.json", "--alpha", "0.1"],
+    ),
+];
+
+/// Adds a refusal to what is read aloud, after its exit code and what it leaves behind are checked.
+fn note(messages: &mut String, about: &str, (code, out, err): Said) {
+    assert_eq!(code, 2, "{about}: {err}{out}");
+    assert!(
+        out.is_empty() || out.contains("\"unknown\""),
+        "{about}: {out}"
+    );
+    assert!(!err.contains("panicked"), "{about}: {err}");
+    writeln!(messages, "--- {about}\n{err}").unwrap();
+}
+
+#[test]
+fn bad_recordings() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    let mut messages = String::new();
+    for (about, bytes, arguments) in RECORDINGS {
+        fs::write(path.join("ride.csv"), bytes).unwrap();
+        let said = detect(path, &[&["ride.csv"], *arguments].concat());
+        note(&mut messages, about, said);
+        assert_eq!(fs::read_dir(path).unwrap().count(), 1, "{about}");
+    }
+    fs::create_dir(path.join("folder")).unwrap();
+    note(
+        &mut messages,
+        "a missing file",
+        detect(path, &["nowhere.csv"]),
+    );
+    note(&mut messages, "a directory", detect(path, &["folder"]));
+    note(&mut messages, "a device", detect(path, &["/dev/null"]));
+    fs::write(path.join("ride.zip"), "time,acc\n").unwrap();
+    note(&mut messages, "no zip", detect(path, &["ride.zip"]));
+    let wave = |i: i32| (0.7 * f64::from(i)).sin();
+    let row =
+        |acceleration: f64, i: i32| format!("{:.2},{acceleration:.4}\n", f64::from(i) / 100.0);
+    let shaking: String = (0..3000).map(|i| row(4.0 * wave(i * i), i)).collect();
+    fs::write(path.join("shaking.csv"), shaking).unwrap();
+    note(&mut messages, "no rest", detect(path, &["shaking.csv"]));
+    fs::write(path.join("long.csv"), vec![b'7'; 64 << 20]).unwrap();
+    note(&mut messages, "a long line", detect(path, &["long.csv"]));
+    insta::assert_snapshot!("recordings", messages);
+}
+
+/// What can be read, and should not be believed unseen.
+#[test]
+fn warnings() {
+    let directory = recorded(&[]);
+    let path = directory.path();
+    let text = fs::read_to_string(path.join("ride.csv")).unwrap();
+    fs::write(path.join("cut.csv"), &text[..text.len() - 60]).unwrap();
+    let (code, out, err) = detect(path, &["cut.csv"]);
+    assert_eq!(code, 0);
+    assert!(out.contains("   2  down"), "{out}");
+    assert!(
+        err.contains("the file ends within this row (it is left out)"),
+        "{err}"
+    );
+    let clipped = |(time, acceleration): (String, String)| {
+        let acceleration: f64 = acceleration.parse().unwrap();
+        format!("{time},{}\n", acceleration.clamp(-0.3, 0.3))
+    };
+    let clipped: String = rows(path).into_iter().map(clipped).collect();
+    fs::write(path.join("clipped.csv"), clipped).unwrap();
+    let (code, _, err) = detect(path, &["clipped.csv"]);
+    assert_eq!(code, 0);
+    assert!(err.contains("the sensor was at its limit in"), "{err}");
+    let raised = |(time, acceleration): (String, String)| {
+        let acceleration: f64 = acceleration.parse().unwrap();
+        format!("{time},{}\n", 2048.0 + acceleration)
+    };
+    let raised: String = rows(path).into_iter().map(raised).collect();
+    fs::write(path.join("counts.csv"), raised).unwrap();
+    let (code, _, err) = detect(path, &["counts.csv"]);
+    assert_eq!(code, 0);
+    assert!(err.contains("in which unit are the readings?"), "{err}");
+    let quiet = detect(path, &["counts.csv", "--quiet"]);
+    assert_eq!((quiet.0, quiet.2.as_str()), (0, ""));
+}
+
+/// What the message is about, what comes through the pipe, and further arguments.
+const PIPES: &[(&str, &str, &[&str])] = &[
+    ("nothing", "", &[]),
+    ("nothing at a rate", "", &["--rate", "100"]),
+    ("a header only", "time,acc\n", &[]),
+    ("one sample", "0.1,9.8\n", &[]),
+    ("no rate", "9.8\n9.7\n", &[]),
+    ("a bad number", "9.8\nnine\n", &["--rate", "100"]),
+    ("NaN", "9.8\nnan\n", &["--rate", "100"]),
+    ("a cell too many", "0,9.8\n0.01,9.8,3\n", &["--rate", "100"]),
+    (
+        "another number of cells",
+        "9.8\n0.01,9.8\n",
+        &["--rate", "100"],
+    ),
+    ("time going back", "0,9.8\n0.02,9.8\n0.01,9.8\n", &[]),
+    ("decimal commas", "9,81\n9,82\n", &[]),
+    ("milliseconds", "0,9.8\n10,9.8\n20,9.8\n", &[]),
+    ("a time beyond all", "0,9.8\n1e300,9.8\n", &[]),
+    (
+        "counts of a converter",
+        "16384\n16380\n",
+        &["--rate", "100"],
+    ),
+    (
+        "a drum that is not told",
+        "9.8,1\n9.8\n",
+        &["--rate", "100", "--expected-moving"],
+    ),
+    (
+        "half a drum",
+        "9.8,1\n9.8,0.5\n",
+        &["--rate", "100", "--expected-moving"],
+    ),
+    ("a rate of 0", "9.8\n", &["--rate", "0"]),
+    ("a rate of NaN", "9.8\n", &["--rate", "nan"]),
+    ("no such state", "9.8\n", &["--state", "nowhere.json"]),
+    ("a directory", "9.8\n", &["--state", "."]),
+    ("an empty state", "9.8\n", &["--state", "empty.json"]),
+    ("a hostile state", "9.8\n", &["--state", "hostile.json"]),
+    (
+        "a state and a level",
+        "9.8\n",
+        &["--state", "hostile.json", "--alpha", "0.1"],
+    ),
+];
+
+#[test]
+fn bad_pipes() {
+    let directory = recorded(&["--still"]);
+    let path = directory.path();
+    let along_z = ["ride.csv", "--axis", "z", "--save-state", "lift.json"];
+    well(detect(path, &along_z));
+    let state = fs::read_to_string(path.join("lift.json")).unwrap();
+    let hostile = state.replace("\"training\": 72,", "\"training\": 1000000000000,");
+    assert_ne!(hostile, state);
+    fs::write(path.join("hostile.json"), hostile).unwrap();
+    fs::write(path.join("empty.json"), "").unwrap();
+    let mut messages = String::new();
+    for (about, input, arguments) in PIPES {
+        note(&mut messages, about, monitor(path, arguments, *input));
+    }
+    let long = vec![b'7'; 64 << 20];
+    let said = monitor(path, &["--rate", "100"], long);
+    note(&mut messages, "a long line", said);
+    insta::assert_snapshot!("pipes", messages);
+}
+
+/// Lines that cannot be read are passed over where that is asked for, with a word on each.
+#[test]
+fn keeps_going() {
+    let directory = recorded(&[]);
+    let path = directory.path();
+    well(detect(path, &["ride.csv", "--save-state", "lift.json"]));
+    let good = lines(path, ",");
+    let bad = good.replacen('\n', "\nnine\n0.001,9.8,7\n0.001,nan\n0.001\n0.0,9.8\n", 1);
+    let arguments = ["--state", "lift.json", "--begins", "rest"];
+    let expected = well(monitor(path, &arguments, good));
+    let going = [&arguments[..], &["--keep-going"]].concat();
+    let (code, out, err) = monitor(path, &going, bad);
+    assert_eq!(code, 0, "{err}");
+    assert_eq!(out, expected);
+    insta::assert_snapshot!("passed_over", err);
+}
