@@ -36,7 +36,7 @@
 //! | 1 | [`tally`], [`poisson`], [`quantile`]: counts and what may be concluded from them · [`ledger`]: which trials have been counted |
 //! | 2 | [`signal`]: sensor, noise, impulses, motion, rides · [`whiten`]: filters · [`detect`]: W, T, their laws, regions |
 //! | 3 | [`chain`]: one trial, every stage · [`monitor`]: one lift, sample by sample |
-//! | 4 | [`config`]: what the author wrote · [`ensemble`]: blocks of trials in parallel |
+//! | 4 | [`config`]: what the author wrote · [`ensemble`]: blocks of trials in parallel · [`detection`]: what a monitor finds in a recording |
 //! | 5 | [`plan`]: what it comes to |
 //! | 6 | [`pilot`]: decisions that no law gives · [`run`]: counts · [`gate`]: the false-alarm test · [`results`]: files |
 //! | 7 | [`exhibit`]: experiments that are no sweep · [`claim`]: verdicts |
@@ -81,6 +81,7 @@ pub mod chi_squared;
 pub mod claim;
 pub mod config;
 pub mod detect;
+pub mod detection;
 pub mod ensemble;
 pub mod exhibit;
 pub mod figure;

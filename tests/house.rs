@@ -17,7 +17,7 @@ const FLOORS: [&[&str]; 9] = [
     &["tally", "poisson", "quantile", "ledger"],
     &["signal", "whiten", "detect"],
     &["chain", "monitor"],
-    &["config", "ensemble"],
+    &["config", "ensemble", "detection"],
     &["plan"],
     &["pilot", "run", "gate", "results"],
     &["exhibit", "claim"],

@@ -3,13 +3,17 @@
 
 mod check;
 mod completions;
+mod detect;
 mod exhibit;
 mod figures;
+mod found;
 mod man;
 mod merge;
+mod monitor;
 mod plan;
 mod plot;
 mod progress;
+mod reading;
 mod record;
 mod replay;
 mod signals;
@@ -17,6 +21,7 @@ mod status;
 mod store;
 mod sweep;
 mod threshold;
+mod watch;
 
 use anyhow::Context;
 use clap::{Args, Parser, Subcommand};
@@ -56,6 +61,8 @@ enum Command {
     Plan(plan::PlanCommand),
     Replay(replay::ReplayCommand),
     Record(record::Record),
+    Detect(Box<detect::Detect>),
+    Monitor(Box<monitor::MonitorCommand>),
     Completions(completions::Completions),
     Man(man::Man),
 }
@@ -102,6 +109,8 @@ impl Arguments {
             Command::Plan(verb) => verb.run(),
             Command::Replay(verb) => verb.run(),
             Command::Record(verb) => verb.run(),
+            Command::Detect(verb) => verb.run(self.quiet),
+            Command::Monitor(verb) => verb.run(),
             Command::Completions(verb) => verb.run(),
             Command::Man(verb) => verb.run(),
         }

@@ -5,11 +5,13 @@ use super::claim::ClaimProblem;
 use super::ride::RideProblem;
 use crate::chain::RecordTooLong;
 use crate::detect::{RegionError, SamplesError};
+use crate::monitor::SettingsError;
 use crate::signal::{
     DigitiserError, DisturbanceError, ImpulsesError, LawError, MotionError, SensorError,
 };
 use crate::tally::MOST_TRIALS;
 use crate::whiten::WhiteningError;
+use serde::de::DeserializeOwned;
 use std::fmt;
 use std::io;
 use std::ops::Range;
@@ -267,6 +269,9 @@ pub enum Problem {
     /// Samples that cannot be.
     #[error("samples: {0}")]
     Samples(#[from] SamplesError),
+    /// What a monitor cannot be told.
+    #[error(transparent)]
+    Watch(#[from] SettingsError),
     /// A region that cannot be designed.
     #[error("detector: {0}")]
     Region(#[from] RegionError),
@@ -401,6 +406,16 @@ impl Source {
             place: span.map(|span| self.place(span)),
             problem,
         }))
+    }
+
+    /// Reads the text as TOML.
+    pub fn read<T: DeserializeOwned>(&self) -> Result<T, ConfigError> {
+        let deserializer =
+            toml::Deserializer::parse(&self.text).map_err(|error| self.toml("", error))?;
+        serde_path_to_error::deserialize(deserializer).map_err(|error| {
+            let path = error.path().to_string();
+            self.toml(&path, error.into_inner())
+        })
     }
 
     /// What the TOML reader refused at `path`.

@@ -255,12 +255,7 @@ all_sections! { with_sections
 impl File {
     /// Reads the text.
     pub fn parse(source: &Source) -> Result<Self, ConfigError> {
-        let deserializer =
-            toml::Deserializer::parse(source.text()).map_err(|error| source.toml("", error))?;
-        serde_path_to_error::deserialize(deserializer).map_err(|error| {
-            let path = error.path().to_string();
-            source.toml(&path, error.into_inner())
-        })
+        source.read()
     }
 
     /// What the report is told.

@@ -18,6 +18,7 @@ mod story;
 mod tests;
 mod trace;
 mod value;
+mod watch;
 
 pub use axis::{Axis, AxisValue, Parameter};
 pub use claim::{Claim, ClaimProblem, Contrast, Contrasts, Narrative, Test};
@@ -25,6 +26,7 @@ pub use error::{ConfigError, Problem};
 pub use exhibit::{ExhibitConfig, ExhibitKind, Experiment, Search};
 pub use ride::{Measure, RideCurve, RidePoint, RideProblem, RideStudy};
 pub use trace::{Part, Trace};
+pub use watch::WatchConfig;
 
 use crate::tally;
 use error::Source;

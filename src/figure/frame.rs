@@ -268,6 +268,12 @@ impl Frame {
         )
     }
 
+    /// The same for a value that may lie outside: on the edge then.
+    pub fn at_within(&self, x: f64, y: f64) -> (f64, f64) {
+        let within = |scale: &Scale, value: f64| value.clamp(scale.from, scale.to);
+        self.at(within(&self.x, x), within(&self.y, y))
+    }
+
     /// Grid lines, drawn before the data.
     pub fn draw_grid<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
         for (y, _) in &self.y.ticks {

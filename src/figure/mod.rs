@@ -6,6 +6,7 @@
 
 mod autocorrelation;
 mod curves;
+mod detection;
 mod frame;
 mod impulse_law;
 mod independence;
@@ -26,6 +27,7 @@ mod words;
 
 use crate::config::{Config, ExhibitConfig};
 use crate::detect::{Alternative, NullLawError, NullLaws, Region, Rule, Samples};
+use crate::detection::Detection;
 use crate::exhibit::Rows;
 use crate::exhibit::region::boundary;
 use crate::results::{Manifest, Row};
@@ -60,6 +62,9 @@ pub enum FigureError {
         "figure: no point of the results lies on the axis {0} (draw it from a sweep's results)"
     )]
     Empty(&'static str),
+    /// A recording of not even one block.
+    #[error("figure: the recording is too short to be drawn (record a ride)")]
+    Short,
     /// No rows, or rows that do not belong to the config.
     #[error("figure: the rows are not those of a [{0}] (compute it again with `liftsim sweep`)")]
     NoRows(&'static str),
@@ -123,6 +128,16 @@ pub fn exhibit(
         ),
         _ => Err(FigureError::NoRows(config.kind.name())),
     }
+}
+
+/// Draws a recording, whose name is `name`, and what was found in it.
+///
+/// # Errors
+/// Where the recording has not even one block, or drawing fails.
+pub fn detection(detection: &Detection, name: &str) -> Result<Drawing, FigureError> {
+    let picture = detection::Found::new(detection, name)?;
+    let version = env!("CARGO_PKG_VERSION");
+    sheet::render(&picture, &format!("liftsim {version}, recording {name}"))
 }
 
 /// Draws the plane of W and T: the null probability of every cell, and the boundary of a region in it.

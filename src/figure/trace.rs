@@ -5,14 +5,14 @@ use super::FigureError;
 use super::frame::{CAPTION_LEFT, Frame, SMALL, Scale, WIDTH};
 use super::legend::{Entry, Key, Legend};
 use super::look::Look;
-use super::phases::{draw_limit, phase_colour, phase_words};
+use super::phases::{draw_dense, draw_limit, phase_colour, phase_words};
 use super::sheet::{Picture, Sheet};
 use super::text::{Align, Style, literal, text_width};
 use super::words::wrap;
 use crate::config::{ExhibitConfig, Trace};
 use crate::exhibit::trace::Row;
 use crate::results::Manifest;
-use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor};
+use plotters::prelude::{BLACK, Color, DrawingBackend};
 
 const SINGLE: f64 = 190.0;
 const PANEL: f64 = 128.0;
@@ -22,8 +22,6 @@ const NAMES: f64 = 16.0;
 const BRACKETS: f64 = 18.0;
 /// Fewer samples than this get a marker each.
 const FEW: usize = 250;
-/// Width of a column of a dense line, in points.
-const COLUMN: f64 = 0.4;
 
 /// The picture of a ride.
 pub(super) struct Ride<'a> {
@@ -222,30 +220,6 @@ impl Picture for Ride<'_> {
         self.draw_legend(sheet)?;
         self.frames[self.frames.len() - 1].draw_caption(sheet, &self.caption)
     }
-}
-
-/// A line so dense that its turns cannot be told apart: an upright bar over the extremes of each column,
-/// its neighbour's end included, because the turns of a thick line would reach beyond its points.
-fn draw_dense<B: DrawingBackend>(
-    sheet: &Sheet<B>,
-    line: &[(f64, f64)],
-    colour: RGBColor,
-) -> Result<(), FigureError> {
-    let column = |place: &(f64, f64)| (place.0 / COLUMN).floor();
-    let mut before: Option<f64> = None;
-    for places in line.chunk_by(|a, b| column(a) == column(b)) {
-        let ys = || places.iter().map(|place| place.1).chain(before);
-        let top = ys().fold(f64::INFINITY, f64::min);
-        let bottom = ys().fold(f64::NEG_INFINITY, f64::max);
-        let x = (column(&places[0]) + 0.5) * COLUMN;
-        sheet.line(
-            &[(x, top - 0.2), (x, bottom + 0.2)],
-            COLUMN,
-            colour.to_rgba(),
-        )?;
-        before = places.last().map(|place| place.1);
-    }
-    Ok(())
 }
 
 /// A scale that holds every value and zero, with a share `above` of their range left free on top.

@@ -7,8 +7,9 @@ use crate::signal::recording::Sample;
 /// order of their samples: a sum of rounded numbers would break the ties of a coarse sensor by rounding.
 const UNIT: f64 = 1e-9;
 
-/// No sensor reaches it, and a block of it fits into the sum.
-const MOST: f64 = 1e4;
+/// m/s², in size: no sensor reaches it, a stronger sample counts as this strong, and a block of them fits into
+/// the sum.
+pub const STRONGEST: f64 = 1e4;
 
 /// The block under way.
 #[derive(Clone, Debug)]
@@ -35,7 +36,7 @@ impl Blocks {
         if self.held == 0 {
             self.from = sample.time;
         }
-        let units = sample.acceleration.clamp(-MOST, MOST) / UNIT;
+        let units = sample.acceleration.clamp(-STRONGEST, STRONGEST) / UNIT;
         self.sum += units.round() as i64;
         self.held += 1;
         if self.held < self.length {

@@ -1,8 +1,11 @@
-//! What a monitor says.
+//! What a monitor says, and how it is written: one JSON object each.
+//!
+//! `{"time":8.93,"reported":9.99,"state":"accelerating","direction":"up","speed":0.56,"decision":{…}}` or
+//! `{"time":12.1,"reported":13.3,"alarm":"jam"}`. Times are in s, speeds in m/s. What is not known is left out.
 
 use crate::detect::Statistics;
 use crate::signal::Phase;
-use serde::{Deserialize, Serialize};
+use serde::ser::{Serialize, SerializeStruct, Serializer};
 
 /// What the cage does, as far as is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,8 +17,7 @@ pub enum State {
 }
 
 /// Where a motion goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// Against gravity.
     Up,
@@ -36,14 +38,14 @@ pub struct Decision {
     pub samples: [(f64, f64); 3],
 }
 
-/// What has happened.
+/// Something that has happened.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event {
     /// When it happened, s.
     pub time: f64,
     /// When it was said, s.
     pub reported: f64,
-    /// What.
+    /// What it is.
     pub kind: Kind,
 }
 
@@ -115,4 +117,52 @@ impl Alarm {
             Self::Slack => "slack",
         }
     }
+}
+
+impl Serialize for Event {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut object = serializer.serialize_struct("Event", 6)?;
+        object.serialize_field("time", &rounded(self.time))?;
+        object.serialize_field("reported", &rounded(self.reported))?;
+        match &self.kind {
+            Kind::Alarm(alarm) => object.serialize_field("alarm", alarm.name())?,
+            Kind::Change {
+                state,
+                direction,
+                speed,
+                decision,
+            } => {
+                object.serialize_field("state", state.name())?;
+                if let Some(direction) = direction {
+                    object.serialize_field("direction", direction.name())?;
+                }
+                if let Some(speed) = speed {
+                    object.serialize_field("speed", &rounded(*speed))?;
+                }
+                if let Some(decision) = decision {
+                    object.serialize_field("decision", decision)?;
+                }
+            }
+        }
+        object.end()
+    }
+}
+
+impl Serialize for Decision {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut object = serializer.serialize_struct("Decision", 7)?;
+        object.serialize_field("rank_sum", &self.statistics.rank_sum)?;
+        object.serialize_field("exceedances", &self.statistics.exceedances)?;
+        object.serialize_field("threshold", &self.threshold)?;
+        object.serialize_field("alpha", &self.alpha)?;
+        for (name, (from, to)) in ["reference", "shift", "scale"].iter().zip(self.samples) {
+            object.serialize_field(name, &[rounded(from), rounded(to)])?;
+        }
+        object.end()
+    }
+}
+
+/// To a tenth of a millisecond, or of a millimetre per second: more than a block can tell.
+fn rounded(value: f64) -> f64 {
+    (value * 1e4).round() / 1e4
 }

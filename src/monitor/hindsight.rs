@@ -9,13 +9,16 @@ use super::blocks::Blocks;
 use super::event::{Event, Kind, State};
 use super::pulse::is_level;
 use super::reference::Reference;
-use super::settings::{Design, LEAST_TRAINING};
+use super::settings::{Design, LEAST_TRAINING, MOST_ORDER};
 use super::{Knowledge, Monitor};
 use crate::signal::Phase;
 use crate::signal::recording::Sample;
 
 /// Seconds in a window.
 const WINDOW: f64 = 0.5;
+
+/// Blocks in it at least: more than the longest filter looks back.
+const SHORTEST_WINDOW: usize = MOST_ORDER + 2;
 
 /// A window noisier than most by this factor is somebody handling the sensor.
 const NOISIEST: f64 = 4.0;
@@ -107,7 +110,7 @@ impl Windows {
         Self {
             blocks: Blocks::new(design.samples.decimation()),
             open: Window::default(),
-            length: (WINDOW / design.block).round().max(4.0) as usize,
+            length: SHORTEST_WINDOW.max((WINDOW / design.block).round() as usize),
             design: design.clone(),
             kept: Vec::new(),
             stride: 1,
@@ -158,16 +161,6 @@ impl Windows {
     fn reference(&self, are: impl Fn(&Window) -> bool) -> Result<Reference, NoRest> {
         let chosen: Vec<&Window> = self.level().into_iter().filter(|w| are(w)).collect();
         let blocks = chosen.len() * self.length;
-        let needed = self.design.samples.reference().max(LEAST_TRAINING);
-        let seconds = |blocks: usize| blocks as f64 * self.design.block;
-        if blocks < needed {
-            return Err(NoRest {
-                length: seconds(self.seen * self.length),
-                level: seconds(blocks),
-                needed: seconds(needed),
-            });
-        }
-        let span = (chosen[0].from, chosen[chosen.len() - 1].to);
         let follows = |a: &&Window, b: &&Window| b.from - a.to < 2.0 * self.design.block;
         let stretches: Vec<Vec<f64>> = (chosen.chunk_by(follows))
             .map(|stretch| {
@@ -177,6 +170,18 @@ impl Windows {
                     .collect()
             })
             .collect();
+        // The first blocks of a stretch are not whitened, and no block stands in X twice.
+        let needed = self.design.samples.reference() + MOST_ORDER * stretches.len();
+        let needed = needed.max(LEAST_TRAINING);
+        let seconds = |blocks: usize| blocks as f64 * self.design.block;
+        if blocks < needed {
+            return Err(NoRest {
+                length: seconds(self.seen * self.length),
+                level: seconds(blocks),
+                needed: seconds(needed),
+            });
+        }
+        let span = (chosen[0].from, chosen[chosen.len() - 1].to);
         Ok(Reference::from_stretches(&stretches, span, &self.design))
     }
 
@@ -261,5 +266,45 @@ impl Motions {
 
     fn touch(&self, from: f64, to: f64) -> bool {
         self.0.iter().any(|motion| motion.0 < to && from < motion.1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::monitor::Settings;
+
+    /// What two minutes at 10 Hz teach, where a block is a sample: rest, but for where somebody shakes the sensor.
+    fn learnt(order: Option<usize>, shakes: impl Fn(u32) -> bool) -> Result<Knowledge, NoRest> {
+        let settings = Settings {
+            order,
+            ..Settings::default()
+        };
+        let design = settings.at(10.0).unwrap();
+        let sample = |i: u32| {
+            let noise = f64::from(i.wrapping_mul(2_654_435_769) >> 16) / 1e7;
+            let shaking = [5.0, -5.0][i as usize % 2];
+            Ok::<_, ()>(Sample {
+                time: f64::from(i) / 10.0,
+                acceleration: if shakes(i) { shaking } else { noise },
+            })
+        };
+        Knowledge::from_record(&design, || Ok((0..1200).map(sample))).unwrap()
+    }
+
+    /// What no filter of order 8 has blocks enough for is nothing to learn from, and no block stands in X twice.
+    #[test]
+    fn short_stretches() {
+        for order in [None, Some(0), Some(8)] {
+            assert!(learnt(order, |i| i % 10 >= 5).is_err(), "{order:?}");
+            let knowledge = learnt(order, |i| i % 20 >= 10).unwrap();
+            let mut sample = knowledge.reference.unwrap().sample;
+            sample.sort_by(f64::total_cmp);
+            sample.dedup();
+            assert_eq!(sample.len(), 24, "{order:?}");
+            let few = learnt(order, |i| i >= 100 || i % 20 >= 10);
+            let NoRest { level, needed, .. } = few.unwrap_err();
+            assert_eq!((level, needed), (5.0, 6.4), "{order:?}");
+        }
     }
 }

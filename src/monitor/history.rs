@@ -93,6 +93,11 @@ impl History {
         Some(&self.whitened[self.place(blocks)?])
     }
 
+    /// The last block, whitened.
+    pub fn newest(&self) -> f64 {
+        self.whitened.last().copied().unwrap_or(0.0)
+    }
+
     /// When the first sample of a block was taken; that of the oldest held, where it is gone.
     pub fn starts(&self, block: u64) -> f64 {
         self.times[block.saturating_sub(self.first) as usize].from

@@ -35,6 +35,7 @@
 //! [^1]: see [`crate::signal`].
 
 mod blocks;
+mod briefing;
 mod cage;
 mod event;
 mod hindsight;
@@ -44,7 +45,11 @@ mod pulse;
 mod reference;
 mod scene;
 mod settings;
+#[cfg(test)]
+mod tests;
 
+pub use blocks::STRONGEST;
+pub use briefing::{Briefing, BriefingError};
 pub use event::{Alarm, Decision, Direction, Event, Kind, State};
 pub use hindsight::NoRest;
 pub use reference::Reference;
@@ -71,6 +76,19 @@ pub struct Knowledge {
     pub motion_shows: bool,
 }
 
+/// A block, and what was made of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Observation {
+    /// When its first and its last sample were taken, s.
+    pub times: (f64, f64),
+    /// m/s², as measured.
+    pub mean: f64,
+    /// m/s², centred and whitened.
+    pub whitened: f64,
+    /// Whether the decision forwards is H₁*, once there are enough blocks for one.
+    pub moves: Option<bool>,
+}
+
 /// Watches one cage.
 #[derive(Clone, Debug)]
 pub struct Monitor {
@@ -92,6 +110,10 @@ pub struct Monitor {
     learns_from: u64,
     /// When the last sample was taken, s.
     last: f64,
+    /// Whether a motion has shown the marks of a high-pass filter.
+    is_high_passed: bool,
+    /// What the newest block came to, if a sample has just completed one.
+    newest: Option<Observation>,
     /// Blocks for which the cage has stood while the drum turned.
     slack: u64,
     events: Vec<Event>,
@@ -128,6 +150,8 @@ impl Monitor {
             cage: Cage::unknown(0),
             learns_from: 0,
             last: f64::INFINITY,
+            is_high_passed: false,
+            newest: None,
             slack: 0,
             events: Vec::new(),
             design,
@@ -144,15 +168,32 @@ impl Monitor {
         self.reference.as_ref()
     }
 
+    /// What there is to say before the first sample, which is taken at `time`.
+    pub fn beginning(&self, time: f64) -> Event {
+        self.cage.change(time, time, None)
+    }
+
     /// What the cage does, as far as is known by now.
     pub fn state(&self) -> State {
         self.cage.state()
+    }
+
+    /// Whether a motion has shown the marks of a sensor behind a high-pass filter: pulses that die away and
+    /// swing over.
+    pub fn is_high_passed(&self) -> bool {
+        self.is_high_passed
+    }
+
+    /// The block that the last sample completed, where it completed one.
+    pub fn newest(&self) -> Option<&Observation> {
+        self.newest.as_ref()
     }
 
     /// Takes the next sample, and whether the drum is known to turn; says what has happened.
     #[inline]
     pub fn step(&mut self, sample: Sample, drum_turns: Option<bool>) -> &[Event] {
         self.events.clear();
+        self.newest = None;
         if sample.time - self.last > LONGEST_GAP.0.max(LONGEST_GAP.1 * self.design.block) {
             self.lose_track(sample.time);
         }
@@ -191,6 +232,12 @@ impl Monitor {
             let verdict = places.as_ref().and_then(|places| {
                 (self.judge).verdict(&self.design, reference, &self.history, places)
             });
+            self.newest = Some(Observation {
+                times: (times.from, times.to),
+                mean,
+                whitened: self.history.newest(),
+                moves: verdict.map(|verdict| verdict.moves),
+            });
             if let (Some(places), Some(verdict)) = (places, verdict) {
                 let mut scene = Scene {
                     design: &self.design,
@@ -218,6 +265,7 @@ impl Monitor {
         if self.cage.state() != was.state() {
             self.learns_from = now;
         }
+        self.is_high_passed |= self.cage.decays();
         if self.cage == Cage::Rest {
             self.begins_at_rest = false;
             if let Some(looks_like_rest) = was.looks_like_rest() {

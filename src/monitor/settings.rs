@@ -46,8 +46,14 @@ pub struct Settings {
 /// The highest order that BIC may choose.
 pub const MOST_ORDER: usize = 8;
 
-/// Blocks that the choice of an order needs.
-pub(super) const LEAST_TRAINING: usize = 5 * MOST_ORDER;
+/// Blocks that a filter needs: the choice of its order is then among few.
+pub(super) const LEAST_TRAINING: usize = 24;
+
+/// Blocks in a sample, or between two: the exact laws take seconds there, and hours at ten times as many.
+const MOST_BLOCKS: usize = 200;
+
+/// Blocks that a filter may be fitted to: more than an hour, in a few megabytes.
+const MOST_TRAINING: usize = 100_000;
 
 /// Settings at one sampling rate.
 #[derive(Clone, Debug)]
@@ -68,7 +74,7 @@ pub struct Design {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SettingsError {
     /// The sampling rate is none.
-    #[error("rate must lie in [1, 1e6] Hz, got {0}")]
+    #[error("rate must lie in [1, 1e6] Hz, got {0} (is time counted in s?)")]
     Rate(f64),
     /// A quantity is not positive.
     #[error("{name} must be positive and finite, got {value}")]
@@ -78,9 +84,19 @@ pub enum SettingsError {
         /// As given.
         value: f64,
     },
-    /// A block takes longer than a start.
-    #[error("block must be at most 0.5 s, got {0} s (a lift gains speed in about a second)")]
+    /// A block takes longer than a start, or no time at all.
+    #[error("block must lie in [0.001, 0.5] s, got {0} s (a lift gains speed in about a second)")]
     Block(f64),
+    /// More blocks than a monitor has the time and the memory for.
+    #[error("{name} must be at most {most} blocks, got {got}")]
+    TooMany {
+        /// Which.
+        name: &'static str,
+        /// As many as are allowed.
+        most: usize,
+        /// As given.
+        got: usize,
+    },
     /// No acceleration is between the weakest and the strongest.
     #[error("most_acceleration must exceed least_acceleration = {least}, got {most}")]
     Accelerations {
@@ -131,13 +147,40 @@ impl Default for Settings {
     }
 }
 
+impl SettingsError {
+    /// The setting to change.
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Rate(_) => "rate",
+            Self::NotPositive { name, .. } | Self::TooMany { name, .. } => name,
+            Self::Block(_) => "block",
+            Self::Accelerations { .. } => "most_acceleration",
+            Self::Order(_) => "order",
+            Self::Training { .. } => "training",
+            Self::Samples(SamplesError::Reference) | Self::Law(_) => "reference",
+            Self::Samples(SamplesError::Shift) => "shift",
+            Self::Samples(SamplesError::Scale) => "scale",
+            Self::Samples(SamplesError::Decimation) => "block",
+            Self::Region(_) => "alpha",
+        }
+    }
+}
+
 impl Settings {
+    /// Whether they can be used, whatever the rate.
+    ///
+    /// # Errors
+    /// As [`Settings::at`].
+    pub fn check(&self) -> Result<(), SettingsError> {
+        self.at(1.0 / self.block.clamp(1e-6, 1.0)).map(drop)
+    }
+
     /// The same at `rate` samples per second.
     ///
     /// # Errors
     /// Where a value is out of its range, or no region has the level asked for.
     pub fn at(&self, rate: f64) -> Result<Design, SettingsError> {
-        self.check(rate)?;
+        self.check_values(rate)?;
         let decimation = (self.block * rate).round().max(1.0) as usize;
         let samples = Samples::new(self.reference, self.shift, self.scale, self.gap, decimation)?;
         let laws = NullLaws::new(Alternative::TwoSided, &samples)?;
@@ -150,10 +193,7 @@ impl Settings {
         })
     }
 
-    fn check(&self, rate: f64) -> Result<(), SettingsError> {
-        if !(1.0..=1e6).contains(&rate) {
-            return Err(SettingsError::Rate(rate));
-        }
+    fn check_values(&self, rate: f64) -> Result<(), SettingsError> {
         for (name, value) in [
             ("block", self.block),
             ("least_speed", self.least_speed),
@@ -166,8 +206,22 @@ impl Settings {
                 return Err(SettingsError::NotPositive { name, value });
             }
         }
-        if self.block > 0.5 {
+        if !(0.001..=0.5).contains(&self.block) {
             return Err(SettingsError::Block(self.block));
+        }
+        if !(1.0..=1e6).contains(&rate) {
+            return Err(SettingsError::Rate(rate));
+        }
+        for (name, most, got) in [
+            ("reference", MOST_BLOCKS, self.reference),
+            ("shift", MOST_BLOCKS, self.shift),
+            ("scale", MOST_BLOCKS, self.scale),
+            ("gap", MOST_BLOCKS, self.gap),
+            ("training", MOST_TRAINING, self.training),
+        ] {
+            if got > most {
+                return Err(SettingsError::TooMany { name, most, got });
+            }
         }
         let (least, most) = (self.least_acceleration, self.most_acceleration);
         if most <= least {

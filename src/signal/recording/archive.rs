@@ -61,9 +61,17 @@ fn member(source: &Source, reading: &Reading) -> Result<Source, RecordingError> 
             )),
         };
     }
+    let candidates: Vec<&Found> = members
+        .iter()
+        .filter(|found| found.may_be_table())
+        .collect();
+    if let [only] = candidates[..] {
+        // What is wrong with it is said of it.
+        return only.open(source);
+    }
     let mut tables = Vec::new();
-    for found in members.iter().filter(|found| found.may_be_table()) {
-        let table = found.open(source)?;
+    for candidate in candidates {
+        let table = candidate.open(source)?;
         if let Ok(layout) = Layout::find(&table, reading) {
             tables.push((layout.includes_gravity(table.name()), table));
         }

@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use super::lines::LONGEST_LINE;
+use super::reading::TimeUnit;
 use std::fmt;
 use std::io;
 
@@ -50,7 +51,7 @@ impl fmt::Display for Report {
 #[derive(Debug, thiserror::Error)]
 pub enum RecordingProblem {
     /// The system refuses.
-    #[error("cannot be read: {0} (check the path)")]
+    #[error("cannot be read: {0} (check the path and the file)")]
     Unreadable(#[source] io::Error),
     /// Not a file, and so not to be read twice.
     #[error("must be a file, got {0} (a stream of readings is for the monitor)")]
@@ -68,7 +69,7 @@ pub enum RecordingProblem {
     #[error("zip archive: {0} is encrypted, or packed by another method than deflate (unpack it)")]
     Packing(String),
     /// A member that is not there.
-    #[error("zip archive: no member \"{got}\"{}, it holds {found}", did_you_mean(.hint))]
+    #[error("zip archive: no member \"{got}\"{} (it holds {found})", did_you_mean(.hint))]
     UnknownMember {
         /// As asked.
         got: String,
@@ -102,7 +103,7 @@ pub enum RecordingProblem {
     #[error("must be at most {LONGEST_LINE} bytes long (is this a table of numbers?)")]
     TooLong,
     /// A column that is not there.
-    #[error("no column \"{got}\" for the {role}{}, the columns are {found}", did_you_mean(.hint))]
+    #[error("no column \"{got}\" for the {role}{} (the columns are {found})", did_you_mean(.hint))]
     UnknownColumn {
         /// Time or acceleration.
         role: &'static str,
@@ -195,15 +196,17 @@ pub enum RecordingProblem {
         /// This one.
         to: f64,
     },
-    /// A guess that cannot be right.
+    /// A clock that cannot be right.
     #[error(
-        "column \"{column}\" names no unit; read as seconds it gives {rate} readings a second \
+        "column \"{column}\": counted in {unit} it gives {rate} readings a second \
          (say whether it is s, ms, us or ns)"
     )]
-    TimeUnit {
+    Rate {
         /// Its name.
         column: String,
-        /// What seconds would make it.
+        /// As named, or seconds.
+        unit: TimeUnit,
+        /// Hz.
         rate: f64,
     },
     /// A scale that is none.

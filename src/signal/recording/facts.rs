@@ -153,9 +153,10 @@ impl Survey {
         let count = self.samples as f64;
         let steps = Steps::of(self.readings);
         let step = steps.quantum.unwrap_or(0.0);
+        let is_fine = steps.levels > FEW_LEVELS;
         let at_limits: u64 = [&self.low, &self.high]
             .into_iter()
-            .filter(|extreme| extreme.is_limit(self.mean, step))
+            .filter(|extreme| is_fine && extreme.is_limit(self.mean, step))
             .map(|extreme| extreme.count)
             .sum();
         Facts {
@@ -183,6 +184,9 @@ impl Survey {
     }
 }
 
+/// Levels among which a rest may move by itself, on a sensor whose steps are coarse.
+const FEW_LEVELS: usize = 20;
+
 /// The least or the greatest reading, how often it came, and how often in a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Extreme {
@@ -206,9 +210,9 @@ impl Extreme {
     }
 
     /// A signal stays at its extreme for three readings where something holds it there: by chance only
-    /// where the sensor's steps are so coarse that its rest knows few values, and then the extreme lies
-    /// but a few steps from the mean.
+    /// where the sensor's steps are so coarse that its rest knows few levels, and then the extreme lies but
+    /// a few steps from the mean.
     fn is_limit(&self, mean: f64, step: f64) -> bool {
-        self.longest_run >= 3 && (self.value - mean).abs() > 20.0 * step
+        self.longest_run >= 3 && (self.value - mean).abs() > FEW_LEVELS as f64 * step
     }
 }

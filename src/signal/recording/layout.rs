@@ -1,10 +1,10 @@
 //! How a table is laid out, found from its first line.
 
-use super::axis::Axis;
 use super::cell::{Cell, DecimalMark};
+use super::choice::{Accelerations, accelerations, time};
 use super::column::{Column, Gravity, Role};
 use super::delimiter::{Delimiter, Splitter};
-use super::error::{Names, RecordingError, RecordingProblem, nearest};
+use super::error::{RecordingError, RecordingProblem};
 use super::lines::{Lines, NoLine};
 use super::reading::{Reading, TimeUnit, Unit};
 use super::source::Source;
@@ -51,17 +51,6 @@ pub(super) struct Layout {
     pub unit: Unit,
     /// Whether the file or the reader says so.
     pub is_unit_stated: bool,
-}
-
-/// The columns that may hold the vertical acceleration.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Accelerations {
-    /// The reader named it.
-    Named(usize),
-    /// There is only one.
-    Only(usize),
-    /// Some axes, where they stand.
-    Axes(Vec<(Axis, usize)>),
 }
 
 impl Layout {
@@ -139,16 +128,6 @@ impl Layout {
     }
 }
 
-impl Accelerations {
-    /// Where they stand.
-    pub fn columns(&self) -> Vec<usize> {
-        match self {
-            Self::Named(column) | Self::Only(column) => vec![*column],
-            Self::Axes(axes) => axes.iter().map(|(_, column)| *column).collect(),
-        }
-    }
-}
-
 /// The first line that says something, passing over blank lines, comments, and the line that tells a
 /// spreadsheet the separator.
 fn first<R: std::io::BufRead>(lines: &mut Lines<R>) -> Result<Vec<u8>, RecordingProblem> {
@@ -212,86 +191,6 @@ fn numbered(width: usize) -> Vec<Column> {
             unit: None,
         })
         .collect()
-}
-
-fn names(columns: &[Column]) -> Names {
-    Names(columns.iter().map(|column| column.name.clone()).collect())
-}
-
-/// The column that the reader named, by the whole name or without regard to capitals.
-fn named(columns: &[Column], role: &'static str, got: &str) -> Result<usize, RecordingProblem> {
-    let wanted = got.trim();
-    let exact = columns.iter().position(|column| column.name == wanted);
-    let alike = |column: &Column| column.name.to_lowercase() == wanted.to_lowercase();
-    exact
-        .or_else(|| columns.iter().position(alike))
-        .ok_or_else(|| RecordingProblem::UnknownColumn {
-            role,
-            got: got.to_owned(),
-            hint: nearest(wanted, &names(columns).0),
-            found: names(columns),
-        })
-}
-
-fn time(columns: &[Column], reading: &Reading) -> Result<usize, RecordingProblem> {
-    if let Some(name) = &reading.time {
-        return named(columns, "time", name);
-    }
-    let clocks = columns.iter().enumerate().filter_map(|(index, column)| {
-        let Role::Time { rank } = column.role else {
-            return None;
-        };
-        Some((rank, index))
-    });
-    let best = clocks.min().map(|(_, index)| index);
-    best.ok_or_else(|| RecordingProblem::NoTime(names(columns)))
-}
-
-fn accelerations(
-    columns: &[Column],
-    reading: &Reading,
-    time: usize,
-) -> Result<Accelerations, RecordingProblem> {
-    if let Some(name) = &reading.acceleration {
-        return Ok(Accelerations::Named(named(columns, "acceleration", name)?));
-    }
-    let axes: Vec<(Axis, usize)> = Axis::ALL
-        .into_iter()
-        .filter_map(|axis| Some((axis, along(columns, axis)?)))
-        .collect();
-    let only = |index: &usize| *index != time && columns[*index].role == Role::Acceleration;
-    match reading.axis {
-        Axis::Auto if axes.is_empty() => (0..columns.len())
-            .find(only)
-            .map(Accelerations::Only)
-            .ok_or_else(|| RecordingProblem::NoAcceleration(names(columns))),
-        Axis::Auto => Ok(Accelerations::Axes(axes)),
-        Axis::Gravity if axes.len() == 3 => Ok(Accelerations::Axes(axes)),
-        Axis::Gravity => Err(RecordingProblem::NoGravity("fewer than three axes")),
-        axis => axes
-            .into_iter()
-            .find(|(found, _)| *found == axis)
-            .map(|found| Accelerations::Axes(vec![found]))
-            .ok_or_else(|| RecordingProblem::NoAxis {
-                axis,
-                found: names(columns),
-            }),
-    }
-}
-
-/// The column along `axis`, with gravity where there is a choice.
-fn along(columns: &[Column], axis: Axis) -> Option<usize> {
-    let found = columns
-        .iter()
-        .enumerate()
-        .filter_map(|(index, column)| match column.role {
-            Role::Along {
-                axis: found,
-                gravity,
-            } if found == axis => Some((gravity, index)),
-            _ => None,
-        });
-    found.min().map(|(_, index)| index)
 }
 
 fn format(columns: &[Column], time: usize) -> Format {

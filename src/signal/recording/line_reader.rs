@@ -1,4 +1,5 @@
-//! Readings from a pipe, one a line: `acceleration` or `time,acceleration`.
+//! Readings from a pipe, one a line: `acceleration` or `time,acceleration`, and after them, where it is asked
+//! for, whether the drum turns: 0 or 1.
 
 use super::cell::Cell;
 use super::lines::{LONGEST_LINE, Lines, NoLine};
@@ -23,6 +24,8 @@ use std::io::{self, BufRead};
 #[derive(Debug)]
 pub struct LineReader<R> {
     lines: Lines<R>,
+    /// Whether the last cell is about the drum.
+    has_drum: bool,
     /// Cells a line, once known.
     cells: Option<usize>,
     is_headed: bool,
@@ -31,10 +34,12 @@ pub struct LineReader<R> {
 /// What a line says, in the units of whoever wrote it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineReading {
-    /// The first of two cells.
+    /// The first cell, where there is one more.
     pub time: Option<f64>,
-    /// The last cell.
+    /// The last cell, or the last but the drum's.
     pub acceleration: f64,
+    /// Whether the drum turns, where it is told.
+    pub drum_turns: Option<bool>,
 }
 
 /// Why a line was refused. The next call goes on with the line after it.
@@ -47,10 +52,12 @@ pub enum LineError {
         line: u64,
     },
     /// A cell that is no number.
-    #[error("line {line}: must be `acceleration` or `time,acceleration`, got \"{got}\"")]
+    #[error("line {line}: must be {}, got \"{got}\"", layout(*.has_drum))]
     NotNumbers {
         /// From 1.
         line: u64,
+        /// Whether it should end with the drum.
+        has_drum: bool,
         /// As written, shortened.
         got: String,
     },
@@ -84,6 +91,13 @@ pub enum LineError {
     },
 }
 
+fn layout(has_drum: bool) -> &'static str {
+    match has_drum {
+        false => "`acceleration` or `time,acceleration`",
+        true => "`acceleration,drum` or `time,acceleration,drum`, the drum 0 or 1",
+    }
+}
+
 fn cells(number: usize) -> String {
     match number {
         1 => "1 number".to_owned(),
@@ -96,8 +110,17 @@ impl<R: BufRead> LineReader<R> {
     pub fn new(reader: R) -> Self {
         Self {
             lines: Lines::new(reader),
+            has_drum: false,
             cells: None,
             is_headed: false,
+        }
+    }
+
+    /// The same where every line ends with a cell that says whether the drum turns: 0 or 1.
+    pub fn with_drum(reader: R) -> Self {
+        Self {
+            has_drum: true,
+            ..Self::new(reader)
         }
     }
 
@@ -129,31 +152,27 @@ impl<R: BufRead> LineReader<R> {
             if line.is_empty() || line[0] == b'#' {
                 continue;
             }
-            let (first, second) = split(line);
-            let found = (Cell::read(first), second.map(Cell::read));
-            let (time, acceleration) = match found {
-                (Cell::Number(acceleration), None) => (None, acceleration),
-                (Cell::Number(time), Some(Cell::Number(acceleration))) => {
-                    (Some(time), acceleration)
-                }
-                (Cell::NotFinite, _) | (_, Some(Cell::NotFinite)) => {
+            let reading = match read(line, self.has_drum) {
+                Ok(reading) => reading,
+                Err(Cell::NotFinite) => {
                     return Err(LineError::NotFinite {
                         line: number,
                         got: shortened(line),
                     });
                 }
-                _ if may_be_header && is_words(line) => {
+                Err(_) if may_be_header && is_words(line) => {
                     self.is_headed = true;
                     continue;
                 }
-                _ => {
+                Err(_) => {
                     return Err(LineError::NotNumbers {
                         line: number,
+                        has_drum: self.has_drum,
                         got: shortened(line),
                     });
                 }
             };
-            let got = 1 + usize::from(time.is_some());
+            let got = 1 + usize::from(reading.time.is_some()) + usize::from(self.has_drum);
             let expected = *self.cells.get_or_insert(got);
             if got != expected {
                 return Err(LineError::Cells {
@@ -162,9 +181,40 @@ impl<R: BufRead> LineReader<R> {
                     got,
                 });
             }
-            return Ok(Some(LineReading { time, acceleration }));
+            return Ok(Some(reading));
         }
     }
+}
+
+/// The cells of a line; else the first that is no finite number, or whatever there is too much.
+#[inline]
+fn read(line: &[u8], has_drum: bool) -> Result<LineReading, Cell> {
+    let number = |cell: &[u8]| match Cell::read(cell) {
+        Cell::Number(number) => Ok(number),
+        other => Err(other),
+    };
+    let (first, rest) = split(line);
+    let first = number(first)?;
+    let (time, acceleration, drum) = match rest {
+        None => (None, first, None),
+        Some(rest) if !has_drum => (Some(first), number(rest)?, None),
+        Some(rest) => match split(rest) {
+            (drum, None) => (None, first, Some(number(drum)?)),
+            (acceleration, Some(drum)) => (Some(first), number(acceleration)?, Some(number(drum)?)),
+        },
+    };
+    let drum_turns = match drum {
+        None if has_drum => return Err(Cell::Text),
+        None => None,
+        Some(0.0) => Some(false),
+        Some(1.0) => Some(true),
+        Some(_) => return Err(Cell::Text),
+    };
+    Ok(LineReading {
+        time,
+        acceleration,
+        drum_turns,
+    })
 }
 
 /// What a header consists of.
@@ -177,7 +227,7 @@ fn without_mark(line: &[u8]) -> &[u8] {
     line.strip_prefix("\u{feff}".as_bytes()).unwrap_or(line)
 }
 
-/// The cells before and after the first separator. More than two cells leave a separator in the second,
+/// What stands before and after the first separator. A cell too many leaves a separator in the last one,
 /// which then is no number.
 #[inline]
 fn split(line: &[u8]) -> (&[u8], Option<&[u8]>) {
@@ -206,4 +256,84 @@ pub(super) fn shortened(text: &[u8]) -> String {
         short.push('…');
     }
     short
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all(text: &str) -> Vec<String> {
+        let mut reader = LineReader::new(text.as_bytes());
+        let mut found = Vec::new();
+        loop {
+            found.push(match reader.next() {
+                Ok(None) => return found,
+                Ok(Some(LineReading {
+                    time: None,
+                    acceleration,
+                    ..
+                })) => acceleration.to_string(),
+                Ok(Some(LineReading {
+                    time: Some(time),
+                    acceleration,
+                    ..
+                })) => {
+                    format!("{time} {acceleration}")
+                }
+                Err(error) => error.to_string(),
+            });
+        }
+    }
+
+    #[test]
+    fn one_or_two_cells() {
+        assert_eq!(
+            all("9.5\n\n 9.25 \r\n# rest\n9.75"),
+            ["9.5", "9.25", "9.75"]
+        );
+        for separator in [",", ";", "\t", "  ", " , ", "\t\t"] {
+            let text = format!("\u{feff}t{separator}a\n0.5{separator}1\n1{separator}-2e-1\n");
+            assert_eq!(all(&text), ["0.5 1", "1 -0.2"], "{separator:?}");
+        }
+    }
+
+    #[test]
+    fn the_drum_stands_last() {
+        let text = "time,acceleration,drum\n0.5,9.8,1\n1,9.7,0\n2,9.7\n3,9.7,2\n";
+        let mut reader = LineReader::with_drum(text.as_bytes());
+        let mut next = || {
+            reader
+                .next()
+                .map(|reading| reading.and_then(|r| r.drum_turns))
+        };
+        assert_eq!(next().unwrap(), Some(true));
+        assert_eq!(next().unwrap(), Some(false));
+        assert!(next().is_err());
+        let refused = next().unwrap_err().to_string();
+        assert!(refused.contains("the drum 0 or 1"), "{refused}");
+        let mut bare = LineReader::with_drum(&b"9.8 1\n9.8\n"[..]);
+        let reading = bare.next().unwrap().unwrap();
+        assert_eq!((reading.time, reading.acceleration), (None, 9.8));
+        assert!(bare.next().is_err());
+    }
+
+    #[test]
+    fn refusals_do_not_end_it() {
+        assert_eq!(
+            all("time,a\n1,2\nx,3\n4,nan\n5\n6,7,8\n9,\n10,11"),
+            [
+                "1 2",
+                "line 3: must be `acceleration` or `time,acceleration`, got \"x,3\"",
+                "line 4: numbers must be finite, got \"4,nan\" (leave the line out where nothing was read)",
+                "line 5: must have 2 numbers as the first reading had, got 1 number",
+                "line 6: must be `acceleration` or `time,acceleration`, got \"6,7,8\"",
+                "line 7: must be `acceleration` or `time,acceleration`, got \"9,\"",
+                "10 11",
+            ]
+        );
+        assert!(all("\u{1}a\n1\n")[0].starts_with("line 1: must be"));
+        let long = format!("1\n{}\n2", "9".repeat(LONGEST_LINE + 1));
+        assert!(all(&long)[1].starts_with("line 2: must be at most 1048576 bytes long"));
+        assert_eq!(all(&long)[2], "2");
+    }
 }

@@ -14,7 +14,10 @@
 //!   the rows is then to be trusted;
 //! - a last row that is cut short is left out with a warning. A number that lost its last digits and is
 //!   still a number cannot be told from a whole one;
-//! - everything else that is no finite number is refused with its line.
+//! - everything else that is no finite number is refused with its line;
+//! - only where [`Reading::resample`] asks for it are samples brought to a uniform grid: each is then the
+//!   mean over a block of 1/rate of the straight lines that join the readings, and where a gap reaches
+//!   into a block there is none.
 //!
 //! A [`LineReader`] reads what comes through a pipe, a line at a time.
 //!
@@ -31,7 +34,10 @@
 
 mod archive;
 mod axis;
+mod bearings;
+mod blocks;
 mod cell;
+mod choice;
 mod column;
 mod delimiter;
 mod error;
@@ -62,13 +68,14 @@ pub use series::Sample;
 pub use vertical::{Direction, Reason, Vertical};
 pub use warning::Warning;
 
-use layout::{Accelerations, Layout};
+use bearings::Bearings;
+use choice::Accelerations;
+use layout::Layout;
 use resample::Resampled;
 use series::Series;
 use source::Source;
 use std::path::Path;
 use std::sync::Arc;
-use vertical::Bearings;
 
 /// A file that has been looked through, and can be read.
 #[derive(Clone, Debug)]
@@ -189,11 +196,7 @@ impl Recording {
         let series = Series::open(&self.source, &self.layout, &self.vertical.direction)?;
         Ok(Samples(match self.resample {
             None => Kind::Recorded(series),
-            Some(rate) => {
-                // Between samples that are further apart than those of the grid nothing is a gap.
-                let gap = self.facts.gap().max(1.5 / self.facts.rate);
-                Kind::Resampled(Resampled::new(series, rate, gap))
-            }
+            Some(rate) => Kind::Resampled(Resampled::new(series, rate, self.facts.gap())),
         }))
     }
 }
@@ -251,12 +254,18 @@ fn vertical(
     }
 }
 
-/// Seconds are a guess where nothing is said; a rate that no sensor has shows it to be wrong.
+/// Seconds are a guess where nothing is said, and a rate that no sensor of lifts has shows it to be wrong.
+/// What is said is believed, but for rates that no clock can tell.
 fn check_clock(layout: &Layout, facts: &Facts) -> Result<(), RecordingProblem> {
-    match layout.is_time_unit_stated || (2.0..=50_000.0).contains(&facts.rate) {
+    let believed = match layout.is_time_unit_stated {
+        true => 1e-3..=1e7,
+        false => 2.0..=5e4,
+    };
+    match believed.contains(&facts.rate) {
         true => Ok(()),
-        false => Err(RecordingProblem::TimeUnit {
+        false => Err(RecordingProblem::Rate {
             column: layout.columns[layout.time].name.clone(),
+            unit: layout.time_unit,
             rate: facts.rate,
         }),
     }

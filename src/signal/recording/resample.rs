@@ -116,3 +116,68 @@ impl Iterator for Resampled {
         self.advance().transpose()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Reading, Recording};
+
+    fn resampled(rows: &[(f64, f64)], rate: f64) -> Vec<(f64, f64)> {
+        let rows: String = rows.iter().map(|(t, a)| format!("{t},{a}\n")).collect();
+        let reading = Reading {
+            resample: Some(rate),
+            ..Reading::default()
+        };
+        let recording = Recording::from_bytes("ride", rows.into_bytes(), &reading).unwrap();
+        let samples = recording.samples().unwrap().map(Result::unwrap);
+        samples
+            .map(|sample| (sample.time, sample.acceleration))
+            .collect()
+    }
+
+    fn agree(found: &[(f64, f64)], expected: &[(f64, f64)]) {
+        assert_eq!(found.len(), expected.len(), "{found:?}");
+        for (found, expected) in found.iter().zip(expected) {
+            let distance = (found.0 - expected.0).abs() + (found.1 - expected.1).abs();
+            assert!(distance < 1e-12, "{found:?}, expected {expected:?}");
+        }
+    }
+
+    /// The mean of a straight line over a block is its value in the middle, however the samples lie.
+    #[test]
+    fn a_line_stays_a_line() {
+        let line = |t: f64| (t, 3.0 * t - 1.0);
+        let uneven = [0.0, 0.125, 0.15, 0.375, 0.5, 0.75, 1.0].map(line);
+        for rate in [4.0, 8.0, 16.0, 20.0] {
+            let blocks = rate as u32;
+            let middles: Vec<_> = (0..blocks)
+                .map(|k| line((f64::from(k) + 0.5) / rate))
+                .collect();
+            agree(&resampled(&uneven, rate), &middles);
+        }
+    }
+
+    /// Vibration at a multiple of the new rate is averaged out.
+    #[test]
+    fn vibration_is_not_folded_down() {
+        let zigzag: Vec<_> = (0..=100)
+            .map(|i| (0.01 * f64::from(i), f64::from(i % 2)))
+            .collect();
+        let blocks = resampled(&zigzag, 10.0);
+        assert_eq!(blocks.len(), 10);
+        blocks
+            .iter()
+            .for_each(|(_, a)| assert!((a - 0.5).abs() < 1e-12));
+    }
+
+    #[test]
+    fn nothing_is_made_up_in_a_gap() {
+        let times = (0..=10).chain(30..=40).map(|i| 0.125 * f64::from(i));
+        let rows: Vec<_> = times.map(|t| (t, t)).collect();
+        let middles = |from: i32, to: i32| (from..to).map(|k| 0.5 * (f64::from(k) + 0.5));
+        let expected: Vec<_> = middles(0, 2)
+            .chain(middles(8, 10))
+            .map(|t| (t, t))
+            .collect();
+        agree(&resampled(&rows, 2.0), &expected);
+    }
+}

@@ -4,11 +4,14 @@
 //! smallest where there is a grid, and any number where there is none. The estimate is refined from the
 //! short multiples to the long, so that its error never reaches a tenth of a step.
 
+use super::reading::GRAVITY;
+
 /// Readings that are looked at.
 pub(super) const LOOKED_AT: usize = 8192;
 
-/// Readings closer than this share of the largest are equal: apps print numbers of single precision, whose
-/// neighbours lie 1.2e-7 apart.
+/// Readings are equal where they differ by less than this share of the largest of them, or of gravity: apps
+/// keep numbers in single precision, whose neighbours lie 1.2e-7 apart, and gravity has been taken out of
+/// such numbers.
 const EQUAL: f64 = 4.0 * f32::EPSILON as f64;
 
 /// How far from a multiple a distance may lie, in steps. Distances that know no grid lie so near by chance
@@ -21,6 +24,9 @@ const LONG: f64 = 50.0;
 /// Distances needed: five that fit by chance are 3e-4 likely.
 const FEWEST: u64 = 5;
 
+/// The share of ties that proves a grid by itself, however few its levels.
+const TIED: f64 = 0.9;
+
 /// The share of distances that may lie off the grid.
 const ASTRAY: f64 = 0.01;
 
@@ -31,25 +37,31 @@ pub(super) struct Steps {
     pub quantum: Option<f64>,
     /// Of the readings, how many equal another, as a share.
     pub ties: f64,
+    /// Values that differ.
+    pub levels: usize,
 }
 
 impl Steps {
     pub fn of(mut readings: Vec<f64>) -> Self {
         let total = readings.len();
-        let largest = readings.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let largest = readings.iter().fold(GRAVITY, |most, x| most.max(x.abs()));
         readings.sort_by(f64::total_cmp);
+        readings.dedup();
+        let levels = readings.len();
+        let ties = 1.0 - levels as f64 / total.max(1) as f64;
         readings.dedup_by(|next, kept| (*next - *kept).abs() <= EQUAL * largest);
         let mut distances: Vec<f64> = readings.windows(2).map(|pair| pair[1] - pair[0]).collect();
         distances.sort_by(f64::total_cmp);
         Self {
-            quantum: grid(&distances),
-            ties: 1.0 - readings.len() as f64 / total.max(1) as f64,
+            quantum: grid(&distances, if ties > TIED { 1 } else { FEWEST }),
+            ties,
+            levels,
         }
     }
 }
 
-/// The step of which `distances`, from the shortest, are multiples.
-fn grid(distances: &[f64]) -> Option<f64> {
+/// The step of which `distances`, from the shortest, are multiples: at least the `fewest` of them.
+fn grid(distances: &[f64], fewest: u64) -> Option<f64> {
     let mut step = *distances.first()?;
     let (mut sum, mut multiples) = (0.0, 0.0);
     let (mut fitting, mut astray) = (0, 0);
@@ -67,7 +79,7 @@ fn grid(distances: &[f64]) -> Option<f64> {
         multiples += multiple;
         step = sum / multiples;
     }
-    let is_grid = fitting >= FEWEST && f64::from(astray) <= ASTRAY * fitting as f64;
+    let is_grid = fitting >= fewest && f64::from(astray) <= ASTRAY * fitting as f64;
     is_grid.then_some(step)
 }
 
@@ -95,6 +107,14 @@ mod tests {
     }
 
     #[test]
+    fn a_grid_of_few_levels() {
+        let levels = [9.7, 9.8, 9.9];
+        let steps = Steps::of((0..100).map(|i| levels[i % 3]).collect());
+        assert!((steps.quantum.unwrap() - 0.1).abs() < 1e-12);
+        assert_eq!(steps.levels, 3);
+    }
+
+    #[test]
     fn what_lies_on_none() {
         for size in [2, 6, 100, 8192] {
             let steps = Steps::of(draws(size));
@@ -103,6 +123,14 @@ mod tests {
         }
         assert_eq!(Steps::of(vec![]).quantum, None);
         assert_eq!(Steps::of(vec![1.0; 9]).quantum, None);
+    }
+
+    /// Gravity, in single precision, leaves a grid that is none of the sensor's.
+    #[test]
+    fn the_grid_of_the_numbers_is_no_step() {
+        let without_gravity = |x: f64| f64::from((9.8 + x) as f32) - 9.8;
+        let steps = Steps::of(draws(5000).into_iter().map(without_gravity).collect());
+        assert_eq!(steps.quantum, None);
     }
 
     #[test]

@@ -108,7 +108,8 @@ impl Warning {
             (Direction::Along { .. }, Reason::Gravity(angle)) => Some(angle),
             _ => None,
         };
-        let is_held = facts.repeats >= COARSE;
+        // A signal at its limit repeats itself too.
+        let is_held = facts.repeats - facts.saturated.unwrap_or(0.0) >= COARSE;
         let found = [
             magnitude,
             may_be_g.then_some(Self::PerhapsGravity { mean: facts.mean }),

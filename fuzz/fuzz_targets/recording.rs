@@ -1,0 +1,125 @@
+//! Bytes as a recording, read in the way that the first of them says: refused, or a signal, whose rest is
+//! learnt and whose rides are found.
+
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use liftsim::detection::Detection;
+use liftsim::monitor::{Knowledge, Settings};
+use liftsim::signal::recording::{Axis, Reading, Recording, TimeUnit, Unit};
+
+fuzz_target!(|bytes: &[u8]| {
+    let Some((&choice, bytes)) = bytes.split_first() else {
+        return;
+    };
+    let Ok(recording) = Recording::from_bytes("ride", bytes, &reading(choice)) else {
+        return;
+    };
+    let facts = recording.facts();
+    assert!(facts.rate > 0.0 && facts.rate.is_finite() && facts.jitter >= 0.0);
+    assert!(facts.samples > 1 && facts.start < facts.end && facts.least < facts.greatest);
+    assert!(facts.mean.is_finite() && facts.deviation.is_finite());
+    for warning in recording.warnings() {
+        assert!(!warning.to_string().is_empty());
+    }
+    let mut last = f64::NEG_INFINITY;
+    for sample in recording.samples().unwrap() {
+        let sample = sample.expect("opening it has read it through");
+        assert!(sample.time > last && sample.time.is_finite() && sample.acceleration.is_finite());
+        last = sample.time;
+    }
+    detect(&recording, choice);
+});
+
+fn detect(recording: &Recording, choice: u8) {
+    let Ok(design) = settings(choice).at(recording.rate()) else {
+        return;
+    };
+    let learnt = Knowledge::from_record(&design, || recording.samples()).unwrap();
+    let knowledge = learnt.unwrap_or_default();
+    let found = Detection::of(&design, knowledge, recording.samples().unwrap()).unwrap();
+    let mut said = f64::NEG_INFINITY;
+    for event in &found.events {
+        assert!(
+            event.time.is_finite() && event.time <= event.reported,
+            "{event:?}"
+        );
+        assert!(said <= event.reported, "{event:?} after {said}");
+        said = event.reported;
+    }
+    for ride in &found.rides {
+        assert!(
+            ride.speed.is_finite() && ride.stop.is_none_or(|stop| ride.start <= stop),
+            "{ride:?}"
+        );
+    }
+    assert!(found.at_rest.alarms <= found.at_rest.decisions);
+}
+
+/// Small samples, so that a short recording reaches all of the monitor.
+fn settings(choice: u8) -> Settings {
+    Settings {
+        block: [0.05, 0.1, 0.25][usize::from(choice / 16) % 3],
+        reference: 8,
+        shift: 4,
+        scale: 4,
+        alpha: 0.01,
+        training: 40,
+        order: [None, Some(0), Some(8)][usize::from(choice / 64) % 3],
+        ..Settings::default()
+    }
+}
+
+fn reading(choice: u8) -> Reading {
+    let plain = Reading::default();
+    match choice % 16 {
+        0 => Reading {
+            axis: Axis::Gravity,
+            ..plain
+        },
+        1 => Reading {
+            axis: Axis::Z,
+            ..plain
+        },
+        2 => Reading {
+            resample: Some(20.0),
+            ..plain
+        },
+        3 => Reading {
+            resample: Some(0.7),
+            time_unit: Some(TimeUnit::Milliseconds),
+            ..plain
+        },
+        4 => Reading {
+            time_unit: Some(TimeUnit::Nanoseconds),
+            ..plain
+        },
+        5 => Reading {
+            unit: Unit::Counts {
+                scale: -1e12,
+                offset: 1e15,
+            },
+            ..plain
+        },
+        6 => Reading {
+            time: Some("1".into()),
+            acceleration: Some("2".into()),
+            ..plain
+        },
+        7 => Reading {
+            unit: Unit::Milligravity,
+            time_unit: Some(TimeUnit::Milliseconds),
+            ..plain
+        },
+        8 => Reading {
+            member: Some("a.csv".into()),
+            ..plain
+        },
+        9 => Reading {
+            acceleration: Some("acc".into()),
+            resample: Some(1e6),
+            ..plain
+        },
+        _ => plain,
+    }
+}

@@ -1,0 +1,250 @@
+//! All that a monitor starts from, as a file holds it.
+
+use super::{Design, Knowledge, MOST_ORDER, STRONGEST, Settings, SettingsError};
+use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// No briefing is longer, bytes.
+const LONGEST: u64 = 1 << 20;
+
+/// What a monitor is told and what it knows, at one sampling rate.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Briefing {
+    /// What it is told.
+    pub settings: Settings,
+    /// Samples per second.
+    pub rate: f64,
+    /// What it knows.
+    pub knowledge: Knowledge,
+}
+
+/// Why a file is no briefing.
+#[derive(Debug, thiserror::Error)]
+pub enum BriefingError {
+    /// It cannot be read.
+    #[error(
+        "{path}: cannot be read: {error} (`liftsim detect RECORDING --save-state FILE` writes one)"
+    )]
+    Unreadable {
+        /// As given.
+        path: String,
+        /// What the system said.
+        error: io::Error,
+    },
+    /// It holds something else.
+    #[error("{path}: not what `liftsim detect --save-state` writes: {error}")]
+    Format {
+        /// As given.
+        path: String,
+        /// Where and why.
+        error: serde_json::Error,
+    },
+    /// Its settings cannot be used.
+    #[error("{path}: {error}")]
+    Settings {
+        /// As given.
+        path: String,
+        /// Why.
+        error: SettingsError,
+    },
+    /// A level that no rest has.
+    #[error("{path}: level must lie within {STRONGEST} m/s^2, got {got}")]
+    Level {
+        /// As given.
+        path: String,
+        /// m/s².
+        got: f64,
+    },
+    /// A filter that no rest gives.
+    #[error(
+        "{path}: coefficients must be at most {MOST_ORDER}, none beyond 70 in size and their sum at most 1, \
+         as those of a fit to rest are, got {got:?}"
+    )]
+    Filter {
+        /// As given.
+        path: String,
+        /// a₁ … a_m.
+        got: Vec<f64>,
+    },
+    /// Its parts do not fit each other.
+    #[error("{path}: X must have {expected} finite blocks as settings.reference says, got {got}")]
+    Sample {
+        /// As given.
+        path: String,
+        /// N.
+        expected: usize,
+        /// What there are.
+        got: usize,
+    },
+}
+
+impl Briefing {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// Where it cannot be read or holds no briefing that can be used.
+    pub fn load(path: &Path) -> Result<Self, BriefingError> {
+        let name = path.display().to_string();
+        let mut text = String::new();
+        let read = File::open(path).and_then(|file| file.take(LONGEST).read_to_string(&mut text));
+        match read {
+            Ok(_) => Self::from_json(&name, &text),
+            Err(error) => Err(BriefingError::Unreadable { path: name, error }),
+        }
+    }
+
+    /// Checks a file's text; `name` is what messages call it.
+    ///
+    /// # Errors
+    /// As [`Briefing::load`].
+    pub fn from_json(name: &str, text: &str) -> Result<Self, BriefingError> {
+        let path = name.to_owned();
+        let briefing: Self = match serde_json::from_str(text) {
+            Ok(briefing) => briefing,
+            Err(error) => return Err(BriefingError::Format { path, error }),
+        };
+        if let Err(error) = briefing.design() {
+            return Err(BriefingError::Settings { path, error });
+        }
+        let Some(reference) = &briefing.knowledge.reference else {
+            return Ok(briefing);
+        };
+        let (expected, got) = (briefing.settings.reference, reference.sample.len());
+        match () {
+            () if got != expected => Err(BriefingError::Sample {
+                path,
+                expected,
+                got,
+            }),
+            () if reference.level.abs() > STRONGEST => Err(BriefingError::Level {
+                path,
+                got: reference.level,
+            }),
+            () if !is_fitted(&reference.coefficients) => Err(BriefingError::Filter {
+                path,
+                got: reference.coefficients.clone(),
+            }),
+            () => Ok(briefing),
+        }
+    }
+
+    /// As a file has it.
+    pub fn to_json(&self) -> String {
+        let json = serde_json::to_string_pretty(self);
+        json.expect("numbers and names can be written") + "\n"
+    }
+
+    /// The settings at the rate.
+    ///
+    /// # Errors
+    /// As [`Settings::at`].
+    pub fn design(&self) -> Result<Design, SettingsError> {
+        self.settings.at(self.rate)
+    }
+}
+
+/// Whether a fit can have given these coefficients. Its zeros lie in the unit circle, so that no aₚ exceeds
+/// C(m, p) ≤ C(8, 4), and the response to a constant, 1 − Σ a, keeps the sign of a start; both but for rounding.
+fn is_fitted(coefficients: &[f64]) -> bool {
+    let is_bounded = coefficients.iter().all(|a| a.abs() <= 70.0 + 1e-9);
+    let sum: f64 = coefficients.iter().sum();
+    coefficients.len() <= MOST_ORDER && is_bounded && sum <= 1.0 + 1e-9
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::monitor::Reference;
+
+    fn briefing() -> Briefing {
+        let settings = Settings::default();
+        let reference = Reference {
+            level: 9.8,
+            coefficients: vec![0.5, -0.25],
+            deviation: 0.01,
+            whiteness: None,
+            training: settings.training,
+            span: (0.0, 5.0),
+            sample: vec![0.01; settings.reference],
+        };
+        Briefing {
+            settings,
+            rate: 100.0,
+            knowledge: Knowledge {
+                reference: Some(reference),
+                ..Knowledge::default()
+            },
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let briefing = briefing();
+        let again = Briefing::from_json("lift.json", &briefing.to_json()).unwrap();
+        assert_eq!(again, briefing);
+    }
+
+    type Change<'a> = &'a dyn Fn(&mut Briefing, &mut Reference);
+
+    /// Files that would take all memory, or turn the sign of every start.
+    #[test]
+    fn what_no_rest_gives_is_refused() {
+        let refusal = |change: Change| {
+            let mut briefing = briefing();
+            let mut reference = briefing.knowledge.reference.take().unwrap();
+            change(&mut briefing, &mut reference);
+            briefing.knowledge.reference = Some(reference);
+            let refused = Briefing::from_json("lift.json", &briefing.to_json());
+            refused.unwrap_err().to_string()
+        };
+        let cases: [(&str, Change); 11] = [
+            (
+                "gap must be at most 200 blocks, got 18446744073709551615",
+                &|briefing, _| briefing.settings.gap = usize::MAX,
+            ),
+            (
+                "training must be at most 100000 blocks, got 1000000",
+                &|briefing, _| briefing.settings.training = 1_000_000,
+            ),
+            (
+                "shift must be at most 200 blocks, got 3000",
+                &|briefing, _| briefing.settings.shift = 3000,
+            ),
+            (
+                "block must lie in [0.001, 0.5] s, got 0.000001 s",
+                &|briefing, _| briefing.settings.block = 1e-6,
+            ),
+            ("rate must lie in [1, 1e6] Hz, got 0", &|briefing, _| {
+                briefing.rate = 0.0;
+            }),
+            ("X must have 24 finite blocks", &|_, reference| {
+                reference.sample.truncate(3);
+            }),
+            ("level must lie within 10000 m/s^2", &|_, reference| {
+                reference.level = 1e300;
+            }),
+            ("coefficients must be at most 8", &|_, reference| {
+                reference.coefficients = vec![0.0; 9];
+            }),
+            ("got [0.75, 0.5]", &|_, reference| {
+                reference.coefficients = vec![0.75, 0.5];
+            }),
+            ("got [-1000.0]", &|_, reference| {
+                reference.coefficients = vec![-1000.0];
+            }),
+            ("expected f64 at line", &|_, reference| {
+                reference.deviation = f64::NAN;
+            }),
+        ];
+        for (sentence, change) in cases {
+            let refusal = refusal(change);
+            assert!(
+                refusal.starts_with("lift.json: ") && refusal.contains(sentence),
+                "{refusal}"
+            );
+        }
+    }
+}
