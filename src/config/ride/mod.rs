@@ -236,11 +236,14 @@ impl Axis {
 }
 
 impl RideKeys {
-    /// Where the value stands that a problem is about: its words begin with the key.
+    /// Where the value stands that a problem is about: most begin with its key.
     fn blamed(&self, problem: &RideProblem) -> Option<Range<usize>> {
         let words = problem.to_string();
-        let key = words.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-        let key = key.into_iter().next().unwrap_or_default();
+        let mut words = words.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        let key = match problem {
+            RideProblem::Settings(error) => error.key(),
+            _ => words.next().unwrap_or_default(),
+        };
         let rivals: &[&str] = match STRENGTH.contains(&key) {
             true => &STRENGTH,
             false => &[key],

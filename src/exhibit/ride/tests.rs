@@ -210,12 +210,12 @@ fn quantities_by_name() {
     assert!((0.5..1.5).contains(&delay), "{delay}");
 }
 
-/// A monitor that knows rest and is told that motion shows knows where it is once the cage stands; one that
+/// Where motion does show, a monitor that is told so knows rest once the cage stands; one that
 /// is told, wrongly, that the record begins at rest takes smooth motion for rest.
 #[test]
 fn switched_on() {
     let (config, study) = study(
-        "[ride]\nmeasure = \"switched_on\"\nlearnt = true\n[ride.axis]\nvibration = [0, 5]\n\
+        "[ride]\nmeasure = \"switched_on\"\nlearnt = true\n[ride.axis]\nvibration = [0, 30]\n\
          [[ride.curve]]\nlabel = \"shows\"\nmotion_shows = true\n\
          [[ride.curve]]\nlabel = \"wrong\"\nbegins_at_rest = true\n",
     );
@@ -225,7 +225,7 @@ fn switched_on() {
         let row = rows.find(|row| (&row.label[..], row.x, &row.outcome[..]) == (label, x, outcome));
         row.unwrap().estimate
     };
-    assert_eq!(value("shows", 5.0, "misled"), 0.0);
-    assert_eq!(value("shows", 5.0, "knew"), 1.0);
+    assert_eq!(value("shows", 30.0, "misled"), 0.0);
+    assert_eq!(value("shows", 30.0, "knew"), 1.0);
     assert_eq!(value("wrong", 0.0, "misled"), 1.0);
 }
