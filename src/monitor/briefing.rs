@@ -167,7 +167,7 @@ mod tests {
             deviation: 0.01,
             whiteness: None,
             training: settings.training,
-            span: (0.0, 5.0),
+            span: None,
             sample: vec![0.01; settings.reference],
         };
         Briefing {
