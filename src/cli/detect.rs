@@ -71,6 +71,9 @@ impl Detect {
         for warning in recording.warnings() {
             eprintln!("warning: {warning}");
         }
+        let mut samples = recording.samples().map_err(Failure::input)?;
+        let first = samples.next().expect("a recording has samples");
+        let first = first.map_err(Failure::input)?;
         let passes = if briefing.is_some() { 1 } else { 3 };
         let bar = progress::passes(passes * recording.facts().samples, !quiet);
         let briefing = match briefing {
@@ -83,13 +86,14 @@ impl Detect {
                     knowledge: learn(&design, &recording, &self.recording, &bar)?,
                     settings: config.settings,
                     rate,
+                    first_sample: Some((first.time, first.acceleration)),
                 }
             }
         };
         let design = briefing.design().map_err(Failure::input)?;
         let samples = recording.samples().map_err(Failure::input)?;
         let samples = progress::seen(samples, &bar);
-        let detection = Detection::of(&design, briefing.knowledge.clone(), samples);
+        let detection = Detection::of(&design, briefing.knowledge_of(&first), samples);
         bar.finish_and_clear();
         let detection = detection.map_err(Failure::input)?;
         let found = Found {

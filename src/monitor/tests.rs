@@ -470,6 +470,7 @@ fn a_briefing_comes_back_as_it_was() {
     let briefing = Briefing {
         settings: Settings::default(),
         rate: RATE,
+        first_sample: None,
         knowledge: Knowledge {
             reference: monitor.reference().cloned(),
             begins_at_rest: true,
