@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::lines::LONGEST_LINE;
-use super::reading::TimeUnit;
+use super::reading::{TimeUnit, UnitError};
 use std::fmt;
 use std::io;
 
@@ -209,16 +209,9 @@ pub enum RecordingProblem {
         /// Hz.
         rate: f64,
     },
-    /// A scale that is none.
-    #[error("unit: {name} must be {rule}, got {got}")]
-    Counts {
-        /// Which one.
-        name: &'static str,
-        /// What would do.
-        rule: &'static str,
-        /// As given.
-        got: f64,
-    },
+    /// A unit that is none.
+    #[error("{0}")]
+    Unit(#[from] UnitError),
     /// A rate that is none.
     #[error("resample must lie in (0, {limit}] Hz, ten times what was recorded, got {got}")]
     Resample {
