@@ -54,15 +54,17 @@ impl UnitArguments {
 
 impl ReadingArguments {
     /// Lays what is given over what a config says.
-    pub fn over(self, config: Reading) -> Result<Reading, Failure> {
+    pub fn over(&self, config: &Reading) -> Result<Reading, Failure> {
+        let name =
+            |given: &Option<String>, config: &Option<String>| given.clone().or(config.clone());
         Ok(Reading {
             unit: self.unit.told()?.unwrap_or(config.unit),
-            time: self.time.or(config.time),
-            acceleration: self.acceleration.or(config.acceleration),
+            time: name(&self.time, &config.time),
+            acceleration: name(&self.acceleration, &config.acceleration),
             time_unit: self.time_unit.or(config.time_unit),
             axis: self.axis.unwrap_or(config.axis),
             resample: self.resample.or(config.resample),
-            member: self.member.or(config.member),
+            member: name(&self.member, &config.member),
         })
     }
 }

@@ -1,14 +1,14 @@
 //! `liftsim record`: a simulated ride as a phone would record it, with the truth beside it.
 
+use super::output::Output;
 use super::{Failure, Outcome, print};
 use anyhow::{Context, anyhow};
 use clap::Args;
 use liftsim::signal::{
     Digitiser, Drive, Ending, Experiment, Pickup, Ride, Trip, write_phyphox, write_truth,
 };
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, Write};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Write a simulated ride as a phone on the cage's floor would record it, with the truth beside it.
@@ -130,32 +130,22 @@ impl Record {
             let out = self.out.display();
             return Err(Failure::Input(anyhow!("--out must end in .csv, got {out}")));
         }
-        let truth = self.out.with_extension("truth.csv");
-        self.refuse_to_replace(&truth)?;
+        let out = Output::new(&self.out, self.force)?;
+        let truth = Output::new(&self.out.with_extension("truth.csv"), self.force)?;
         let ride = self.ride().map_err(Failure::Input)?;
         let upright = self.pickup().map_err(Failure::Input)?;
-        write(&self.out, |out| self.write_record(out, &ride, &upright))?;
-        write(&truth, |out| write_truth(out, &ride))?;
+        out.write_with(|out| self.write_record(out, &ride, &upright))?;
+        truth.write_with(|out| write_truth(out, &ride))?;
         print(&format!(
             "{}  {} samples, {:.1} s at {} Hz\n{}  {} trips\n",
-            self.out.display(),
+            out.path().display(),
             ride.samples(),
             ride.duration(),
             ride.rate(),
-            truth.display(),
+            truth.path().display(),
             ride.trips().len(),
         ))?;
         Ok(ExitCode::SUCCESS)
-    }
-
-    fn refuse_to_replace(&self, truth: &Path) -> Result<(), Failure> {
-        match [&*self.out, truth].into_iter().find(|path| path.exists()) {
-            Some(path) if !self.force => Err(Failure::Input(anyhow!(
-                "{}: exists (give another --out, or --force to replace it)",
-                path.display()
-            ))),
-            _ => Ok(()),
-        }
     }
 
     fn ride(&self) -> anyhow::Result<Ride> {
@@ -230,18 +220,4 @@ impl Record {
         };
         write_phyphox(out, experiment, self.rate, [&x, &y, &z])
     }
-}
-
-fn write(
-    path: &Path,
-    content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> Result<(), Failure> {
-    let written = File::create(path).and_then(|file| {
-        let mut out = BufWriter::new(file);
-        content(&mut out)?;
-        out.flush()
-    });
-    written
-        .with_context(|| format!("{}: cannot be written (give another --out)", path.display()))
-        .map_err(Failure::Input)
 }

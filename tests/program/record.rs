@@ -50,14 +50,14 @@ fn replaces_nothing_unasked() {
     let (code, _, err) = record(directory.path(), &other);
     assert_eq!(code, 2);
     assert!(
-        err.contains("ride.csv: exists (give another --out, or --force"),
+        err.contains("ride.csv: is there already (give another name, or --force"),
         "{err}"
     );
     assert_eq!(fs::read(directory.path().join("ride.csv")).unwrap(), first);
     fs::remove_file(directory.path().join("ride.csv")).unwrap();
     let (code, _, err) = record(directory.path(), &other);
     assert_eq!(code, 2);
-    assert!(err.contains("ride.truth.csv: exists"), "{err}");
+    assert!(err.contains("ride.truth.csv: is there already"), "{err}");
     let forced = [&other[..], &["--force"]].concat();
     assert_eq!(record(directory.path(), &forced).0, 0);
     assert_ne!(fs::read(directory.path().join("ride.csv")).unwrap(), first);
@@ -181,7 +181,9 @@ fn bad_flags_get_sentences() {
     let (code, _, err) = record(directory.path(), &["--out", "none/ride.csv"]);
     assert_eq!(code, 2);
     assert!(
-        err.contains("none/ride.csv: cannot be written (give another --out)"),
+        err.contains(
+            "none/ride.csv: cannot be written: no folder none (make it, or give another name)"
+        ),
         "{err}"
     );
 }
