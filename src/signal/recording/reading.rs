@@ -68,6 +68,14 @@ impl FromStr for TimeUnit {
 }
 
 impl TimeUnit {
+    /// From the coarsest to the finest.
+    pub(super) const ALL: [Self; 4] = [
+        Self::Seconds,
+        Self::Milliseconds,
+        Self::Microseconds,
+        Self::Nanoseconds,
+    ];
+
     /// How many of them make a second. Dividing by it keeps 20 ms the double nearest to 0.02 s, which
     /// multiplying by 0.001 would not.
     pub(super) fn per_second(self) -> f64 {
