@@ -25,7 +25,7 @@ use std::process::ExitCode;
     Examples:\n  \
     liftsim record --out ride.csv\n  \
     liftsim record --out jam.csv --trip up:6 --trip down:20:jam --speed 1.6\n  \
-    liftsim record --out rest.csv --still --rest 600 --step 0.1")]
+    liftsim record --out rest.csv --still --rest 600 --step 0.01")]
 pub struct Record {
     /// Where the record goes; the truth goes to FILE.truth.csv.
     #[arg(long, value_name = "FILE.csv")]
@@ -69,7 +69,7 @@ pub struct Record {
     #[arg(long, value_name = "V", default_value_t = 2.2)]
     vibration: f64,
     /// The sensor's step, m/s^2; none by default.
-    #[arg(long, value_name = "QUANTUM")]
+    #[arg(long, value_name = "STEP")]
     step: Option<f64>,
     /// Leave gravity in the vertical axis: 9.80665 m/s^2.
     #[arg(long)]
@@ -104,7 +104,12 @@ fn request(text: &str) -> Result<Request, String> {
         _ => return Err(refused()),
     };
     let metres = parts.next().and_then(|metres| metres.parse::<f64>().ok());
-    let metres = metres.filter(|metres| *metres > 0.0).ok_or_else(refused)?;
+    let metres = metres.ok_or_else(refused)?;
+    if !(metres > 0.0 && metres.is_finite()) {
+        return Err(format!(
+            "METRES must be positive, got {metres} (up or down says which way)"
+        ));
+    }
     let jam = match parts.next().map(|jam| jam.strip_prefix("jam")) {
         None => None,
         Some(Some("")) => Some(When::HalfWay),
@@ -137,13 +142,14 @@ impl Record {
         out.write_with(|out| self.write_record(out, &ride, &upright))?;
         truth.write_with(|out| write_truth(out, &ride))?;
         print(&format!(
-            "{}  {} samples, {:.1} s at {} Hz\n{}  {} trips\n",
+            "{}  {} samples, {:.1} s at {} Hz\n{}  {} trip{}\n",
             out.path().display(),
             ride.samples(),
             ride.duration(),
             ride.rate(),
             truth.path().display(),
             ride.trips().len(),
+            if ride.trips().len() == 1 { "" } else { "s" },
         ))?;
         Ok(ExitCode::SUCCESS)
     }
@@ -157,6 +163,12 @@ impl Record {
         let trips = (1..).zip(requests).map(trip);
         let trips = trips.collect::<anyhow::Result<Vec<Trip>>>()?;
         let rests = match self.rests[..] {
+            [_, _, ..] if self.still => {
+                return Err(anyhow!(
+                    "--still is one rest, got {} (give --rest once)",
+                    self.rests.len()
+                ));
+            }
             [rest] => vec![rest; trips.len() + 1],
             _ => self.rests.clone(),
         };
@@ -197,9 +209,13 @@ impl Record {
             ..Pickup::white(self.sigma)
         };
         let pickup = pickup.checked().context("sensor")?;
-        let quantum = self.step.map(|step| step / self.sigma);
-        let digitiser = Digitiser::new(quantum, None);
-        let digitiser = digitiser.context("--step, in units of --sigma")?;
+        let in_sigma = self.step.map(|step| step / self.sigma);
+        let digitiser = Digitiser::new(in_sigma, None).map_err(|_| {
+            anyhow!(
+                "--step must lie in [1e-9, 1e9] times --sigma, got {} (leave it out for no steps)",
+                self.step.unwrap_or_default()
+            )
+        })?;
         Ok(Pickup {
             digitiser,
             ..pickup

@@ -123,8 +123,6 @@ fn bad_flags_get_sentences() {
         "up",
         "up:",
         "up:x",
-        "up:0",
-        "up:-3",
         "left:3",
         "up:3:stop",
         "up:3:jam@x",
@@ -134,6 +132,14 @@ fn bad_flags_get_sentences() {
         assert!(
             err.contains("a trip reads up:METRES or down:METRES"),
             "{trip}: {err}"
+        );
+    }
+    for metres in ["0", "-3", "inf", "nan"] {
+        let err = refused(&["--trip", &format!("up:{metres}")]);
+        assert!(
+            err.to_lowercase()
+                .contains(&format!("metres must be positive, got {metres}")),
+            "{err}"
         );
     }
     for (flags, sentence) in [
@@ -166,7 +172,11 @@ fn bad_flags_get_sentences() {
         (&["--vibration=-1"], "vibration must be zero or positive"),
         (
             &["--step", "0"],
-            "--step, in units of --sigma: quantum must lie in",
+            "--step must lie in [1e-9, 1e9] times --sigma, got 0",
+        ),
+        (
+            &["--still", "--rest", "3", "--rest", "4"],
+            "--still is one rest, got 2 (give --rest once)",
         ),
         (&["--still", "--trip", "up:3"], "cannot be used with"),
         (&["--out", "ride"], "cannot be used multiple times"),
