@@ -4,8 +4,9 @@ use super::output::Output;
 use super::{Failure, Outcome, print};
 use anyhow::{Context, anyhow};
 use clap::Args;
+use liftsim::signal::recording::GRAVITY;
 use liftsim::signal::{
-    Digitiser, Drive, Ending, Experiment, Pickup, Ride, Trip, write_phyphox, write_truth,
+    Digitiser, Drive, Ending, ExportLayout, Pickup, Ride, Trip, write_phyphox, write_truth,
 };
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -90,8 +91,6 @@ enum When {
     /// s from the start.
     After(f64),
 }
-
-const GRAVITY: f64 = 9.80665;
 
 /// `up:12`, `down:7.5`, `up:30:jam`, `up:30:jam@9`.
 fn request(text: &str) -> Result<Request, String> {
@@ -230,10 +229,10 @@ impl Record {
         };
         let axis = |pickup: &Pickup, index| ride.simulate(pickup, self.seed, index).record;
         let (x, y, z) = (axis(&level, 1), axis(&level, 2), axis(upright, 0));
-        let experiment = match self.with_gravity {
-            true => Experiment::WithGravity,
-            false => Experiment::Linear,
+        let layout = match self.with_gravity {
+            true => ExportLayout::WithGravity,
+            false => ExportLayout::Linear,
         };
-        write_phyphox(out, experiment, self.rate, [&x, &y, &z])
+        write_phyphox(out, layout, self.rate, [&x, &y, &z])
     }
 }

@@ -63,7 +63,7 @@ pub use facts::Facts;
 pub use intervals::Gap;
 pub use layout::Format;
 pub use line_reader::{LineError, LineReader, LineReading};
-pub use reading::{Reading, TimeUnit, Unit, UnitError, UnknownName};
+pub use reading::{GRAVITY, Reading, TimeUnit, Unit, UnitError, UnknownName};
 pub use series::Sample;
 pub use vertical::{Direction, Reason, Vertical};
 pub use warning::Warning;

@@ -100,7 +100,7 @@ impl fmt::Display for TimeUnit {
 }
 
 /// Standard gravity, m/s².
-pub(super) const GRAVITY: f64 = 9.80665;
+pub const GRAVITY: f64 = 9.80665;
 
 /// What acceleration is counted in.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
