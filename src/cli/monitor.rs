@@ -94,7 +94,13 @@ impl MonitorCommand {
                 "note: the saved state says that the cage stands as the samples begin (--begins unknown if it may not)"
             );
         }
-        let design = briefing.design().map_err(Failure::input)?;
+        let design = match known_rate {
+            Some(_) => briefing.design().map_err(Failure::input)?,
+            None => (briefing
+                .design()
+                .context("standard input, whose times must be in s"))
+            .map_err(Failure::Input)?,
+        };
         let mut monitor = Monitor::new(design, briefing.knowledge);
         let mut out = Reports::new();
         if let Some((sample, _)) = first.first() {
@@ -167,7 +173,7 @@ impl<R: io::BufRead> Readings<R> {
         }
         if first.is_empty() {
             return Err(Failure::Input(anyhow!(
-                "standard input: is empty (does the sensor send anything?)"
+                "standard input: holds no reading (does the sensor send anything?)"
             )));
         }
         let mut intervals: Vec<f64> = (first.windows(2))

@@ -167,7 +167,8 @@ impl Doubt {
             self.calm_since = scene.now;
         }
         let calm = scene.now - self.calm_since;
-        if scene.calm_is_rest && calm >= scene.reference_length() {
+        let still_stands = scene.begins_at_rest && self.pulses == [None; 2];
+        if (scene.calm_is_rest || still_stands) && calm >= scene.reference_length() {
             let seen = self.calm_since.saturating_sub(scene.scale_length());
             return (Cage::Rest, scene.starts(seen), None);
         }
@@ -293,7 +294,9 @@ impl Motion {
             self.calm + 1
         };
         self.looks_like_rest |= self.calm >= scene.reference_length();
-        if let Some(pulse) = scene.ended(self.sign)
+        // A pulse that a braking cut short ends only now, and has been counted.
+        let is_new = |pulse: &Pulse| self.first.is_none_or(|first| pulse.onset >= first.end);
+        if let Some(pulse) = scene.ended(self.sign).filter(is_new)
             && pulse.speed >= scene.least_speed() / 2.0
         {
             self.speed += pulse.speed;

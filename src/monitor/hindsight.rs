@@ -10,7 +10,7 @@ use super::event::{Event, Kind, State};
 use super::pulse::is_level;
 use super::reference::Reference;
 use super::settings::{Design, LEAST_TRAINING, MOST_ORDER};
-use super::{Knowledge, Monitor};
+use super::{Knowledge, Monitor, longest_gap};
 use crate::signal::Phase;
 use crate::signal::recording::Sample;
 
@@ -58,6 +58,8 @@ struct Windows {
     design: Design,
     blocks: Blocks,
     open: Window,
+    /// When the last sample was taken, s.
+    last: f64,
     /// Blocks in a window.
     length: usize,
     kept: Vec<Window>,
@@ -110,6 +112,7 @@ impl Windows {
         Self {
             blocks: Blocks::new(design.samples.decimation()),
             open: Window::default(),
+            last: f64::INFINITY,
             length: SHORTEST_WINDOW.max((WINDOW / design.block).round() as usize),
             design: design.clone(),
             kept: Vec::new(),
@@ -119,6 +122,11 @@ impl Windows {
     }
 
     fn step(&mut self, sample: Sample) {
+        if sample.time - self.last > longest_gap(&self.design) {
+            self.blocks.clear();
+            self.open = Window::default();
+        }
+        self.last = sample.time;
         let Some((times, mean)) = self.blocks.step(sample) else {
             return;
         };

@@ -58,7 +58,7 @@ use blocks::Blocks;
 use cage::Cage;
 use history::{History, Span};
 use judge::{Judge, Places};
-use pulse::{Cusum, is_level};
+use pulse::{Cusum, Pulse, is_level};
 use scene::Scene;
 use serde::{Deserialize, Serialize};
 
@@ -117,8 +117,10 @@ pub struct Monitor {
     events: Vec<Event>,
 }
 
-/// A longer silence, s or blocks, may hide a start.
-const LONGEST_GAP: (f64, f64) = (0.5, 3.0);
+/// A longer silence, s, may hide a start: half a second or three blocks.
+fn longest_gap(design: &Design) -> f64 {
+    f64::max(0.5, 3.0 * design.block)
+}
 
 /// The longest pulse that a decision backwards looks past, s.
 const LONGEST_PULSE: f64 = 10.0;
@@ -192,7 +194,7 @@ impl Monitor {
     pub fn step(&mut self, sample: Sample, drum_turns: Option<bool>) -> &[Event] {
         self.events.clear();
         self.newest = None;
-        if sample.time - self.last > LONGEST_GAP.0.max(LONGEST_GAP.1 * self.design.block) {
+        if sample.time - self.last > longest_gap(&self.design) {
             self.lose_track(sample.time);
         }
         self.last = sample.time;
@@ -241,7 +243,8 @@ impl Monitor {
                     design: &self.design,
                     history: &self.history,
                     reference,
-                    calm_is_rest: self.is_rest && (self.motion_shows || self.begins_at_rest),
+                    calm_is_rest: self.is_rest && self.motion_shows,
+                    begins_at_rest: self.is_rest && self.begins_at_rest,
                     judge: &mut self.judge,
                     cusums: &self.cusums,
                     ended,
@@ -282,14 +285,15 @@ impl Monitor {
         if now < self.learns_from + needed + lag || self.cage.state().moves() {
             return;
         }
-        let is_still = self.cusums.iter().all(|cusum| cusum.pulse().is_none());
         let stands = self.cage == Cage::Rest;
         let blocks = now - lag - needed..now - lag;
-        let Some(record) = self
-            .history
-            .means(blocks.clone())
-            .filter(|_| is_still || !stands)
-        else {
+        // While nothing is known, the level may be wrong and an old pulse without end.
+        let may_be_start = |pulse: &Pulse| stands || pulse.onset >= blocks.start;
+        let mut pulses = self.cusums.iter().filter_map(Cusum::pulse);
+        if pulses.any(may_be_start) {
+            return;
+        }
+        let Some(record) = self.history.means(blocks.clone()) else {
             return;
         };
         // Not at every block, if this record is none to learn from.
@@ -311,7 +315,8 @@ impl Monitor {
         }
         self.history.whiten(&learnt);
         self.reference = Some(learnt);
-        self.is_rest = stands || self.begins_at_rest;
+        // What is known of the beginning is known of no other record.
+        self.is_rest = stands || (self.begins_at_rest && blocks.start == 0);
         self.learns_from = now;
         self.cusums.iter_mut().for_each(Cusum::reset);
     }

@@ -15,6 +15,8 @@ pub(super) struct Scene<'a> {
     pub reference: &'a Reference,
     /// Whether blocks like the reference are evidence of rest.
     pub calm_is_rest: bool,
+    /// Whether they are as long as no pulse has been seen.
+    pub begins_at_rest: bool,
     pub judge: &'a mut Judge,
     pub cusums: &'a [Cusum; 2],
     /// Pulses that the newest block has ended.
