@@ -32,8 +32,8 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | 0 | [`rng`]: coordinates → generator · [`binomial`], [`chi_squared`]: exact tails · [`numeral`]: numbers in print · [`lanes`]: trials side by side |
-//! | 1 | [`tally`]: counts and what may be concluded from them · [`ledger`]: which trials have been counted |
+//! | 0 | [`rng`]: coordinates → generator · [`binomial`], [`chi_squared`]: exact tails · [`bisect`] · [`numeral`]: numbers in print · [`lanes`]: trials side by side |
+//! | 1 | [`tally`], [`poisson`], [`quantile`]: counts and what may be concluded from them · [`ledger`]: which trials have been counted |
 //! | 2 | [`signal`]: sensor, noise, impulses, motion, rides · [`whiten`]: filters · [`detect`]: W, T, their laws, regions |
 //! | 3 | [`chain`]: one trial, every stage · [`monitor`]: one lift, sample by sample |
 //! | 4 | [`config`]: what the author wrote · [`ensemble`]: blocks of trials in parallel · [`detection`]: what a monitor finds in a recording |
@@ -74,6 +74,7 @@
 #![warn(missing_docs)]
 
 pub mod binomial;
+pub mod bisect;
 pub mod campaign;
 pub mod chain;
 pub mod chi_squared;
@@ -91,6 +92,8 @@ pub mod monitor;
 pub mod numeral;
 pub mod pilot;
 pub mod plan;
+pub mod poisson;
+pub mod quantile;
 pub mod report;
 pub mod results;
 pub mod rng;

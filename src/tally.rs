@@ -9,6 +9,7 @@
 //! [^2]: S. Holm, "A simple sequentially rejective multiple test procedure", 1979.
 
 use crate::binomial;
+use crate::bisect::bisect;
 
 /// More trials than anyone can run; the exact tails take time that grows with their root.
 pub const MOST_TRIALS: u64 = 100_000_000_000;
@@ -104,21 +105,6 @@ pub fn holm(p_values: &[f64], level: f64) -> Vec<bool> {
         rejected[index] = true;
     }
     rejected
-}
-
-/// The boundary in [`low`, `high`] below which `inside` holds, to twelve digits.
-fn bisect(mut low: f64, mut high: f64, inside: impl Fn(f64) -> bool) -> f64 {
-    loop {
-        let middle = low + (high - low) / 2.0;
-        if high - low <= 1e-12 * high {
-            return middle;
-        }
-        if inside(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
 }
 
 #[cfg(test)]

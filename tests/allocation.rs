@@ -1,9 +1,12 @@
-//! No allocation inside a trial: a block of many trials allocates as often as a block of one.
+//! No allocation inside a trial: a block of many trials allocates as often as a block of one. And a monitor
+//! holds as much memory after a day as after a minute.
 
 use liftsim::chain::{Observation, Trial};
 use liftsim::config::Config;
+use liftsim::monitor::{Knowledge, Monitor, Settings};
 use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
+use liftsim::signal::recording::Sample;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -12,6 +15,12 @@ struct Counting;
 thread_local! {
     // Of this thread alone: the test harness allocates on its own when it likes.
     static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
+    static HELD: Cell<i64> = const { Cell::new(0) };
+}
+
+/// Bytes that this thread has taken and not given back.
+fn held() -> i64 {
+    HELD.with(Cell::get)
 }
 
 fn allocations() -> u64 {
@@ -23,11 +32,13 @@ unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         // A thread that is ending counts no more.
         let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
+        let _ = HELD.try_with(|bytes| bytes.set(bytes.get() + layout.size() as i64));
         // SAFETY: the caller keeps `alloc`'s contract.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        let _ = HELD.try_with(|bytes| bytes.set(bytes.get() - layout.size() as i64));
         // SAFETY: the caller keeps `dealloc`'s contract.
         unsafe { System.dealloc(pointer, layout) }
     }
@@ -85,4 +96,36 @@ fn trials_do_not_allocate() {
         };
         assert_eq!(allocations_of(1), allocations_of(500));
     }
+}
+
+/// Rests, rides and learning from each rest: a minute of them again and again.
+#[test]
+fn a_monitor_does_not_grow() {
+    let acceleration = |i: u32| match i % 6000 {
+        2000..2200 | 4200..4400 => 0.5,
+        3200..3400 | 5400..5600 => -0.5,
+        _ => 0.0,
+    };
+    // Noise that differs from minute to minute.
+    let noise = |i: u32| f64::from(i.wrapping_mul(2_654_435_761) >> 16) * 3e-7;
+    let knowledge = Knowledge {
+        begins_at_rest: true,
+        ..Knowledge::default()
+    };
+    let mut monitor = Monitor::new(Settings::default().at(100.0).unwrap(), knowledge);
+    let (mut events, mut held_at) = (0, Vec::new());
+    for i in 0..2_000_000 {
+        let sample = Sample {
+            time: f64::from(i) / 100.0,
+            acceleration: acceleration(i) + noise(i),
+        };
+        events += monitor.step(sample, None).len();
+        if i == 30_000 || i == 1_999_999 {
+            held_at.push(held());
+        }
+    }
+    println!("{events} events, {held_at:?} bytes held after 5 minutes and after 5.5 hours");
+    assert!(events > 2000);
+    // The filter's order may differ from rest to rest.
+    assert!((held_at[1] - held_at[0]).abs() < 1024, "{held_at:?}");
 }

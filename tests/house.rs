@@ -6,8 +6,15 @@ use std::path::{Path, PathBuf};
 
 /// Each module of the library and its floor.
 const FLOORS: [&[&str]; 9] = [
-    &["rng", "binomial", "chi_squared", "numeral", "lanes"],
-    &["tally", "ledger"],
+    &[
+        "rng",
+        "binomial",
+        "chi_squared",
+        "bisect",
+        "numeral",
+        "lanes",
+    ],
+    &["tally", "poisson", "quantile", "ledger"],
     &["signal", "whiten", "detect"],
     &["chain", "monitor"],
     &["config", "ensemble", "detection"],

@@ -1,11 +1,13 @@
 //! `liftsim detect RECORDING`: rest, rides and what decided them, in a recording.
 
 use super::found::Found;
+use super::progress;
 use super::reading::ReadingArguments;
 use super::watch::{Told, Watch, check_strength};
 use super::{Failure, Outcome, print};
 use anyhow::{Context, anyhow};
 use clap::Args;
+use indicatif::ProgressBar;
 use liftsim::detection::Detection;
 use liftsim::figure::{self, FigureError};
 use liftsim::monitor::{Briefing, Design, Knowledge};
@@ -60,11 +62,6 @@ impl Detect {
         let Told { config, briefing } = self.watch.told()?;
         let reading = self.reading.over(config.reading)?;
         let recording = Recording::open(&self.recording, &reading).map_err(Failure::input)?;
-        let warn = |warning: &str| {
-            if !quiet {
-                eprintln!("warning: {warning}");
-            }
-        };
         let named = || self.recording.display().to_string();
         let facts = recording.facts();
         check_strength(facts.least)
@@ -72,8 +69,10 @@ impl Detect {
             .with_context(named)
             .map_err(Failure::Input)?;
         for warning in recording.warnings() {
-            warn(&warning.to_string());
+            eprintln!("warning: {warning}");
         }
+        let passes = if briefing.is_some() { 1 } else { 3 };
+        let bar = progress::passes(passes * recording.facts().samples, !quiet);
         let briefing = match briefing {
             Some(briefing) => briefing,
             None => {
@@ -81,7 +80,7 @@ impl Detect {
                 let design = config.settings.at(rate).with_context(named);
                 let design = design.map_err(Failure::Input)?;
                 Briefing {
-                    knowledge: learn(&design, &recording, &self.recording)?,
+                    knowledge: learn(&design, &recording, &self.recording, &bar)?,
                     settings: config.settings,
                     rate,
                 }
@@ -89,15 +88,17 @@ impl Detect {
         };
         let design = briefing.design().map_err(Failure::input)?;
         let samples = recording.samples().map_err(Failure::input)?;
-        let detection =
-            Detection::of(&design, briefing.knowledge.clone(), samples).map_err(Failure::input)?;
+        let samples = progress::seen(samples, &bar);
+        let detection = Detection::of(&design, briefing.knowledge.clone(), samples);
+        bar.finish_and_clear();
+        let detection = detection.map_err(Failure::input)?;
         let found = Found {
             path: &self.recording,
             recording: &recording,
             detection: &detection,
         };
         for warning in found.warnings() {
-            warn(&warning);
+            eprintln!("warning: {warning}");
         }
         let drawn = (self.figure.as_ref()).map(|_| figure::detection(&detection, &found.name()));
         let drawn = drawn.transpose().map_err(|error| match error {
@@ -143,8 +144,14 @@ impl Detect {
     }
 }
 
-fn learn(design: &Design, recording: &Recording, path: &Path) -> Result<Knowledge, Failure> {
-    let learnt = Knowledge::from_record(design, || recording.samples());
+fn learn(
+    design: &Design,
+    recording: &Recording,
+    path: &Path,
+    bar: &ProgressBar,
+) -> Result<Knowledge, Failure> {
+    let pass = || Ok(progress::seen(recording.samples()?, bar));
+    let learnt = Knowledge::from_record(design, pass);
     learnt
         .map_err(Failure::input)?
         .with_context(|| path.display().to_string())

@@ -2,7 +2,7 @@
 
 use super::table;
 use liftsim::detection::{Detection, Ride};
-use liftsim::monitor::Decision;
+use liftsim::monitor::{Decision, Kind};
 use liftsim::signal::recording::Recording;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -181,7 +181,26 @@ impl Found<'_> {
             "speed",
             "ended by",
         ];
-        table(&header, &rows) + "times in s of the recording's clock, speed in m/s\n"
+        table(&header, &rows)
+            + "times in s of the recording's clock, speed in m/s\n"
+            + &self.alarms()
+    }
+
+    fn alarms(&self) -> String {
+        let alarms = self
+            .detection
+            .events
+            .iter()
+            .filter_map(|event| match event.kind {
+                Kind::Alarm(alarm) => Some(format!(
+                    "\nALARM: {} at {:.2} s, known at {:.2} s\n",
+                    alarm.name(),
+                    event.time,
+                    event.reported
+                )),
+                Kind::Change { .. } => None,
+            });
+        alarms.collect()
     }
 
     fn decisions(&self) -> String {

@@ -110,7 +110,7 @@ impl Arguments {
             Command::Replay(verb) => verb.run(),
             Command::Record(verb) => verb.run(),
             Command::Detect(verb) => verb.run(self.quiet),
-            Command::Monitor(verb) => verb.run(self.quiet),
+            Command::Monitor(verb) => verb.run(),
             Command::Completions(verb) => verb.run(),
             Command::Man(verb) => verb.run(),
         }

@@ -63,7 +63,7 @@ type Reading = (Sample, Option<bool>);
 
 impl MonitorCommand {
     /// Runs the command.
-    pub fn run(self, quiet: bool) -> Outcome {
+    pub fn run(self) -> Outcome {
         let Told { config, briefing } = self.watch.told()?;
         let input = BufReader::with_capacity(1 << 16, io::stdin().lock());
         let mut readings = Readings {
@@ -75,7 +75,6 @@ impl MonitorCommand {
             last: None,
             count: 0,
             keeps_going: self.keep_going,
-            is_quiet: quiet,
         };
         let known_rate = self
             .rate
@@ -89,7 +88,7 @@ impl MonitorCommand {
         briefing.rate = rate;
         if let Some(begins) = self.begins {
             briefing.knowledge.begins_at_rest = begins == Beginning::Rest;
-        } else if briefing.knowledge.begins_at_rest && !quiet {
+        } else if briefing.knowledge.begins_at_rest {
             eprintln!(
                 "note: the saved state says that the cage stands as the samples begin (--begins unknown if it may not)"
             );
@@ -154,7 +153,6 @@ struct Readings<R> {
     last: Option<f64>,
     count: u64,
     keeps_going: bool,
-    is_quiet: bool,
 }
 
 impl<R: io::BufRead> Readings<R> {
@@ -254,9 +252,7 @@ impl<R: io::BufRead> Readings<R> {
     }
 
     fn warn(&self, words: &str) {
-        if !self.is_quiet {
-            eprintln!("warning: {words}");
-        }
+        eprintln!("warning: {words}");
     }
 }
 

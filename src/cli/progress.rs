@@ -210,3 +210,26 @@ fn bar(prefix: &str, name: &'static str, work: u64, trials: u64, is_shown: bool)
     let bar = ProgressBar::with_draw_target(Some(work), target).with_style(style);
     bar.with_prefix(prefix.to_owned()).with_message(name)
 }
+
+/// A bar for passes over a recording, so many samples in all; see [`seen`].
+pub fn passes(samples: u64, is_shown: bool) -> ProgressBar {
+    let style = ProgressStyle::with_template("reading {bar:32} {percent:>3} %, {eta} left")
+        .expect("the template is fixed");
+    let target = match is_shown {
+        true => ProgressDrawTarget::stderr_with_hz(5),
+        false => ProgressDrawTarget::hidden(),
+    };
+    ProgressBar::with_draw_target(Some(samples), target).with_style(style)
+}
+
+/// The same items, told to a bar every so often.
+pub fn seen<T>(items: impl Iterator<Item = T>, bar: &ProgressBar) -> impl Iterator<Item = T> {
+    const EVERY: u64 = 1 << 16;
+    let mut count = 0;
+    items.inspect(move |_| {
+        count += 1;
+        if count % EVERY == 0 {
+            bar.inc(EVERY);
+        }
+    })
+}

@@ -1,5 +1,6 @@
 //! The x axis: one parameter and the values it takes.
 
+use super::drawing::Refused;
 use super::error::{Problem, Refusal, nearest};
 use super::file::{AxisTable, Sections};
 use super::value::Number;
@@ -103,6 +104,11 @@ pub struct Axis {
 const MOST_POINTS: usize = 10_000;
 
 impl AxisValue {
+    /// As the file has it.
+    pub(super) fn written(&self) -> &Value {
+        &self.value
+    }
+
     /// The number, where it is one.
     pub fn number(&self) -> Option<f64> {
         match self.value {
@@ -126,25 +132,14 @@ impl fmt::Display for AxisValue {
 }
 
 impl Axis {
-    pub(super) fn new(table: &AxisTable) -> Result<Self, (Option<Range<usize>>, Problem)> {
-        let entries = table.get_ref();
-        if entries.len() != 1 {
-            // The second key is the one too many.
-            let span = entries.keys().nth(1).map_or(table.span(), Spanned::span);
-            return Err((Some(span), Problem::AxisKeys(entries.len())));
-        }
-        let (key, value) = entries.iter().next().expect("one entry");
-        let known = || Parameter::ALL.iter().map(|(name, _)| *name);
+    pub(super) fn new(table: &AxisTable) -> Result<Self, Refused> {
+        let (key, value) = only(table)?;
+        let known = Parameter::ALL.iter().map(|(name, _)| *name);
         let Some(&(name, parameter)) = Parameter::ALL
             .iter()
             .find(|(name, _)| name == key.get_ref())
         else {
-            let problem = Problem::UnknownParameter {
-                got: key.get_ref().clone(),
-                hint: nearest(key.get_ref(), known()),
-                known: known().collect::<Vec<_>>().join(", "),
-            };
-            return Err((Some(key.span()), problem));
+            return Err(unknown(key, known));
         };
         let span = value.span();
         match values(name, value.get_ref()) {
@@ -176,6 +171,32 @@ impl Axis {
     }
 }
 
+/// The one key of an axis and what stands there.
+pub(super) fn only(table: &AxisTable) -> Result<(&Spanned<String>, &Spanned<Value>), Refused> {
+    let entries = table.get_ref();
+    match entries.iter().next() {
+        Some(entry) if entries.len() == 1 => Ok(entry),
+        _ => {
+            // The second key is the one too many.
+            let span = entries.keys().nth(1).map_or(table.span(), Spanned::span);
+            Err((Some(span), Problem::AxisKeys(entries.len())))
+        }
+    }
+}
+
+/// An axis that is none of the `known` names.
+pub(super) fn unknown(
+    key: &Spanned<String>,
+    known: impl Iterator<Item = &'static str> + Clone,
+) -> Refused {
+    let problem = Problem::UnknownParameter {
+        got: key.get_ref().clone(),
+        hint: nearest(key.get_ref(), known.clone()),
+        known: known.collect::<Vec<_>>().join(", "),
+    };
+    (Some(key.span()), problem)
+}
+
 /// `{ from, to, step }`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -186,7 +207,7 @@ struct Steps {
 }
 
 /// The values of a list, or of a range.
-fn values(name: &'static str, value: &Value) -> Result<Vec<AxisValue>, Problem> {
+pub(super) fn values(name: &'static str, value: &Value) -> Result<Vec<AxisValue>, Problem> {
     let values: Vec<Value> = match value {
         Value::Array(list) => list.clone(),
         Value::Table(_) => {

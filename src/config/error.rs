@@ -2,6 +2,7 @@
 
 use super::MOST_PILOT_TRIALS;
 use super::claim::ClaimProblem;
+use super::ride::RideProblem;
 use crate::chain::RecordTooLong;
 use crate::detect::{RegionError, SamplesError};
 use crate::monitor::SettingsError;
@@ -277,6 +278,9 @@ pub enum Problem {
     /// A record that does not fit in memory.
     #[error("samples: {0}")]
     Record(#[from] RecordTooLong),
+    /// Rides that cannot be made or watched.
+    #[error("ride: {0}")]
+    Ride(#[from] RideProblem),
     /// A claim that cannot be tested.
     #[error("{0}")]
     Claim(#[from] ClaimProblem),

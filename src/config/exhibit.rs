@@ -3,6 +3,7 @@
 use super::drawing::{self, Refused};
 use super::error::{ConfigError, Problem, Source};
 use super::file::{File, Sections};
+use super::ride::{self, RideStudy};
 use super::trace::{self, Trace};
 use super::value::Whole;
 use super::{Config, Narrative};
@@ -75,6 +76,8 @@ pub enum ExhibitKind {
     },
     /// The Δ/σ_ξ at which the power reaches a value.
     OperatingPoint(Search),
+    /// Whole rides before the monitor.
+    Ride(RideStudy),
 }
 
 /// The powers looked for, and where.
@@ -194,6 +197,7 @@ impl File {
             Asked::new("independence", &self.independence, drawing::sizes),
             Asked::new("impulse_law", &self.impulse_law, drawing::impulse_law),
             Asked::new("operating_point", &self.operating_point, drawing::search),
+            Asked::new("ride", &self.ride, ride::study),
         ];
         all.into_iter().flatten().collect()
     }
@@ -311,7 +315,7 @@ impl ExhibitConfig {
 
 impl ExhibitKind {
     /// The names of the tables.
-    pub const NAMES: [&'static str; 7] = [
+    pub const NAMES: [&'static str; 8] = [
         "autocorrelation",
         "trace",
         "layout",
@@ -319,6 +323,7 @@ impl ExhibitKind {
         "independence",
         "impulse_law",
         "operating_point",
+        "ride",
     ];
 
     /// The name of its table.
@@ -331,6 +336,7 @@ impl ExhibitKind {
             Self::Independence { .. } => 4,
             Self::ImpulseLaw { .. } => 5,
             Self::OperatingPoint(_) => 6,
+            Self::Ride(_) => 7,
         };
         Self::NAMES[index]
     }
@@ -339,7 +345,10 @@ impl ExhibitKind {
     pub fn has_trials(&self) -> bool {
         matches!(
             self,
-            Self::Autocorrelation { .. } | Self::ImpulseLaw { .. } | Self::OperatingPoint(_)
+            Self::Autocorrelation { .. }
+                | Self::ImpulseLaw { .. }
+                | Self::OperatingPoint(_)
+                | Self::Ride(_)
         )
     }
 
@@ -370,7 +379,7 @@ impl ExhibitKind {
                 "detector" => key != "calibrate",
                 _ => true,
             },
-            Self::Independence { .. } | Self::ImpulseLaw { .. } => false,
+            Self::Independence { .. } | Self::ImpulseLaw { .. } | Self::Ride(_) => false,
         }
     }
 

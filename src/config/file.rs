@@ -6,6 +6,7 @@ use super::drawing::{
     RegionTable,
 };
 use super::error::{ConfigError, Source};
+use super::ride::RideTable;
 use super::story::{ClaimTable, Story};
 use super::trace::TraceTable;
 use super::value::{Critical, Number, Whole};
@@ -29,7 +30,7 @@ macro_rules! section {
 
         impl $name {
             /// This section where it says something, `base` where it does not.
-            fn over(&self, base: &Self) -> Self {
+            pub fn over(&self, base: &Self) -> Self {
                 Self { $($key: self.$key.clone().or_else(|| base.$key.clone())),* }
             }
 
@@ -51,7 +52,7 @@ macro_rules! section {
             }
 
             /// The keys that are written, each with the place of its value.
-            fn written(&self) -> Vec<(&'static str, Range<usize>)> {
+            pub fn written(&self) -> Vec<(&'static str, Range<usize>)> {
                 let keys = [$((stringify!($key), self.span(stringify!($key)))),*];
                 keys.into_iter().filter_map(|(key, span)| Some((key, span?))).collect()
             }
@@ -66,6 +67,7 @@ macro_rules! section {
         }
     };
 }
+pub(super) use section;
 
 section! {
     /// `[sensor]`, exactly one of its keys.
@@ -229,6 +231,7 @@ all_sections! { with_sections
         independence: Option<Spanned<IndependenceTable>>,
         impulse_law: Option<Spanned<ImpulseLawTable>>,
         operating_point: Option<Spanned<OperatingPointTable>>,
+        ride: Option<Spanned<RideTable>>,
         #[serde(default)]
         curve: Vec<CurveTable>,
         title: Option<Spanned<String>>,

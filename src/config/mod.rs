@@ -12,6 +12,7 @@ mod error;
 mod exhibit;
 mod file;
 mod resolve;
+mod ride;
 mod story;
 #[cfg(test)]
 mod tests;
@@ -23,6 +24,7 @@ pub use axis::{Axis, AxisValue, Parameter};
 pub use claim::{Claim, ClaimProblem, Contrast, Contrasts, Narrative, Test};
 pub use error::{ConfigError, Problem};
 pub use exhibit::{ExhibitConfig, ExhibitKind, Experiment, Search};
+pub use ride::{Measure, RideCurve, RidePoint, RideProblem, RideStudy};
 pub use trace::{Part, Trace};
 pub use watch::WatchConfig;
 

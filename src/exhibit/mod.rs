@@ -11,6 +11,7 @@ pub mod layout;
 mod normal;
 pub mod operating_point;
 pub mod region;
+pub mod ride;
 pub mod trace;
 
 use crate::config::{ConfigError, ExhibitConfig, ExhibitKind};
@@ -43,6 +44,8 @@ pub enum Rows {
     ImpulseLaw(Vec<impulse_law::Row>),
     /// One per size and power.
     OperatingPoint(Vec<operating_point::Row>),
+    /// One per curve, value of the axis and outcome.
+    Ride(Vec<ride::Row>),
 }
 
 /// Computes an exhibit on the current thread pool.
@@ -82,6 +85,11 @@ pub fn compute(config: &ExhibitConfig) -> Result<Exhibit, ConfigError> {
             let quantities = operating_point::quantities(&rows);
             (Rows::OperatingPoint(rows), quantities)
         }
+        ExhibitKind::Ride(study) => {
+            let rows = ride::rows(config, study);
+            let quantities = ride::quantities(study, &rows);
+            (Rows::Ride(rows), quantities)
+        }
     };
     Ok(Exhibit { rows, quantities })
 }
@@ -97,6 +105,7 @@ impl Rows {
             Self::Independence(rows) => csv_bytes(rows),
             Self::ImpulseLaw(rows) => csv_bytes(rows),
             Self::OperatingPoint(rows) => csv_bytes(rows),
+            Self::Ride(rows) => csv_bytes(rows),
         }
     }
 
@@ -116,6 +125,7 @@ impl Rows {
             ExhibitKind::Independence { .. } => read(bytes).map(Self::Independence),
             ExhibitKind::ImpulseLaw { .. } => read(bytes).map(Self::ImpulseLaw),
             ExhibitKind::OperatingPoint(_) => read(bytes).map(Self::OperatingPoint),
+            ExhibitKind::Ride(_) => read(bytes).map(Self::Ride),
         }
     }
 
@@ -129,6 +139,7 @@ impl Rows {
             Self::Independence(rows) => rows.len(),
             Self::ImpulseLaw(rows) => rows.len(),
             Self::OperatingPoint(rows) => rows.len(),
+            Self::Ride(rows) => rows.len(),
         }
     }
 

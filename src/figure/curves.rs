@@ -5,7 +5,7 @@ use super::FigureError;
 use super::frame::{CAPTION_LEFT, CAPTION_STEP, Frame, NORMAL, Scale, WIDTH, draw_caption};
 use super::legend::{Entry, Key, Legend};
 use super::look::Look;
-use super::panel::{Curve, Manner, Panel, Point, rate_scale};
+use super::panel::{Bound, Curve, Manner, Panel, Point, rate_scale};
 use super::ruler::{LONG_RANGE, Ruler};
 use super::sheet::{Picture, Sheet};
 use super::text::{Align, Style};
@@ -99,13 +99,14 @@ impl Curves {
         let manner = Manner {
             is_named: ruler.is_named(),
             is_logarithmic,
+            joins_bounds: true,
             nominal: nominal.map(|alpha| match is_logarithmic {
                 true => libm::log10(alpha),
                 false => alpha,
             }),
         };
         let mut caption = caption(&all, common, axis, manifest, WIDTH - 2.0 * CAPTION_LEFT);
-        if is_logarithmic && points_of(&mut panels).any(|point| point.is_bound) {
+        if is_logarithmic && points_of(&mut panels).any(|point| point.bound.is_some()) {
             caption.push("arrows: upper limits where no trial gave a false alarm".to_owned());
         }
         let places: Vec<f64> = points_of(&mut panels).map(|point| point.x).collect();
@@ -268,8 +269,10 @@ fn points_of(panels: &mut [Panel]) -> impl Iterator<Item = &mut Point> {
 /// Whether the largest rate is so many times the smallest that a linear scale would hide it.
 fn spans_far(panels: &[Panel]) -> bool {
     let curves = || panels.iter().flat_map(|panel| &panel.curves);
-    let shown = |p: &Point| if p.is_bound { p.high } else { p.rate };
-    let rates = || curves().flat_map(|curve| &curve.points).map(shown);
+    let rates = || {
+        let points = curves().flat_map(|curve| &curve.points);
+        points.map(Point::shown)
+    };
     let smallest = rates().fold(f64::INFINITY, f64::min);
     rates().fold(0.0, f64::max) >= LONG_RANGE * smallest
 }
@@ -282,7 +285,7 @@ fn point(x: f64, row: &Row) -> Point {
         rate: row.tally().rate(),
         low,
         high,
-        is_bound: row.detections == 0,
+        bound: (row.detections == 0).then_some(Bound::Upper),
     }
 }
 

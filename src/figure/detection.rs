@@ -11,6 +11,7 @@ use super::text::{Align, Style, literal, text_width};
 use super::words::wrap;
 use crate::detection::{Column, Detection};
 use crate::monitor::{Decision, Kind, State};
+use crate::signal::Phase;
 use plotters::prelude::{BLACK, DrawingBackend, RGBColor};
 
 const PANEL: f64 = 140.0;
@@ -221,25 +222,30 @@ fn sample_colour(index: usize) -> RGBColor {
 }
 
 fn legend() -> Legend {
-    let bar = |index: usize, text: &str| Entry {
+    let entry = |text: &str, colour: RGBColor, dash: &'static [f64], key: Key| Entry {
         text: text.to_owned(),
         look: Look {
-            dash: &[],
-            colour: sample_colour(index),
+            dash,
+            colour,
             ..Look::of(0)
         },
-        key: Key::Line,
+        key,
     };
-    let made = Entry {
-        text: "decision made".to_owned(),
-        look: Look {
-            dash: &[2.0, 2.0],
-            colour: BLACK,
-            ..Look::of(0)
-        },
-        key: Key::Line,
+    let shade = |phase: Phase| {
+        let state = State::Known(phase);
+        entry(state_words(state), state_colour(state), &[], Key::Shade)
     };
-    let entries = vec![bar(0, "X"), bar(1, "Y_1"), bar(2, "Y_2"), made];
+    let sample = |index: usize, name: &str| entry(name, sample_colour(index), &[], Key::Line);
+    let entries = vec![
+        shade(Phase::Accelerating),
+        sample(0, "X"),
+        shade(Phase::Inertial),
+        sample(1, "Y_1"),
+        shade(Phase::Braking),
+        sample(2, "Y_2"),
+        entry("unknown", state_colour(State::Unknown), &[], Key::Shade),
+        entry("decision made", BLACK, &[2.0, 2.0], Key::Line),
+    ];
     Legend::new(entries).spread(WIDTH - 2.0 * CAPTION_LEFT)
 }
 

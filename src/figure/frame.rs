@@ -116,6 +116,14 @@ impl Scale {
         }
     }
 
+    /// Decimal logarithms with as many ticks as there is room for.
+    pub fn decades(from: f64, to: f64) -> Self {
+        match to - from < 2.5 {
+            true => Self::logarithms(from, to),
+            false => Self::powers_of_ten(from, to, 6),
+        }
+    }
+
     /// The same without the words at its ticks.
     pub fn unlabelled(&self) -> Self {
         let ticks = self.ticks.iter().map(|(at, _)| (*at, String::new()));

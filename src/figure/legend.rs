@@ -31,6 +31,7 @@ pub(super) enum Key {
     Marker,
     MarkedLine,
     Line,
+    Shade,
 }
 
 impl Legend {
@@ -106,8 +107,13 @@ impl Legend {
                 Key::Marker => {}
                 Key::MarkedLine => sheet.line(&ends, LINE, colour)?,
                 Key::Line => sheet.dashed(&ends, LINE, colour, look.dash)?,
+                Key::Shade => {
+                    let corners = [(x + 4.0, middle - 3.5), (x + 22.0, middle + 3.5)];
+                    sheet.rectangle(corners[0], corners[1], colour)?;
+                    sheet.outline(corners[0], corners[1], 0.4, BLACK.mix(0.3))?;
+                }
             }
-            if *key != Key::Line {
+            if matches!(key, Key::Marker | Key::MarkedLine) {
                 sheet.marker(look.marker, (x + 13.0, middle), MARKER, look.colour)?;
             }
             let baseline = (x + 27.0, middle + 0.36 * SMALL);

@@ -17,6 +17,7 @@ mod operating_point;
 mod panel;
 mod phases;
 mod region;
+mod ride;
 mod ruler;
 mod sheet;
 mod svg;
@@ -118,6 +119,9 @@ pub fn exhibit(
             &operating_point::Points::new(config, rows, manifest),
             &provenance(manifest),
         ),
+        (Kind::Ride(study), Rows::Ride(rows)) => {
+            sheet::render(&ride::Rides::new(study, rows, manifest), &from)
+        }
         (_, Rows::ImpulseLaw(rows)) => sheet::render(
             &impulse_law::Laws::new(rows, manifest, config.confidence),
             &from,

@@ -29,8 +29,15 @@ pub(super) struct Point {
     pub rate: f64,
     pub low: f64,
     pub high: f64,
-    /// Nothing was counted: on a logarithmic scale the upper limit is drawn.
-    pub is_bound: bool,
+    /// Nothing was counted: on a logarithmic scale this limit is drawn.
+    pub bound: Option<Bound>,
+}
+
+/// A limit that stands for a point, with an arrow to where the truth lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Bound {
+    Upper,
+    Lower,
 }
 
 /// A point where it is drawn, beside those of other curves at the same name.
@@ -46,17 +53,27 @@ pub(super) struct Manner {
     /// The axis holds names, with curves side by side at each.
     pub is_named: bool,
     pub is_logarithmic: bool,
+    /// Lines lead through limits that stand for points.
+    pub joins_bounds: bool,
     /// The level that false-alarm rates are held against.
     pub nominal: Option<f64>,
 }
 
 impl Point {
-    /// A rate of zero has no logarithm: its upper limit stands for it.
+    /// A rate of zero has no logarithm: a limit stands for it.
     pub fn take_logarithms(&mut self) {
-        let rate = if self.is_bound { self.high } else { self.rate };
-        self.rate = libm::log10(rate);
+        self.rate = libm::log10(self.shown());
         self.low = libm::log10(self.low.max(f64::MIN_POSITIVE));
         self.high = libm::log10(self.high);
+    }
+
+    /// What stands for it on a logarithmic scale.
+    pub fn shown(&self) -> f64 {
+        match self.bound {
+            Some(Bound::Upper) => self.high,
+            Some(Bound::Lower) => self.low,
+            None => self.rate,
+        }
     }
 }
 
@@ -101,7 +118,7 @@ impl Panel {
             frame.draw_level(sheet, nominal, &[])?;
         }
         match manner.is_named {
-            false => self.draw_lines(sheet, frame)?,
+            false => self.draw_lines(sheet, frame, manner)?,
             true => self.draw_bars(sheet, frame, manner)?,
         }
         self.draw_markers(sheet, frame, manner)
@@ -111,8 +128,11 @@ impl Panel {
         &self,
         sheet: &Sheet<B>,
         frame: &Frame,
+        manner: Manner,
     ) -> Result<(), FigureError> {
         for Curve { points, look } in &self.curves {
+            let joined = |point: &&Point| manner.joins_bounds || point.bound.is_none();
+            let points: Vec<&Point> = points.iter().filter(joined).collect();
             let upper = points.iter().map(|p| frame.at(p.x, p.high));
             let lower = points.iter().rev().map(|p| frame.at(p.x, p.low));
             let band: Vec<_> = upper.chain(lower).map(|at| within(frame, at)).collect();
@@ -133,7 +153,7 @@ impl Panel {
         // A bound is drawn as an arrow.
         let bars = self
             .marks(manner)
-            .filter(|mark| !(mark.point.is_bound && manner.is_logarithmic));
+            .filter(|mark| !(mark.point.bound.is_some() && manner.is_logarithmic));
         for Mark { look, x, point } in bars {
             let ends = [point.low, point.high].map(|y| within(frame, frame.at(x, y)));
             sheet.line(&ends, LINE, look.colour.to_rgba())?;
@@ -149,9 +169,10 @@ impl Panel {
     ) -> Result<(), FigureError> {
         for Mark { look, x, point } in self.marks(manner) {
             let centre = frame.at(x, point.rate);
-            match point.is_bound && manner.is_logarithmic {
-                true => sheet.arrow_down(centre, 3.0 * MARKER, look.colour)?,
-                false => sheet.marker(look.marker, centre, MARKER, look.colour)?,
+            match point.bound.filter(|_| manner.is_logarithmic) {
+                Some(Bound::Upper) => sheet.arrow(centre, 3.0 * MARKER, look.colour)?,
+                Some(Bound::Lower) => sheet.arrow(centre, -3.0 * MARKER, look.colour)?,
+                None => sheet.marker(look.marker, centre, MARKER, look.colour)?,
             }
         }
         Ok(())
@@ -190,11 +211,7 @@ pub(super) fn rate_scale(panels: &[Panel], is_false_alarm: bool, manner: Manner)
         (true, true) => {
             let rates = || points().map(|p| p.rate).chain(nominal);
             let (bottom, top) = (lowest(&mut rates()), highest(&mut rates()));
-            let (from, to) = (bottom - 0.25, (top + 0.15).min(0.08));
-            match to - from < 2.5 {
-                true => Scale::logarithms(from, to),
-                false => Scale::powers_of_ten(from, to, 6),
-            }
+            Scale::decades(bottom - 0.25, (top + 0.15).min(0.08))
         }
         (true, false) => {
             let bottom = lowest(&mut points().map(|p| p.low).chain(nominal));

@@ -26,12 +26,10 @@ impl<'a> Ruler<'a> {
                 rules.push(row.rule.clone());
             }
         }
-        let values = || config.axis.values.iter().filter_map(|value| value.number());
-        let smallest = values().fold(f64::INFINITY, f64::min);
-        let largest = values().fold(f64::NEG_INFINITY, f64::max);
+        let values = config.axis.values.iter().filter_map(|value| value.number());
         Self {
             config,
-            is_logarithmic: smallest > 0.0 && largest >= LONG_RANGE * smallest,
+            is_logarithmic: is_long(&values.collect::<Vec<_>>()),
             rules,
         }
     }
@@ -71,19 +69,9 @@ impl<'a> Ruler<'a> {
 
     /// From the first place to the last, with a little room on either side.
     pub fn scale(&self, places: &[f64]) -> Scale {
-        let low = places.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let room = 0.025 * (high - low);
-        let scale = match (self.rules.is_empty(), self.is_logarithmic) {
-            (false, _) => return Scale::names(&self.names()),
-            (true, _) if low == high => return Scale::single(low),
-            (true, true) => Scale::logarithms(low, high),
-            (true, false) => Scale::linear(low, high, 7),
-        };
-        Scale {
-            from: low - room,
-            to: high + room,
-            ..scale
+        match self.is_named() {
+            true => Scale::names(&self.names()),
+            false => around(places, self.is_logarithmic),
         }
     }
 
@@ -101,4 +89,34 @@ impl<'a> Ruler<'a> {
         };
         self.rules.iter().map(name).collect()
     }
+}
+
+/// Whether values span so much that their logarithms are drawn.
+pub(super) fn is_long(values: &[f64]) -> bool {
+    let (smallest, largest) = ends(values);
+    smallest > 0.0 && largest >= LONG_RANGE * smallest
+}
+
+/// The scale of numbers, or of their logarithms, with a little room on either side.
+pub(super) fn around(places: &[f64], is_logarithmic: bool) -> Scale {
+    let (low, high) = ends(places);
+    let room = 0.025 * (high - low);
+    let scale = match is_logarithmic {
+        _ if low == high => return Scale::single(low),
+        true => Scale::logarithms(low, high),
+        false => Scale::linear(low, high, 7),
+    };
+    Scale {
+        from: low - room,
+        to: high + room,
+        ..scale
+    }
+}
+
+fn ends(values: &[f64]) -> (f64, f64) {
+    let values = || values.iter().copied();
+    (
+        values().fold(f64::INFINITY, f64::min),
+        values().fold(f64::NEG_INFINITY, f64::max),
+    )
 }

@@ -260,8 +260,8 @@ impl<B: DrawingBackend> Sheet<B> {
         }
     }
 
-    /// An arrow that starts at `from` and points down.
-    pub fn arrow_down(
+    /// An arrow of so many points downwards, or upwards where they are negative.
+    pub fn arrow(
         &self,
         (x, y): (f64, f64),
         length: f64,

@@ -6,13 +6,14 @@
 //! alike, so the state is remembered, and where it was never seen it is unknown.
 //!
 //! # Out of the unknown
-//! Vibration cannot be trusted to tell: people who get in shake a cage more than many a motion does. What tells
-//! is, in this order,
-//! - blocks like the reference of rest, where that is evidence: the motions of this cage
-//!   have been seen to look different, or the record is known to begin at rest;
-//! - a reversal. Of the speeds between pulses every other one is zero. Of three pulses in a row with signs
-//!   + − − the first two cancel out if and only if the cage stood after the second (else it
-//!   would stand with three different speeds), so it moves now; with − − + it stands now;
+//! Vibration cannot be trusted to tell: people who get in shake a cage more than many a motion does. What
+//! tells is, in this order:
+//!
+//! - blocks like the reference of rest, where that is evidence, because the motions of this cage have been
+//!   seen to look different, or the record is known to begin at rest;
+//! - a reversal. Of the speeds between pulses every other one is zero. Of three pulses with signs + − −,
+//!   the first two cancelling out, the cage stood after the second: else it would have stood with two
+//!   different speeds. So it moves now; and with − − + it stands now;
 //! - no pulse for as long as the longest motion takes.
 //!
 //! | state | leaves it when |
@@ -24,8 +25,9 @@
 //! | braking | the pulse has ended and N blocks after it the decision backwards says that it was a stop |
 //!
 //! A pulse stronger than any acceleration of a lift is no start: at rest it is a shock, or, if it lasts,
-//! somebody carrying the sensor. In motion and against it, it is a jam, unless the vibration of motion
-//! goes on after it.
+//! somebody carrying the sensor. In motion and against it, it is a jam if it takes half of the speed, or if
+//! the decision backwards says that the vibration of motion has ended with it (a sensor at its limit does not see all of the
+//! speed go); else it was a shock, and the motion goes on.
 //!
 //! [^1]: see [`crate::signal`].
 
@@ -326,30 +328,36 @@ impl Motion {
         }
     }
 
+    /// N blocks after the last pulse it shows what it was.
     fn stop(self, pulse: &Pulse, scene: &mut Scene, events: &mut Vec<Event>) -> Next {
         if !scene.is_after(pulse) {
             return self.stay(scene);
         }
-        let stopped = scene.ends(pulse.end);
-        let is_late = scene.now > pulse.end + 3 * scene.reference_length();
+        let decision = scene.backward_decision(pulse);
+        let stopped = (Cage::Rest, scene.ends(pulse.end), decision);
         if scene.is_violent(pulse) {
-            if !scene.verdict.moves {
-                events.push(Event {
-                    time: scene.starts(pulse.onset),
-                    reported: scene.time,
-                    kind: Kind::Alarm(Alarm::Jam),
-                });
-                return (Cage::Rest, stopped, None);
+            if decision.is_none() && !self.is_spent(pulse, scene) {
+                return self.on(Leg::Inertial, scene.time);
             }
-            return match is_late {
-                true => self.on(Leg::Inertial, scene.time),
-                false => self.stay(scene),
-            };
+            events.push(Event {
+                time: scene.starts(pulse.onset),
+                reported: scene.time,
+                kind: Kind::Alarm(Alarm::Jam),
+            });
+            return stopped;
         }
-        match scene.backward_decision(pulse) {
-            Some(decision) => (Cage::Rest, stopped, Some(decision)),
+        let is_late = scene.now > pulse.end + 3 * scene.reference_length();
+        match decision {
+            Some(_) => stopped,
             None if is_late => (Cage::unknown(scene.now), scene.time, None),
             None => self.stay(scene),
         }
+    }
+
+    /// Whether a shock has taken half of the speed. One at a joint of the rails takes none: it swings back.
+    fn is_spent(&self, pulse: &Pulse, scene: &Scene) -> bool {
+        let end = pulse.end + scene.blocks(LONGEST_SHOCK).min(scene.reference_length());
+        let change = scene.change_of_speed(pulse.onset..end);
+        change.is_some_and(|change| -self.sign * change > self.speed / 2.0)
     }
 }

@@ -45,6 +45,8 @@ mod pulse;
 mod reference;
 mod scene;
 mod settings;
+#[cfg(test)]
+mod tests;
 
 pub use blocks::STRONGEST;
 pub use briefing::{Briefing, BriefingError};

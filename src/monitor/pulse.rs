@@ -26,14 +26,20 @@ pub struct Pulse {
 
 impl Pulse {
     /// Whether `next` looks like what a high-pass filter makes of the end of this pulse: it follows at once with
-    /// the opposite sign, and both die away instead of ending. The pulses of lifts have their centres
-    /// between 0.40 and 0.55; a decay that is seen until a tenth is left has 0.29.
+    /// the opposite sign and dies away instead of ending. So does a hop of a lift that never moves
+    /// uniformly, but for its shape: the pulses of real lifts have their centres between 0.40 and 0.55, and braking
+    /// takes no longer than starting. Behind a filter with a time constant from 0.5 to 4 s the second pulse has
+    /// its centre between 0.33 and 0.43 and is the longer one, or both have early centres.
     pub fn decays_into(&self, next: &Self, most_between: u64) -> bool {
-        let dies_away = |pulse: &Self| pulse.centre < LATEST_CENTRE;
-        next.sign != self.sign
-            && next.onset <= self.end + most_between
-            && dies_away(self)
-            && dies_away(next)
+        let follows = next.sign != self.sign && next.onset <= self.end + most_between;
+        let both_die_away = self.centre + next.centre < 2.0 * EARLY_CENTRE;
+        let is_longer = next.length() as f64 > LONGER * self.length() as f64;
+        follows && (both_die_away || is_longer && next.centre < LATEST_CENTRE)
+    }
+
+    /// Blocks from onset to end.
+    pub fn length(&self) -> u64 {
+        self.end - self.onset
     }
 
     /// Whether two pulses leave no more than a quarter of the larger one's change of speed.
@@ -43,8 +49,14 @@ impl Pulse {
     }
 }
 
-/// The latest centre of a pulse that dies away.
-const LATEST_CENTRE: f64 = 0.4;
+/// Where two pulses that both die away have their centres, on average, at the latest.
+const EARLY_CENTRE: f64 = 0.39;
+
+/// The latest centre of a pulse that dies away after one that does not.
+const LATEST_CENTRE: f64 = 0.43;
+
+/// How much longer than the first such a pulse must be.
+const LONGER: f64 = 1.25;
 
 /// Looks for pulses of one sign.
 #[derive(Clone, Debug)]
@@ -136,4 +148,92 @@ pub(super) fn is_level(record: &[f64], drift: f64, block: f64, speed: f64) -> bo
             sum * block < speed
         })
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Pulses by their definition: excursions of S from zero, cut where no maximum has come for `patience`
+    /// blocks, each from sums over its own blocks.
+    fn naive(sign: f64, drift: f64, patience: usize, record: &[f64]) -> Vec<Pulse> {
+        let mut pulses = Vec::new();
+        let mut onset = 0;
+        while onset < record.len() {
+            let sums: Vec<f64> = (record[onset..].iter())
+                .scan(0.0, |sum, e| {
+                    *sum += sign * e - drift;
+                    Some(*sum)
+                })
+                .collect();
+            if sums[0] <= 0.0 {
+                onset += 1;
+                continue;
+            }
+            let largest = |length: usize| {
+                let mut best = 0;
+                for i in 1..length {
+                    if sums[i] > sums[best] {
+                        best = i;
+                    }
+                }
+                best
+            };
+            let over = |i: usize| sums[i] <= 0.0 || i - largest(i + 1) >= patience;
+            let Some(last) = (0..sums.len()).find(|i| over(*i)) else {
+                break;
+            };
+            // The block at which S falls to zero has no part in it.
+            let taken = if sums[last] <= 0.0 { last } else { last + 1 };
+            let length = largest(taken) + 1;
+            let own = &record[onset..onset + length];
+            let speed: f64 = own.iter().map(|e| sign * e * 0.05).sum();
+            let moment: f64 = (own.iter().enumerate())
+                .map(|(i, e)| sign * e * 0.05 * (i as f64 + 0.5))
+                .sum();
+            let peaks = record[onset..onset + taken].iter().map(|e| sign * e);
+            pulses.push(Pulse {
+                sign,
+                onset: onset as u64,
+                end: (onset + length) as u64,
+                speed,
+                peak: peaks.fold(0.0, f64::max),
+                centre: moment / speed / length as f64,
+            });
+            onset += last + 1;
+        }
+        pulses
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { rng_seed: prop::test_runner::RngSeed::Fixed(2014), cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn pulses_are_the_excursions_of_their_sum(
+            record in prop::collection::vec(-8i8..=8, 1..60),
+            patience in 1usize..8,
+            sign in prop::sample::select(vec![1.0, -1.0]),
+        ) {
+            let record: Vec<f64> = record.into_iter().map(|e| f64::from(e) / 16.0).collect();
+            let mut cusum = Cusum::new(sign, 0.0625, 0.05, patience);
+            let found: Vec<Pulse> = (0..).zip(&record).filter_map(|(i, e)| cusum.step(i, *e)).collect();
+            let expected = naive(sign, 0.0625, patience, &record);
+            prop_assert_eq!(found.len(), expected.len());
+            for (a, b) in found.iter().zip(&expected) {
+                prop_assert_eq!((a.onset, a.end, a.peak), (b.onset, b.end, b.peak));
+                prop_assert!((a.speed - b.speed).abs() < 1e-12);
+                prop_assert!((a.centre - b.centre).abs() < 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn a_level_is_no_pulse_and_a_step_is_one() {
+        let level = [9.8; 40];
+        assert!(is_level(&level, 0.05, 0.05, 0.1));
+        let mut step = level;
+        step[20..].fill(10.2);
+        assert!(!is_level(&step, 0.05, 0.05, 0.1));
+    }
 }

@@ -1,7 +1,7 @@
 //! What a monitor knows of rest: the level, the whitening filter and the sample X.
 
 use super::settings::{Design, MOST_ORDER};
-use crate::whiten::{self, Chosen, Fit, Fitter, LjungBox, Whitening};
+use crate::whiten::{self, Chosen, Fit, LjungBox, SAMPLES_PER_COEFFICIENT};
 use serde::{Deserialize, Serialize};
 
 /// What has been learnt from a record of rest.
@@ -70,17 +70,11 @@ impl Filter {
     fn fit(stretches: &[&[f64]], design: &Design) -> Self {
         let joined = stretches.concat();
         let coefficients = match design.settings.order {
-            Some(0) => Vec::new(),
-            Some(order) => {
-                let whitening = Whitening::new(order, Fit::Burg, joined.len(), false, 0);
-                let whitening = whitening.expect("settings ask for enough training");
-                Fitter::new(whitening, &[]).fit(&joined).to_vec()
-            }
+            Some(order) => whiten::coefficients(&joined, order, Fit::Burg),
             None => {
-                let chosen = Chosen::new(&joined, MOST_ORDER, Fit::Burg);
-                chosen
-                    .expect("settings ask for enough training")
-                    .coefficients
+                let most = MOST_ORDER.min(joined.len() / SAMPLES_PER_COEFFICIENT);
+                let chosen = Chosen::new(&joined, most, Fit::Burg);
+                chosen.expect("as high as the record allows").coefficients
             }
         };
         let order = coefficients.len();

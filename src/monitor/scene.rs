@@ -7,6 +7,7 @@ use super::judge::{Judge, Places, Verdict, decision};
 use super::pulse::{Cusum, Pulse};
 use super::reference::Reference;
 use super::settings::Design;
+use std::ops::Range;
 
 /// The view from the newest block.
 pub(super) struct Scene<'a> {
@@ -68,7 +69,7 @@ impl Scene<'_> {
 
     /// How long a pulse has lasted, s.
     pub fn lasts(&self, pulse: &Pulse) -> f64 {
-        (pulse.end - pulse.onset) as f64 * self.design.block
+        pulse.length() as f64 * self.design.block
     }
 
     /// How many blocks there are in so many seconds.
@@ -79,6 +80,13 @@ impl Scene<'_> {
     /// Whether there are N blocks after a pulse.
     pub fn is_after(&self, pulse: &Pulse) -> bool {
         self.now >= pulse.end + self.reference_length()
+    }
+
+    /// The change of speed over some blocks, m/s.
+    pub fn change_of_speed(&self, blocks: Range<u64>) -> Option<f64> {
+        let means = self.history.means(blocks)?.iter();
+        let excess: f64 = means.map(|mean| mean - self.reference.level).sum();
+        Some(excess * self.design.block)
     }
 
     /// When a block began.

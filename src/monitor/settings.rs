@@ -46,8 +46,8 @@ pub struct Settings {
 /// The highest order that BIC may choose.
 pub const MOST_ORDER: usize = 8;
 
-/// Blocks that the choice of an order needs.
-pub(super) const LEAST_TRAINING: usize = 5 * MOST_ORDER;
+/// Blocks that a filter needs: the choice of its order is then among few.
+pub(super) const LEAST_TRAINING: usize = 24;
 
 /// Blocks in a sample, or between two: the exact laws take seconds there, and hours at ten times as many.
 const MOST_BLOCKS: usize = 200;

@@ -18,7 +18,7 @@ mod order;
 mod portmanteau;
 
 pub use fit::Fitter;
-pub use order::{Chosen, OrderError};
+pub use order::{Chosen, OrderError, SAMPLES_PER_COEFFICIENT, coefficients};
 pub use portmanteau::{LjungBox, PortmanteauError};
 
 use crate::lanes::Value;

@@ -43,7 +43,7 @@ pub enum OrderError {
 
 /// Samples for each coefficient of the highest order, below which the likelihood ratio is far from its
 /// limit law and the criterion adds coefficients as it likes.
-const SAMPLES_PER_COEFFICIENT: usize = 5;
+pub const SAMPLES_PER_COEFFICIENT: usize = 5;
 
 impl Chosen {
     /// The best of the orders 0 … `most` for this record of rest, its coefficients by `fit`.
@@ -66,7 +66,7 @@ impl Chosen {
         };
         let order = (1..=most).fold(0, least);
         Ok(Self {
-            coefficients: fit(record, order, by),
+            coefficients: coefficients(record, order, by),
             criteria,
         })
     }
@@ -77,13 +77,14 @@ impl Chosen {
     }
 }
 
-/// The filter of this order, of any.
-fn fit(record: &[f64], order: usize, by: Fit) -> Vec<f64> {
+/// a_1 … a_m of the filter of order `order` for this record of rest; none of order 0. The record must be long
+/// enough for the fit.
+pub fn coefficients(record: &[f64], order: usize, by: Fit) -> Vec<f64> {
     if order == 0 {
         return Vec::new();
     }
     let whitening = Whitening::new(order, by, record.len(), false, 0)
-        .expect("the record is long enough for a choice");
+        .expect("the record is long enough for the fit");
     Fitter::new(whitening, &[]).fit(record).to_vec()
 }
 
@@ -149,14 +150,18 @@ mod tests {
             n * (energy / n).ln() + coefficients.len() as f64 * n.ln()
         };
         for (order, criterion) in chosen.criteria.iter().enumerate() {
-            let of_these = naive(&fit(&record[most - order..], order, Fit::LeastSquares));
+            let of_these = naive(&coefficients(
+                &record[most - order..],
+                order,
+                Fit::LeastSquares,
+            ));
             println!("order {order}: {criterion:.6} {of_these:.6}");
             assert!(of_these > criterion - 1e-9 && of_these < criterion + 0.01);
-            assert!(naive(&fit(&record, order, Fit::LeastSquares)) > criterion - 1e-9);
+            assert!(naive(&coefficients(&record, order, Fit::LeastSquares)) > criterion - 1e-9);
         }
         assert_eq!(
             chosen.coefficients,
-            fit(&record, chosen.order(), Fit::LeastSquares)
+            coefficients(&record, chosen.order(), Fit::LeastSquares)
         );
     }
 

@@ -503,6 +503,103 @@ const DRAWINGS: &[(&str, &str)] = &[
     ),
 ];
 
+/// Tables of rides that are wrong in their own ways.
+const RIDES: &[(&str, &str)] = &[
+    ("no measure", "[ride.axis]\nrate = [100]\n"),
+    (
+        "an unknown measure",
+        "measure = \"ride\"\n[ride.axis]\nrate = [100]\n",
+    ),
+    (
+        "an unknown key",
+        "measure = \"rides\"\nspede = 1\n[ride.axis]\nrate = [100]\n",
+    ),
+    ("no axis", "measure = \"rides\"\n"),
+    (
+        "two axes",
+        "measure = \"rides\"\n[ride.axis]\nrate = [100]\nalpha = [0.1]\n",
+    ),
+    (
+        "an unknown axis",
+        "measure = \"rides\"\n[ride.axis]\nrates = [100]\n",
+    ),
+    (
+        "an axis of words",
+        "measure = \"rides\"\n[ride.axis]\nlearnt = [true]\n",
+    ),
+    (
+        "an axis of nothing",
+        "measure = \"rides\"\n[ride.axis]\nrate = []\n",
+    ),
+    (
+        "swept and set",
+        "measure = \"rides\"\nrate = 50\n[ride.axis]\nrate = [100]\n",
+    ),
+    (
+        "noise swept and set",
+        "measure = \"rides\"\n[ride.axis]\nsigma = [0.1]\n[[ride.curve]]\ndensity = 0.1\n",
+    ),
+    (
+        "noise said twice",
+        "measure = \"rides\"\nsigma = 0.1\ndensity = 0.1\n[ride.axis]\nrate = [100]\n",
+    ),
+    (
+        "labels that make one name",
+        "measure = \"rides\"\n[ride.axis]\nrate = [100]\n[[ride.curve]]\nlabel = \"a b\"\n\
+         [[ride.curve]]\nlabel = \"A-b\"\n",
+    ),
+    (
+        "a key of another measure",
+        "measure = \"rest\"\nspeed = 1\n[ride.axis]\nalpha = [0.1]\n",
+    ),
+    (
+        "an axis of another measure",
+        "measure = \"rest\"\n[ride.axis]\nspeed = [1]\n",
+    ),
+    (
+        "no trips",
+        "measure = \"rides\"\ntrips = 0\n[ride.axis]\nrate = [100]\n",
+    ),
+    (
+        "a rest from long to short",
+        "measure = \"rides\"\nrest = [9, 8]\n[ride.axis]\nrate = [100]\n",
+    ),
+    (
+        "no uniform motion",
+        "measure = \"jam\"\ndistance = 1\n[ride.axis]\nspeed = [0.2, 2]\n",
+    ),
+    (
+        "a jam of no time",
+        "measure = \"jam\"\njam_within = 0\n[ride.axis]\nspeed = [1]\n",
+    ),
+    (
+        "a negative sigma",
+        "measure = \"rides\"\n[ride.axis]\nsigma = [0.1, -1]\n",
+    ),
+    (
+        "a level of 2",
+        "measure = \"rest\"\nalpha = 2\n[ride.axis]\nsigma = [0.1]\n",
+    ),
+    (
+        "too little training",
+        "measure = \"rest\"\ntraining = 3\n[ride.axis]\nsigma = [0.1]\n",
+    ),
+    (
+        "an unstable sensor",
+        "measure = \"rest\"\nar = [1.5]\n[ride.axis]\nsigma = [0.1]\n",
+    ),
+    (
+        "a rest that fills the memory",
+        "measure = \"rest\"\nlength = 1e9\n[ride.axis]\nsigma = [0.1]\n",
+    ),
+];
+
+#[test]
+fn rides() {
+    let good = |_: &str| "question = \"?\"\nseed = 1\ntrials = 2\n[ride]\n".to_owned();
+    insta::assert_snapshot!("rides", messages(RIDES, good));
+}
+
 #[test]
 fn drawings() {
     let good = |_: &str| "question = \"?\"\nseed = 1\n".to_owned();

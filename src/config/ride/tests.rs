@@ -1,0 +1,69 @@
+//! What a `[ride]` table comes to.
+
+use super::{RideCurve, RidePoint, RideStudy};
+use crate::config::{ExhibitKind, Experiment};
+use crate::signal::Ending;
+
+fn study(text: &str) -> RideStudy {
+    let text = format!("question = \"?\"\nseed = 1\ntrials = 1\n[ride]\n{text}");
+    match Experiment::parse("test", &text) {
+        Ok(Experiment::Exhibit(config)) => match config.kind {
+            ExhibitKind::Ride(study) => study,
+            _ => panic!("no rides"),
+        },
+        other => panic!("{other:?}"),
+    }
+}
+
+fn points(text: &str) -> Vec<RidePoint> {
+    let curves = study(text).curves.into_iter();
+    let points = curves.flat_map(|RideCurve { points, .. }| points);
+    points.map(|(_, point)| point).collect()
+}
+
+/// A density is that of the noise at any rate, a ratio that of a sample; a curve's replaces the table's.
+#[test]
+fn the_strength_of_the_noise() {
+    let points = points(
+        "measure = \"rides\"\ndensity = 0.01\nacceleration = 0.6\n[ride.axis]\nrate = [50, 200]\n\
+         [[ride.curve]]\n[[ride.curve]]\ndelta_over_sigma = 3\n[[ride.curve]]\nsigma = 0.5\n",
+    );
+    let sigma: Vec<f64> = points.iter().map(|point| point.pickup.sigma).collect();
+    let expected = [0.05, 0.1, 0.2, 0.2, 0.5, 0.5];
+    for (got, expected) in sigma.iter().zip(expected) {
+        assert!((got - expected).abs() < 1e-15, "{sigma:?}");
+    }
+}
+
+/// Up and down in turn, rests as drawn, the last trip jammed somewhere in its uniform motion.
+#[test]
+fn rides_as_drawn() {
+    let text = "measure = \"jam\"\ntrips = 3\nrest = [4, 6]\n[ride.axis]\nspeed = [1]\n";
+    let point = &points(text)[0];
+    let ride = point.ride(|| 0.25).unwrap();
+    assert_eq!(ride.rests(), [4.5; 4]);
+    let signs: Vec<f64> = ride
+        .trips()
+        .iter()
+        .map(|trip| trip.distance.signum())
+        .collect();
+    assert_eq!(signs, [1.0, -1.0, 1.0]);
+    let jams = ride
+        .journeys()
+        .iter()
+        .map(|journey| journey.jammed)
+        .collect::<Vec<_>>();
+    assert_eq!(jams, [false, false, true]);
+    let (from, to) = ride.started().next().unwrap().1.uniform_motion();
+    let Ending::Jam { after, .. } = ride.trips()[2].ending else {
+        panic!("no jam");
+    };
+    assert!((after - (from + (to - from) / 4.0)).abs() < 1e-12);
+}
+
+#[test]
+fn labels_become_names() {
+    let text = "measure = \"rest\"\nlength = 60\n[ride.axis]\nalpha = [0.01]\n\
+        [[ride.curve]]\nlabel = \"σ = 0.4 m/s², 100 Hz\"\n";
+    assert_eq!(study(text).curves[0].name(), "σ_0_4_m_s²_100_hz");
+}

@@ -1,0 +1,77 @@
+//! Whole rides before the monitor: is every trip found, how late, how often does rest look like motion, does a jam
+//! alarm, and what becomes of a monitor that is switched on in motion?
+//!
+//! A trial is one ride, one rest, or both, simulated, watched, and held against the truth. Every point sees the
+//! same draws of a trial, so points that differ in strength or in the monitor's settings alone are compared on the
+//! same noise.
+//!
+//! | outcome | of | is |
+//! |---|---|---|
+//! | `found` | trials | rides of which every trip is found: start and stop told within the tolerance of the truth, in the right direction |
+//! | `start_delay_05`, `_50`, `_95` | trips | quantiles of the time from a start to when it is told |
+//! | `stop_delay_…` | trips | the same for stops |
+//! | `false_motions` | hours | starts told while the cage stood, of a time when it stood, per hour for which the monitor said `rest` of a cage at rest |
+//! | `hours_between` | hours | the mean time between them |
+//! | `disturbed` | trials | rests with a false motion |
+//! | `alarmed` | trials | jams with an alarm that is told after them, of no later time than the stand |
+//! | `alarm_delay_…` | jams | the time from a jam to its alarm |
+//! | `false_alarms` | trials | jam alarms without a jam, per trial |
+//! | `misled` | trials | switched on in motion, the monitor said `rest` before the cage stood |
+//! | `knew_soon`, `knew` | trials | it said `rest` when the next trip began, and when the record ended |
+//!
+//! What was never told took infinitely long: a quantile beyond the share that was told is infinite.
+
+mod account;
+mod estimate;
+mod row;
+#[cfg(test)]
+mod tests;
+mod watch;
+
+pub use row::Row;
+
+use crate::config::{ExhibitConfig, RideStudy};
+use crate::results::Quantity;
+use account::Account;
+use rayon::prelude::*;
+use watch::Watch;
+
+/// All outcomes of every point, in the order of curves and values.
+pub fn rows(config: &ExhibitConfig, study: &RideStudy) -> Vec<Row> {
+    let trials = config.trials as usize;
+    let places: Vec<_> = (study.curves.iter().enumerate())
+        .flat_map(|(index, curve)| curve.points.iter().map(move |point| (index, point)))
+        .collect();
+    let watches: Vec<Watch> = (places.iter())
+        .map(|(_, (_, point))| Watch::new(point, config.seed))
+        .collect();
+    let accounts: Vec<Account> = (0..watches.len() * trials)
+        .into_par_iter()
+        .map(|task| watches[task / trials].trial((task % trials) as u64))
+        .collect();
+    let mut rows = Vec::new();
+    for (((index, (x, point)), watch), accounts) in
+        places.iter().zip(&watches).zip(accounts.chunks(trials))
+    {
+        for estimate in estimate::of(study.measure, accounts, config.confidence) {
+            let size = watch.size();
+            rows.push(Row::new(study, *index, *x, point, size, estimate, config));
+        }
+    }
+    rows
+}
+
+/// Every outcome by name: that of the outcome, of its curve and of its place on the axis.
+pub fn quantities(study: &RideStudy, rows: &[Row]) -> Vec<Quantity> {
+    let quantity = |row: &Row| {
+        let curve = study.curves[row.curve - 1].name();
+        let x = row.x.to_string().replace('.', "_");
+        Quantity {
+            name: format!("{}_{curve}_at_{x}", row.outcome),
+            value: row.estimate,
+            low: row.low,
+            high: row.high,
+        }
+    };
+    rows.iter().map(quantity).collect()
+}

@@ -1,0 +1,512 @@
+//! The monitor on records made for the purpose.
+
+use super::*;
+use crate::binomial;
+use crate::detect::Statistics;
+use crate::rng::Stream;
+use crate::signal::{Law, Noise, Phase};
+
+const RATE: f64 = 100.0;
+
+/// A record, put together piece by piece.
+struct Record {
+    samples: Vec<f64>,
+    noise: Vec<f64>,
+    sigma: f64,
+}
+
+impl Record {
+    /// Noise of this deviation at rest, m/s².
+    fn new(sigma: f64, index: u64) -> Self {
+        let mut noise = vec![0.0; 400_000];
+        let mut generator = Stream::new(2014, "monitor tests", "").at(index);
+        Noise::new(Law::Normal)
+            .unwrap()
+            .fill(&mut generator, &mut noise);
+        Self {
+            samples: Vec::new(),
+            noise,
+            sigma,
+        }
+    }
+
+    fn quiet() -> Self {
+        Self::new(0.01, 0)
+    }
+
+    /// So many seconds of this acceleration, with noise so many times as strong as at rest.
+    fn with(mut self, seconds: f64, acceleration: f64, noise: f64) -> Self {
+        for _ in 0..(seconds * RATE).round() as usize {
+            let xi = self.noise[self.samples.len()];
+            self.samples.push(acceleration + noise * self.sigma * xi);
+        }
+        self
+    }
+
+    fn rest(self, seconds: f64) -> Self {
+        self.with(seconds, 0.0, 1.0)
+    }
+
+    /// A trip at 1 m/s: 2 s of ±0.5 m/s², 8 s, 2 s.
+    fn trip(self, sign: f64) -> Self {
+        self.with(2.0, sign * 0.5, 1.0)
+            .with(8.0, 0.0, 2.0)
+            .with(2.0, -sign * 0.5, 1.0)
+    }
+
+    fn now(&self) -> f64 {
+        self.samples.len() as f64 / RATE
+    }
+
+    fn watch(&self, monitor: &mut Monitor) -> Vec<Event> {
+        let sample = |(i, a): (usize, &f64)| Sample {
+            time: i as f64 / RATE,
+            acceleration: *a,
+        };
+        let samples = self.samples.iter().enumerate().map(sample);
+        samples
+            .flat_map(|sample| monitor.step(sample, None).to_vec())
+            .collect()
+    }
+}
+
+fn design() -> Design {
+    Settings::default().at(RATE).unwrap()
+}
+
+/// A monitor that is told that the cage stands.
+fn told() -> Monitor {
+    Monitor::new(
+        design(),
+        Knowledge {
+            begins_at_rest: true,
+            ..Knowledge::default()
+        },
+    )
+}
+
+fn states(events: &[Event]) -> Vec<State> {
+    let change = |event: &Event| match event.kind {
+        Kind::Change { state, .. } => Some(state),
+        Kind::Alarm(_) => None,
+    };
+    events.iter().filter_map(change).collect()
+}
+
+fn alarms(events: &[Event]) -> Vec<Alarm> {
+    let alarm = |event: &Event| match event.kind {
+        Kind::Alarm(alarm) => Some(alarm),
+        Kind::Change { .. } => None,
+    };
+    events.iter().filter_map(alarm).collect()
+}
+
+const REST: State = State::Known(Phase::Rest);
+const ACCELERATING: State = State::Known(Phase::Accelerating);
+const INERTIAL: State = State::Known(Phase::Inertial);
+const BRAKING: State = State::Known(Phase::Braking);
+const RIDE: [State; 4] = [ACCELERATING, INERTIAL, BRAKING, REST];
+
+#[test]
+fn a_ride_is_followed_phase_by_phase() {
+    for sign in [1.0, -1.0] {
+        let record = Record::quiet().rest(8.0).trip(sign).rest(5.0);
+        let events = record.watch(&mut told());
+        assert_eq!(states(&events), [[REST].as_slice(), &RIDE].concat());
+        // A block is 0.05 s, and the pulse is found by blocks.
+        for (event, time) in events[1..].iter().zip([8.0, 10.0, 18.0, 20.0]) {
+            assert!((event.time - time).abs() <= 0.051, "{event:?}");
+            assert!(
+                (0.0..2.0).contains(&(event.reported - event.time)),
+                "{event:?}"
+            );
+        }
+        let Kind::Change {
+            direction,
+            speed,
+            decision,
+            ..
+        } = events[1].kind
+        else {
+            panic!("{events:?}")
+        };
+        assert_eq!(direction, Some(Direction::of(sign)));
+        assert!(decision.is_some() && speed.is_some());
+    }
+}
+
+/// W and T of every decision against a recount from the record itself, at the times that it states: means
+/// of five, no filter, ranks by sorting.
+#[test]
+fn decisions_are_those_of_a_recount() {
+    let settings = Settings {
+        order: Some(0),
+        ..Settings::default()
+    };
+    let record = Record::quiet()
+        .rest(8.0)
+        .trip(1.0)
+        .rest(7.0)
+        .trip(-1.0)
+        .rest(5.0);
+    let mut monitor = Monitor::new(
+        settings.at(RATE).unwrap(),
+        Knowledge {
+            begins_at_rest: true,
+            ..Knowledge::default()
+        },
+    );
+    let blocks: Vec<f64> = record
+        .samples
+        .chunks_exact(5)
+        .map(|c| c.iter().sum::<f64>() / 5.0)
+        .collect();
+    let at = |(from, to): (f64, f64)| {
+        blocks[(from * 20.0).round() as usize..(to * 20.0).ceil() as usize].to_vec()
+    };
+    let events = record.watch(&mut monitor);
+    let mut counted = 0;
+    for event in events {
+        let Kind::Change {
+            decision: Some(decision),
+            ..
+        } = event.kind
+        else {
+            continue;
+        };
+        let [x, y1, y2] = decision.samples.map(at);
+        // X is the end of what the reference was learnt from.
+        let x = x[x.len() - 24..].to_vec();
+        assert_eq!([x.len(), y1.len(), y2.len()], [24, 12, 12]);
+        let others = || x.iter().chain(&y2);
+        let won = y1
+            .iter()
+            .map(|y| others().filter(|other| y > other).count() as u64);
+        let [low, high] = [f64::min, f64::max].map(|f| x.iter().copied().reduce(f).unwrap());
+        let naive = Statistics {
+            rank_sum: 78 + won.sum::<u64>(),
+            exceedances: y2.iter().filter(|y| **y < low || **y > high).count(),
+        };
+        assert_eq!(decision.statistics, naive, "{event:?}");
+        let (lower, upper) = decision.threshold;
+        let moves = lower.is_some_and(|w| naive.rank_sum <= w)
+            || upper.is_some_and(|w| naive.rank_sum >= w);
+        assert!(moves, "{decision:?}");
+        counted += 1;
+    }
+    assert_eq!(counted, 4);
+}
+
+/// One decision each of 40 000 monitors on white noise, X and filter of order 0 from the noise before: its
+/// level is exact. Two-sided, 1e-6.
+#[test]
+fn a_decision_at_rest_has_its_exact_size() {
+    let settings = Settings {
+        order: Some(0),
+        alpha: 0.01,
+        ..Settings::default()
+    };
+    let design = settings.at(20.0).unwrap();
+    let trials = 40_000;
+    let mut alarms = 0;
+    let normal = Noise::new(Law::Normal).unwrap();
+    let stream = Stream::new(2014, "monitor size", "");
+    let mut blocks = vec![0.0; 24 + 24 + 24];
+    for trial in 0..trials {
+        normal.fill(&mut stream.at(trial), &mut blocks);
+        let reference = Reference::from_rest(&blocks[..48], (0.0, 0.0), &design);
+        let mut monitor = Monitor::new(
+            design.clone(),
+            Knowledge {
+                reference: Some(reference),
+                ..Knowledge::default()
+            },
+        );
+        for (i, acceleration) in blocks[48..].iter().enumerate() {
+            let sample = Sample {
+                time: i as f64 * 0.05,
+                acceleration: *acceleration,
+            };
+            monitor.step(sample, None);
+        }
+        alarms += u64::from(monitor.newest().unwrap().moves.unwrap());
+    }
+    let size = design.region.size();
+    let tail =
+        binomial::lower_tail(alarms, trials, size).min(binomial::upper_tail(alarms, trials, size));
+    println!("{alarms} of {trials} at exact size {size}: smaller tail {tail:.3e}");
+    assert!(tail > 5e-7);
+}
+
+#[test]
+fn a_reversal_tells_what_vibration_does_not() {
+    let cold = || Monitor::new(design(), Knowledge::default());
+    // Smooth motion, as quiet as rest: + − | − +
+    let smooth = |record: Record, sign: f64| {
+        record
+            .with(2.0, 0.5 * sign, 1.0)
+            .rest(8.0)
+            .with(2.0, -0.5 * sign, 1.0)
+            .rest(8.0)
+    };
+    let turning = smooth(smooth(Record::quiet().rest(8.0), 1.0), -1.0);
+    assert_eq!(states(&turning.watch(&mut cold())), RIDE);
+    // Up and up again: the cage may as well go down and down.
+    let same_way = smooth(smooth(Record::quiet().rest(8.0), 1.0), 1.0);
+    assert_eq!(states(&same_way.watch(&mut cold())), []);
+    // Switched on in motion: braking, start the other way, braking.
+    let in_motion = Record::quiet()
+        .rest(8.0)
+        .with(2.0, -0.5, 1.0)
+        .rest(8.0)
+        .with(2.0, -0.5, 1.0)
+        .rest(8.0)
+        .with(2.0, 0.5, 1.0)
+        .rest(8.0);
+    let events = in_motion.watch(&mut cold());
+    assert_eq!(states(&events), [REST]);
+    assert!((events[0].time - 30.0).abs() < 0.06);
+}
+
+#[test]
+fn calm_is_no_rest_unless_motion_shows() {
+    let rest = Record::quiet().rest(20.0);
+    let mut learner = told();
+    rest.watch(&mut learner);
+    let reference = learner.reference().cloned();
+    for (motion_shows, expected) in [(false, vec![]), (true, vec![REST])] {
+        let knowledge = Knowledge {
+            reference: reference.clone(),
+            begins_at_rest: false,
+            motion_shows,
+        };
+        let mut monitor = Monitor::new(design(), knowledge);
+        assert_eq!(
+            states(&Record::new(0.01, 1).rest(20.0).watch(&mut monitor)),
+            expected
+        );
+    }
+}
+
+#[test]
+fn what_is_quiet_for_longer_than_any_motion_is_rest() {
+    let settings = Settings {
+        longest_motion: 30.0,
+        ..Settings::default()
+    };
+    let mut monitor = Monitor::new(settings.at(RATE).unwrap(), Knowledge::default());
+    let events = Record::quiet().rest(45.0).watch(&mut monitor);
+    assert_eq!(states(&events), [REST]);
+    // And a motion that never ends is lost from sight.
+    let mut monitor = Monitor::new(
+        settings.at(RATE).unwrap(),
+        Knowledge {
+            begins_at_rest: true,
+            ..Knowledge::default()
+        },
+    );
+    let record = Record::quiet()
+        .rest(8.0)
+        .with(2.0, 0.5, 1.0)
+        .with(40.0, 0.0, 2.0);
+    let events = record.watch(&mut monitor);
+    assert_eq!(
+        states(&events),
+        [REST, ACCELERATING, INERTIAL, State::Unknown]
+    );
+    assert!((events[3].time - 38.0).abs() < 0.2);
+}
+
+#[test]
+fn a_jam_is_an_alarm_unless_motion_goes_on() {
+    let moving = Record::quiet()
+        .rest(8.0)
+        .with(2.0, 0.5, 1.0)
+        .with(6.0, 0.0, 3.0);
+    let violent = |record: Record| record.with(0.1, -10.0, 1.0);
+    let jammed = violent(moving).rest(6.0);
+    let events = jammed.watch(&mut told());
+    assert_eq!(alarms(&events), [Alarm::Jam]);
+    assert_eq!(states(&events), [[REST].as_slice(), &RIDE].concat());
+    let alarm = events
+        .iter()
+        .find(|event| matches!(event.kind, Kind::Alarm(_)))
+        .unwrap();
+    assert!((alarm.time - 16.0).abs() < 0.06, "{alarm:?}");
+    assert!(alarm.reported - alarm.time < 1.6, "{alarm:?}");
+
+    // A joint of the rails: there and back.
+    let moving = Record::quiet()
+        .rest(8.0)
+        .with(2.0, 0.5, 1.0)
+        .with(6.0, 0.0, 3.0);
+    let struck = violent(moving).with(0.1, 10.0, 1.0);
+    let struck = struck.with(6.0, 0.0, 3.0).with(2.0, -0.5, 1.0).rest(6.0);
+    let events = struck.watch(&mut told());
+    assert_eq!(alarms(&events), []);
+    assert_eq!(
+        events.last().map(|event| states(&[*event])),
+        Some(vec![REST])
+    );
+}
+
+#[test]
+fn a_creeping_cage_has_not_stopped() {
+    let record = Record::quiet()
+        .rest(8.0)
+        .with(2.0, 0.5, 1.0)
+        .with(6.0, 0.0, 2.0);
+    // 1 m/s to 0.6, 3 s later to 0.
+    let record = record
+        .with(0.8, -0.5, 1.0)
+        .with(3.0, 0.0, 2.0)
+        .with(1.2, -0.5, 1.0);
+    let stop = record.now();
+    let events = record.rest(6.0).watch(&mut told());
+    assert_eq!(
+        states(&events),
+        [
+            REST,
+            ACCELERATING,
+            INERTIAL,
+            BRAKING,
+            INERTIAL,
+            BRAKING,
+            REST
+        ]
+    );
+    assert!((events[6].time - stop).abs() < 0.06);
+}
+
+#[test]
+fn shocks_and_people_are_no_ride() {
+    let mut record = Record::quiet().rest(8.0);
+    for (i, strength) in [0.3, 1.0, 3.0, 8.0].into_iter().enumerate() {
+        let noise = 1.0 + 3.0 * i as f64;
+        record = record
+            .with(0.1, strength, 1.0)
+            .with(0.1, -strength, 1.0)
+            .with(5.0, 0.0, noise);
+    }
+    let events = record.watch(&mut told());
+    assert_eq!(states(&events), [REST]);
+}
+
+#[test]
+fn a_sensor_that_is_carried_about_makes_the_state_unknown() {
+    let carried = Record::quiet()
+        .rest(8.0)
+        .with(1.5, 4.0, 50.0)
+        .with(1.0, -6.0, 50.0);
+    let events = carried.rest(8.0).watch(&mut told());
+    assert_eq!(states(&events), [REST, State::Unknown]);
+}
+
+#[test]
+fn a_gap_makes_the_state_unknown() {
+    let record = Record::quiet()
+        .rest(8.0)
+        .with(2.0, 0.5, 1.0)
+        .with(4.0, 0.0, 2.0);
+    let mut monitor = told();
+    let before = record.watch(&mut monitor);
+    assert_eq!(states(&before), [REST, ACCELERATING, INERTIAL]);
+    let time = record.now() + 1.0;
+    let after = monitor.step(
+        Sample {
+            time,
+            acceleration: 0.0,
+        },
+        None,
+    );
+    assert_eq!(states(after), [State::Unknown]);
+    assert_eq!(after[0].time, time);
+}
+
+#[test]
+fn a_drum_that_turns_without_the_cage_is_an_alarm() {
+    let record = Record::quiet().rest(8.0).trip(-1.0).rest(20.0);
+    let mut monitor = told();
+    let turns = |time: f64| (8.0..20.2).contains(&time) || (30.0..36.0).contains(&time);
+    let mut events = Vec::new();
+    for (i, a) in record.samples.iter().enumerate() {
+        let time = i as f64 / RATE;
+        let sample = Sample {
+            time,
+            acceleration: *a,
+        };
+        events.extend_from_slice(monitor.step(sample, Some(turns(time))));
+    }
+    assert_eq!(alarms(&events), [Alarm::Slack]);
+    let alarm = events
+        .iter()
+        .find(|event| matches!(event.kind, Kind::Alarm(_)))
+        .unwrap();
+    assert!(
+        (alarm.time - 30.0).abs() < 0.1 && (alarm.reported - 33.0).abs() < 0.1,
+        "{alarm:?}"
+    );
+}
+
+/// An offset that drifts by five times the weakest acceleration is followed, rest by rest.
+#[test]
+fn every_rest_is_learnt_anew() {
+    let mut record = Record::quiet();
+    for step in 0..2000 {
+        record = record.with(0.1, 0.5 * f64::from(step) / 2000.0, 1.0);
+    }
+    let mut monitor = told();
+    let events = record.watch(&mut monitor);
+    assert_eq!(states(&events), [REST]);
+    let reference = monitor.reference().unwrap();
+    assert!(reference.span.1 > record.now() - 12.0);
+    assert!((reference.level - 0.5).abs() < 0.05, "{}", reference.level);
+}
+
+#[test]
+fn a_briefing_comes_back_as_it_was() {
+    let mut monitor = told();
+    Record::quiet().rest(12.0).watch(&mut monitor);
+    let briefing = Briefing {
+        settings: Settings::default(),
+        rate: RATE,
+        knowledge: Knowledge {
+            reference: monitor.reference().cloned(),
+            begins_at_rest: true,
+            motion_shows: false,
+        },
+    };
+    let read: Briefing = serde_json::from_str(&briefing.to_json()).unwrap();
+    assert_eq!(read, briefing);
+}
+
+/// Equal values cannot be told apart by rank: a pool without any order comes to no decision about half
+/// of the time in either direction, and never to a W outside its range.
+#[test]
+fn a_constant_record_is_decided_by_keys() {
+    let design = design();
+    let reference = Reference::from_rest(&[9.81; 48], (0.0, 0.0), &design);
+    let mut monitor = Monitor::new(
+        design,
+        Knowledge {
+            reference: Some(reference),
+            begins_at_rest: true,
+            motion_shows: false,
+        },
+    );
+    let (mut moves, mut decisions) = (0u64, 0u64);
+    for i in 0..200_000 {
+        let sample = Sample {
+            time: f64::from(i) / RATE,
+            acceleration: 9.81,
+        };
+        monitor.step(sample, None);
+        if let Some(moved) = monitor.newest().and_then(|block| block.moves) {
+            (moves, decisions) = (moves + u64::from(moved), decisions + 1);
+        }
+    }
+    // Keys are drawn anew at every block, so that these decisions are independent.
+    let tail = binomial::upper_tail(moves, decisions, monitor.design().region.size());
+    println!("{moves} of {decisions}, upper tail {tail:.2e}");
+    assert!(tail > 1e-6);
+}

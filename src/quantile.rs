@@ -1,0 +1,84 @@
+//! Quantiles by order statistics [^1], with intervals that hold for every law.
+//!
+//! Of n independent values K are at most the quantile ξ_p, and K ~ Binomial(n, p) where the law is continuous. So
+//! P(ξ_p < x₍l₎) = P(K < l) and P(ξ_p ≥ x₍u₎) = P(K ≥ u), and l is the largest and u the smallest place for which
+//! these are at most half of what is left to the confidence. Ties only raise the coverage. Values may be
+//! infinite: what never came to pass took longer than anything.
+//!
+//! [^1]: H. A. David, H. N. Nagaraja, "Order Statistics", 3rd ed., 2003, section 7.1.
+
+use crate::binomial::critical_count;
+
+/// A quantile and its interval, infinite where no order statistic would do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantile {
+    /// x₍⌈np⌉₎.
+    pub value: f64,
+    /// x₍l₎, or −∞.
+    pub low: f64,
+    /// x₍u₎, or +∞.
+    pub high: f64,
+}
+
+impl Quantile {
+    /// The quantile `p` in (0, 1) of ascending values; from nothing follows nothing.
+    pub fn of(ascending: &[f64], p: f64, confidence: f64) -> Self {
+        let n = ascending.len();
+        let tail = (1.0 - confidence) / 2.0;
+        let place = |place: usize| place.checked_sub(1).and_then(|index| ascending.get(index));
+        // P(K < l) = P(n − K ≥ n + 1 − l), and n − K ~ Binomial(n, 1 − p).
+        let l = n + 1 - critical_count(tail, n as u64, 1.0 - p) as usize;
+        let u = critical_count(tail, n as u64, p) as usize;
+        let middle = (n as f64 * p).ceil().max(1.0) as usize;
+        Self {
+            value: place(middle).copied().unwrap_or(f64::INFINITY),
+            low: place(l).copied().unwrap_or(f64::NEG_INFINITY),
+            high: place(u).copied().unwrap_or(f64::INFINITY),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::binomial::mass;
+
+    /// Against sums of the binomial law, place by place: the interval covers, and each end is the nearest that does.
+    #[test]
+    fn the_narrowest_places_that_cover() {
+        for n in [1u64, 5, 6, 20, 59, 200] {
+            let values: Vec<f64> = (1..=n).map(|i| i as f64).collect();
+            for p in [0.05, 0.5, 0.95] {
+                let quantile = Quantile::of(&values, p, 0.8);
+                let below = |l: u64| (0..l).map(|k| mass(k, n, p)).sum::<f64>();
+                let from = |u: u64| (u..=n).map(|k| mass(k, n, p)).sum::<f64>();
+                match quantile.low {
+                    f64::NEG_INFINITY => assert!(below(1) > 0.1, "{n} {p}"),
+                    low => assert!(below(low as u64) <= 0.1 && below(low as u64 + 1) > 0.1),
+                }
+                match quantile.high {
+                    f64::INFINITY => assert!(from(n) > 0.1, "{n} {p}"),
+                    high => assert!(from(high as u64) <= 0.1 && from(high as u64 - 1) > 0.1),
+                }
+                assert!(quantile.low <= quantile.value && quantile.value <= quantile.high);
+            }
+        }
+    }
+
+    /// Of six values the extremes hold the median with 96.9 %, and nothing does with 97 %.
+    #[test]
+    fn a_textbook_case() {
+        let values = [1.0, 2.0, 3.0, 4.0, 5.0, f64::INFINITY];
+        let quantile = Quantile::of(&values, 0.5, 0.96);
+        assert_eq!(
+            (quantile.low, quantile.value, quantile.high),
+            (1.0, 3.0, f64::INFINITY)
+        );
+        assert_eq!(Quantile::of(&values, 0.5, 0.97).low, f64::NEG_INFINITY);
+        let nothing = Quantile::of(&[], 0.5, 0.9);
+        assert_eq!(
+            (nothing.low, nothing.high),
+            (f64::NEG_INFINITY, f64::INFINITY)
+        );
+    }
+}
