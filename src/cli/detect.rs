@@ -136,8 +136,7 @@ impl Detect {
             knowledge: learnt.map_err(|error| self.refused(error.into()))?,
             settings,
             rate,
-            first_sample: first_sample(recording)
-                .map(|first| Some((first.time, first.acceleration)))?,
+            first_sample: Some((first.time, first.acceleration)),
         };
         Ok((briefing, design))
     }

@@ -1,0 +1,226 @@
+//! The monitor against cages made by hand, where it has been wrong or might be.
+
+use liftsim::detection::{Detection, End};
+use liftsim::monitor::{Alarm, Design, Event, Kind, Knowledge, Monitor, Settings, State};
+use liftsim::signal::Phase;
+use liftsim::signal::recording::Sample;
+
+/// Seconds, and the acceleration in them, m/s².
+type Piece = (f64, f64);
+
+const BLOCK: f64 = 0.05;
+
+/// Blocks by themselves, a sample each, with a little noise: the quietest cage there is, its motion like its rest.
+fn samples(pieces: &[Piece]) -> Vec<Sample> {
+    let mut samples = Vec::new();
+    let mut noise = 1u32;
+    for &(seconds, acceleration) in pieces {
+        for _ in 0..(seconds / BLOCK).round() as usize {
+            noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            let uniform = f64::from(noise >> 8) / f64::from(1 << 23) - 1.0;
+            samples.push(Sample {
+                time: samples.len() as f64 * BLOCK,
+                acceleration: 9.8 + acceleration + 0.01 * uniform,
+            });
+        }
+    }
+    samples
+}
+
+fn design() -> Design {
+    Settings::default().at(1.0 / BLOCK).unwrap()
+}
+
+/// What a minute of rest teaches.
+fn knowledge(design: &Design) -> Knowledge {
+    let rest = samples(&[(60.0, 0.0)]);
+    let pass = || Ok::<_, ()>(rest.iter().copied().map(Ok));
+    Knowledge::from_record(design, pass).unwrap().unwrap()
+}
+
+fn events(design: &Design, knowledge: Knowledge, pieces: &[Piece]) -> Vec<Event> {
+    let mut monitor = Monitor::new(design.clone(), knowledge);
+    let step = |sample| monitor.step(sample, None).to_vec();
+    samples(pieces).into_iter().flat_map(step).collect()
+}
+
+/// When it was said that the cage stands.
+fn rests(events: &[Event]) -> Vec<f64> {
+    let is_rest = |event: &&Event| matches!(event.kind, Kind::Change { state, .. } if state == State::Known(Phase::Rest));
+    events
+        .iter()
+        .filter(is_rest)
+        .map(|event| event.reported)
+        .collect()
+}
+
+/// A cage that was said to stand, and starts before that could be seen, is not said to stand while it moves.
+#[test]
+fn a_start_in_the_first_second() {
+    let design = design();
+    for rest in [0.1, 0.3, 0.6, 1.0, 1.2, 2.0, 3.0, 4.0] {
+        let ride = [
+            (rest, 0.0),
+            (1.5, 0.6),
+            (20.0, 0.0),
+            (1.5, -0.6),
+            (10.0, 0.0),
+        ];
+        for knowledge in [
+            knowledge(&design),
+            Knowledge {
+                begins_at_rest: true,
+                ..Knowledge::default()
+            },
+        ] {
+            let events = events(&design, knowledge, &ride);
+            let moves = rest + 1.0..rest + 23.0;
+            let wrong = rests(&events).into_iter().find(|said| moves.contains(said));
+            assert_eq!(wrong, None, "{rest} s: {events:?}");
+        }
+    }
+}
+
+/// A braking that cuts the acceleration short ends the motion, however long either lasts.
+#[test]
+fn no_uniform_motion() {
+    let design = design();
+    for tenths in 6..20 {
+        for acceleration in [0.3, 0.4, 0.55, 0.7, 0.9, 1.1, 1.4] {
+            for braking in [0.3, 0.4, 0.6, 0.9, 1.2] {
+                let seconds = f64::from(tenths) / 10.0;
+                if seconds * acceleration < 0.3 {
+                    continue;
+                }
+                let ride = [
+                    (6.0, 0.0),
+                    (seconds, acceleration),
+                    (seconds * acceleration / braking, -braking),
+                    (10.0, 0.0),
+                ];
+                let samples = samples(&ride).into_iter().map(Ok::<_, ()>);
+                let found = Detection::of(&design, knowledge(&design), samples).unwrap();
+                let ends: Vec<Option<End>> = found.rides.iter().map(|ride| ride.end).collect();
+                assert_eq!(ends, [Some(End::Stop)], "{ride:?}: {:?}", found.events);
+                let top = seconds * acceleration;
+                assert!(
+                    (found.rides[0].speed / top - 1.0).abs() < 0.2,
+                    "{ride:?}: {:?}",
+                    found.events
+                );
+            }
+        }
+    }
+}
+
+/// A jam is one whatever the sizes of the samples are.
+#[test]
+fn a_jam_at_any_sizes() {
+    for (reference, shift, scale, gap) in [
+        (24, 12, 12, 0),
+        (8, 12, 12, 0),
+        (8, 12, 12, 6),
+        (12, 24, 24, 0),
+        (40, 8, 8, 2),
+    ] {
+        let settings = Settings {
+            reference,
+            shift,
+            scale,
+            gap,
+            alpha: 0.01,
+            ..Settings::default()
+        };
+        let design = settings.at(1.0 / BLOCK).unwrap();
+        let ride = [
+            (8.0, 0.0),
+            (1.5, 0.6),
+            (12.0, 0.0),
+            (0.1, -9.0),
+            (20.0, 0.0),
+        ];
+        let events = events(&design, knowledge(&design), &ride);
+        let jams = events
+            .iter()
+            .filter(|event| event.kind == Kind::Alarm(Alarm::Jam));
+        assert_eq!(
+            jams.count(),
+            1,
+            "{reference}/{shift}/{scale} + {gap}: {events:?}"
+        );
+    }
+}
+
+/// What is learnt while nothing is known does not cost the next pulse its beginning.
+#[test]
+fn learning_does_not_cut_a_pulse() {
+    let design = design();
+    for start in 0..40 {
+        let rest = 10.0 + f64::from(start) * BLOCK;
+        let ride = [
+            (rest, 0.0),
+            (1.5, 0.6),
+            (3.0, 0.0),
+            (1.5, -0.6),
+            (4.0, 0.0),
+            (1.5, -0.6),
+            (6.0, 0.0),
+        ];
+        let events = events(&design, Knowledge::default(), &ride);
+        // + − − : the cage moves down.
+        let is_start =
+            |event: &&Event| matches!(event.kind, Kind::Change { state, .. } if state.moves());
+        let begun = events.iter().find(is_start);
+        let begun = begun.unwrap_or_else(|| panic!("{rest} s: {events:?}"));
+        assert!(
+            (begun.time - (rest + 10.0)).abs() < 0.5,
+            "{rest} s: {events:?}"
+        );
+    }
+}
+
+/// A gap renumbers the blocks, and nothing that was remembered by number survives it.
+#[test]
+fn gaps_anywhere() {
+    let design = design();
+    let ride = [(8.0, 0.0), (1.5, 0.6), (5.0, 0.0), (1.5, -0.6), (8.0, 0.0)];
+    let samples = samples(&ride);
+    for gap in 1..samples.len() {
+        let late = |(index, sample): (usize, &Sample)| Sample {
+            time: sample.time + if index < gap { 0.0 } else { 100.0 },
+            ..*sample
+        };
+        let samples = samples.iter().enumerate().map(late).map(Ok::<_, ()>);
+        let found = Detection::of(&design, knowledge(&design), samples).unwrap();
+        for event in &found.events {
+            assert!(event.time <= event.reported, "{gap}: {event:?}");
+        }
+        for ride in &found.rides {
+            let stop = ride.stop.unwrap_or(f64::INFINITY);
+            assert!(ride.start < stop, "{gap}: {ride:?}");
+        }
+    }
+}
+
+/// From 1 Hz to 1 MHz, and where the clock's numbers are so large that they are coarse.
+#[test]
+fn any_rate_at_any_time() {
+    for rate in [1.0, 2.0, 3.7, 10.0, 100.0, 1e4, 1e6] {
+        for origin in [0.0, -1e12, 1e12] {
+            let design = Settings::default().at(rate).unwrap();
+            let mut monitor = Monitor::new(design.clone(), Knowledge::default());
+            let mut last = f64::NEG_INFINITY;
+            for number in 0..120_000 {
+                let time = origin + f64::from(number) / rate;
+                if time <= last {
+                    continue;
+                }
+                last = time;
+                let acceleration = [0.0, 1.0, -1e4, 1e4][number as usize / 30_000 % 4];
+                for event in monitor.step(Sample { time, acceleration }, Some(true)) {
+                    assert!(event.time <= event.reported, "{rate} {origin}: {event:?}");
+                }
+            }
+        }
+    }
+}
