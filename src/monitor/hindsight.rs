@@ -221,7 +221,6 @@ impl Windows {
         };
         Ok(Knowledge {
             begins_at_rest: begins_at_rest && !is_inverted,
-            motion_shows: is_inverted,
             ..Knowledge::at_rest(reference)
         })
     }
