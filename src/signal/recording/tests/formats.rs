@@ -147,7 +147,7 @@ fn down_is_turned_up() {
         recording
             .vertical()
             .to_string()
-            .starts_with("-z, 0.0 degrees")
+            .starts_with("-z (0.0 degrees")
     );
     let recording = open("time,acceleration (g)\n0.00,-1\n0.01,-1.25\n0.02,-1\n");
     assert!(recording.facts().has_gravity);
