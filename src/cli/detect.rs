@@ -1,20 +1,18 @@
 //! `liftsim detect RECORDING`: rest, rides and what decided them, in a recording.
 
 use super::found::Found;
+use super::output::Output;
 use super::progress;
 use super::reading::ReadingArguments;
 use super::watch::{Told, Watch, check_strength};
 use super::{Failure, Outcome, print};
-use anyhow::{Context, anyhow};
 use clap::Args;
 use indicatif::ProgressBar;
 use liftsim::detection::Detection;
 use liftsim::figure::{self, FigureError};
 use liftsim::monitor::{Briefing, Design, Knowledge};
-use liftsim::signal::recording::Recording;
-use std::fs::OpenOptions;
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use liftsim::signal::recording::{Reading, Recording, Sample};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Find the rides in a recording: when each started and stopped, where it went, and by what decisions.
@@ -55,69 +53,36 @@ pub struct Detect {
     reading: ReadingArguments,
 }
 
+/// Where results go, but for standard output.
+struct Outputs {
+    state: Option<Output>,
+    csv: Option<Output>,
+    figure: Option<Output>,
+}
+
 impl Detect {
     /// Runs the command.
     pub fn run(self, quiet: bool) -> Outcome {
-        self.check_outputs()?;
-        let Told { config, briefing } = self.watch.told()?;
-        let reading = self.reading.over(config.reading)?;
-        let recording = Recording::open(&self.recording, &reading).map_err(Failure::input)?;
-        let named = || self.recording.display().to_string();
-        let facts = recording.facts();
-        check_strength(facts.least)
-            .and(check_strength(facts.greatest))
-            .with_context(named)
-            .map_err(Failure::Input)?;
-        for warning in recording.warnings() {
-            eprintln!("warning: {warning}");
-        }
-        let passes = if briefing.is_some() { 1 } else { 3 };
+        let outputs = self.outputs()?;
+        let told = self.watch.told()?;
+        let recording = self.open(&told.config.reading)?;
+        let passes = if told.briefing.is_some() { 1 } else { 3 };
         let bar = progress::passes(passes * recording.facts().samples, !quiet);
-        let briefing = match briefing {
-            Some(briefing) => briefing,
-            None => {
-                let rate = recording.rate();
-                let design = config.settings.at(rate).with_context(named);
-                let design = design.map_err(Failure::Input)?;
-                Briefing {
-                    knowledge: learn(&design, &recording, &self.recording, &bar)?,
-                    settings: config.settings,
-                    rate,
-                }
-            }
-        };
-        let design = briefing.design().map_err(Failure::input)?;
+        let (briefing, design) = self.brief(told, &recording, &bar)?;
+        let first = first_sample(&recording)?;
         let samples = recording.samples().map_err(Failure::input)?;
         let samples = progress::seen(samples, &bar);
-        let detection = Detection::of(&design, briefing.knowledge.clone(), samples);
+        let detection = Detection::of(&design, briefing.knowledge_of(&first), samples);
         bar.finish_and_clear();
-        let detection = detection.map_err(Failure::input)?;
         let found = Found {
             path: &self.recording,
             recording: &recording,
-            detection: &detection,
+            detection: &detection.map_err(Failure::input)?,
         };
         for warning in found.warnings() {
             eprintln!("warning: {warning}");
         }
-        let drawn = (self.figure.as_ref()).map(|_| figure::detection(&detection, &found.name()));
-        let drawn = drawn.transpose().map_err(|error| match error {
-            FigureError::Short => Failure::Input(anyhow!("{}: {error}", named())),
-            error => Failure::run(error),
-        })?;
-        if let Some(path) = &self.save_state {
-            write(path, briefing.to_json().as_bytes(), self.force)?;
-        }
-        if let Some(path) = &self.csv {
-            write(path, &found.csv(), self.force)?;
-        }
-        if let (Some(path), Some(drawing)) = (&self.figure, drawn) {
-            let bytes = match is_svg(path) {
-                true => drawing.svg,
-                false => drawing.png,
-            };
-            write(path, &bytes, self.force)?;
-        }
+        self.write(&outputs, &found, &briefing)?;
         print(&match self.json {
             true => found.json(),
             false => found.table(),
@@ -126,59 +91,84 @@ impl Detect {
     }
 
     /// Before anything takes long.
-    fn check_outputs(&self) -> Result<(), Failure> {
-        let is_picture =
-            |path: &PathBuf| path.extension().is_some_and(|e| e == "png" || e == "svg");
-        if let Some(path) = self.figure.as_ref().filter(|path| !is_picture(path)) {
-            return Err(Failure::Input(anyhow!(
-                "--figure must end in .png or .svg, got {}",
-                path.display()
-            )));
+    fn outputs(&self) -> Result<Outputs, Failure> {
+        let picture = |path: &PathBuf| Output::picture(path, self.force);
+        let file = |path: &PathBuf| Output::new(path, self.force);
+        Ok(Outputs {
+            figure: self.figure.as_ref().map(picture).transpose()?,
+            state: self.save_state.as_ref().map(file).transpose()?,
+            csv: self.csv.as_ref().map(file).transpose()?,
+        })
+    }
+
+    /// Opens the recording and says what should be known of it.
+    fn open(&self, reading: &Reading) -> Result<Recording, Failure> {
+        let reading = self.reading.over(reading)?;
+        let recording = Recording::open(&self.recording, &reading).map_err(Failure::input)?;
+        let facts = recording.facts();
+        check_strength(facts.least)
+            .and(check_strength(facts.greatest))
+            .map_err(|error| self.refused(error))?;
+        for warning in recording.warnings() {
+            eprintln!("warning: {warning}");
         }
-        let outputs = [&self.save_state, &self.csv, &self.figure];
-        let in_the_way = |path: &&PathBuf| !self.force && path.exists();
-        match outputs.into_iter().flatten().find(in_the_way) {
-            Some(path) => Err(exists(path)),
-            None => Ok(()),
+        Ok(recording)
+    }
+
+    /// What is known before the recording is watched, from a saved state or learnt, and how it is watched.
+    fn brief(
+        &self,
+        told: Told,
+        recording: &Recording,
+        bar: &ProgressBar,
+    ) -> Result<(Briefing, Design), Failure> {
+        if let Some(briefing) = told.briefing {
+            let design = briefing.design().map_err(Failure::input)?;
+            return Ok((briefing, design));
         }
+        let (settings, rate) = (told.config.settings, recording.rate());
+        let design = settings.at(rate);
+        let design = design.map_err(|error| self.refused(error.into()))?;
+        let pass = || Ok(progress::seen(recording.samples()?, bar));
+        let learnt = Knowledge::from_record(&design, pass).map_err(Failure::input)?;
+        let first = first_sample(recording)?;
+        let briefing = Briefing {
+            knowledge: learnt.map_err(|error| self.refused(error.into()))?,
+            settings,
+            rate,
+            first_sample: Some((first.time, first.acceleration)),
+        };
+        Ok((briefing, design))
+    }
+
+    fn write(&self, to: &Outputs, found: &Found, briefing: &Briefing) -> Result<(), Failure> {
+        // What cannot be drawn leaves no other file behind.
+        let draw = |_: &Output| figure::detection(found.detection, &found.name());
+        let drawing = to.figure.as_ref().map(draw).transpose();
+        let drawing = drawing.map_err(|error| match error {
+            FigureError::Short => self.refused(error.into()),
+            error => Failure::run(error),
+        })?;
+        if let Some(state) = &to.state {
+            state.write(briefing.to_json().as_bytes())?;
+        }
+        if let Some(csv) = &to.csv {
+            csv.write(&found.csv())?;
+        }
+        match (&to.figure, &drawing) {
+            (Some(figure), Some(drawing)) => figure.draw(drawing),
+            _ => Ok(()),
+        }
+    }
+
+    /// The recording is not what it should be.
+    fn refused(&self, error: anyhow::Error) -> Failure {
+        Failure::Input(error.context(self.recording.display().to_string()))
     }
 }
 
-fn learn(
-    design: &Design,
-    recording: &Recording,
-    path: &Path,
-    bar: &ProgressBar,
-) -> Result<Knowledge, Failure> {
-    let pass = || Ok(progress::seen(recording.samples()?, bar));
-    let learnt = Knowledge::from_record(design, pass);
-    learnt
-        .map_err(Failure::input)?
-        .with_context(|| path.display().to_string())
-        .map_err(Failure::Input)
-}
-
-fn is_svg(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension == "svg")
-}
-
-fn exists(path: &Path) -> Failure {
-    Failure::Input(anyhow!(
-        "{}: is there already (give another name, or --force to replace it)",
-        path.display()
-    ))
-}
-
-fn write(path: &Path, bytes: &[u8], force: bool) -> Result<(), Failure> {
-    let mut options = OpenOptions::new();
-    match force {
-        true => options.create(true).truncate(true),
-        false => options.create_new(true),
-    };
-    options
-        .write(true)
-        .open(path)
-        .and_then(|mut file| file.write_all(bytes))
-        .with_context(|| format!("{}: cannot be written", path.display()))
-        .map_err(Failure::Input)
+fn first_sample(recording: &Recording) -> Result<Sample, Failure> {
+    let mut samples = recording.samples().map_err(Failure::input)?;
+    let first = samples.next().expect("a recording has samples");
+    first.map_err(Failure::input)
 }

@@ -59,8 +59,8 @@ impl Found<'_> {
         let mut warnings = Vec::new();
         if self.detection.is_high_passed {
             warnings.push(
-                "this looks like a sensor behind a high-pass filter: pulses of acceleration die away and swing \
-                 over, so motions look like short hops (record the raw accelerometer, with g)"
+                "this looks like a sensor behind a high-pass filter: pulses of acceleration decay and overshoot, so \
+                 speeds and stops cannot be trusted (record the raw accelerometer, with g)"
                     .to_owned(),
             );
         }
@@ -68,6 +68,15 @@ impl Found<'_> {
         if (now / then - 1.0).abs() > 0.05 {
             warnings.push(format!(
                 "the state was learnt at {then:.1} Hz, this recording has {now:.1} Hz (use --resample {then:.1})"
+            ));
+        }
+        if let Some(reference) = &self.detection.knowledge.reference
+            && !is_level_of_rest(reference.level)
+        {
+            warnings.push(format!(
+                "rest reads {:.3} m/s^2, neither 0 nor the 9.8 of gravity (is the unit right? --unit g, mg, or counts \
+                 with --scale)",
+                reference.level
             ));
         }
         let lost = self
@@ -78,7 +87,7 @@ impl Found<'_> {
             .count();
         if lost > 0 {
             warnings.push(format!(
-                "{lost} of the rides were lost from sight: what came after their start is no stop of a lift"
+                "{lost} rides were lost from sight: no stop was found that fits their start"
             ));
         }
         warnings
@@ -148,6 +157,9 @@ impl Found<'_> {
             design.settings.alpha,
             at_rest_words(at_rest.decisions, at_rest.alarms)
         );
+        if !knowledge.begins_at_rest {
+            text += "the recording may begin in motion: the state is unknown at first\n\n";
+        }
         text
     }
 
@@ -270,8 +282,7 @@ impl Found<'_> {
             "knowledge": knowledge,
             "at_rest": {
                 "decisions": at_rest.decisions,
-                "alarms": at_rest.alarms,
-                "seconds": at_rest.seconds,
+                "false_alarms": at_rest.alarms,
             },
             "rides": rides,
             "events": self.detection.events,
@@ -351,10 +362,16 @@ fn ride_json(ride: &Ride) -> Value {
 
 fn at_rest_words(decisions: u64, alarms: u64) -> String {
     match decisions {
-        0 => "none of them at rest".to_owned(),
+        0 => "none at rest".to_owned(),
         _ => format!(
-            "at rest {alarms} of {decisions} were for motion ({:.2} %)",
+            "false alarms at rest: {alarms} of {decisions} ({:.2} %)",
             100.0 * alarms as f64 / decisions as f64
         ),
     }
+}
+
+/// Whether a sensor may read this at rest, m/s²: nothing or gravity, and its own offset.
+fn is_level_of_rest(level: f64) -> bool {
+    const OFFSET: f64 = 1.5;
+    level.abs() < OFFSET || (level.abs() - 9.81).abs() < OFFSET
 }

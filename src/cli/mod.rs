@@ -10,6 +10,7 @@ mod found;
 mod man;
 mod merge;
 mod monitor;
+mod output;
 mod plan;
 mod plot;
 mod progress;

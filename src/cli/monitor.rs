@@ -16,22 +16,24 @@ use std::process::ExitCode;
 /// with when it happened (time), when that was known (reported) and the decision that made it known; and alarms.
 ///
 /// States are unknown, rest, accelerating, inertial, braking. A cage that moves smoothly looks like one that
-/// stands, so a monitor that was switched on in between says unknown until it knows better: until the
-/// direction of motion has turned, or at once if you say that the cage stands (--begins rest).
+/// stands, so a monitor says unknown until it knows better: until the direction of motion has turned, or
+/// until rest is seen, if you say that the cage stands (--begins rest). In the state unknown there are no alarms.
 ///
 /// The alarm `jam` says that a motion ended in a violent pulse, without the braking of a commanded stop;
 /// `slack`, with --expected-moving, that the cage stands while the drum pays out rope.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     liftsim detect ride.csv --save-state lift.json\n  \
-    sensor | liftsim monitor --state lift.json\n  \
+    sensor | liftsim monitor --state lift.json --begins rest\n  \
+    cut -d, -f1,4 ride.csv | liftsim monitor --state lift.json\n  \
     sensor | liftsim monitor --rate 100 --begins rest\n  \
     paste -d, sensor.txt drum.txt | liftsim monitor --rate 100 --expected-moving")]
 pub struct MonitorCommand {
     /// Samples per second; measured from the first of them where they have times.
     #[arg(long, value_name = "HZ")]
     rate: Option<f64>,
-    /// What is known of the cage as the samples begin [default: what the saved state says, else unknown].
+    /// What is known of the cage as the samples begin [default: unknown, unless they are those that the saved
+    /// state was learnt from].
     #[arg(long, value_name = "STATE", value_enum)]
     begins: Option<Beginning>,
     /// Each line ends with one more number: 1 while the drum turns, else 0.
@@ -71,54 +73,47 @@ impl MonitorCommand {
                 true => LineReader::with_drum(input),
                 false => LineReader::new(input),
             },
-            interval: None,
+            rate: None,
             last: None,
+            intervals: Vec::new(),
             count: 0,
             keeps_going: self.keep_going,
         };
-        let known_rate = self
-            .rate
-            .or(briefing.as_ref().map(|briefing| briefing.rate));
-        let (first, rate) = readings.begin(known_rate)?;
-        let mut briefing = briefing.unwrap_or(Briefing {
-            settings: config.settings,
+        let saved_rate = briefing.as_ref().map(|briefing| briefing.rate);
+        let (first, rate) = readings.begin(self.rate.or(saved_rate))?;
+        let beginning = first[0].0;
+        let briefing = Briefing {
             rate,
-            knowledge: Knowledge::default(),
-        });
-        briefing.rate = rate;
-        if let Some(begins) = self.begins {
-            briefing.knowledge.begins_at_rest = begins == Beginning::Rest;
-        } else if briefing.knowledge.begins_at_rest {
-            eprintln!(
-                "note: the saved state says that the cage stands as the samples begin (--begins unknown if it may not)"
-            );
-        }
-        let design = match known_rate {
-            Some(_) => briefing.design().map_err(Failure::input)?,
-            None => (briefing
-                .design()
-                .context("standard input, whose times must be in s"))
-            .map_err(Failure::Input)?,
+            ..briefing.unwrap_or(Briefing {
+                settings: config.settings,
+                rate,
+                first_sample: None,
+                knowledge: Knowledge::default(),
+            })
         };
-        let mut monitor = Monitor::new(design, briefing.knowledge);
-        let mut out = Reports::new();
-        if let Some((sample, _)) = first.first() {
-            out.say(&monitor.beginning(sample.time))?;
+        let mut knowledge = briefing.knowledge_of(&beginning);
+        if let Some(begins) = self.begins {
+            knowledge.begins_at_rest = begins == Beginning::Rest;
         }
+        let design = briefing.design().map_err(Failure::input)?;
+        let mut monitor = Monitor::new(design, knowledge);
+        let mut out = Reports::new();
+        let begun = out.say(&monitor.beginning(beginning.time));
         let mut watch = |(sample, drum_turns): Reading| {
             let mut events = monitor.step(sample, drum_turns).iter();
             events.try_for_each(|event| out.say(event))
         };
-        let watched = first.into_iter().try_for_each(&mut watch).and_then(|()| {
-            while let Some(reading) = readings.next()? {
-                watch(reading)?;
-            }
-            Ok(())
-        });
+        let watched = begun
+            .and_then(|()| first.into_iter().try_for_each(&mut watch))
+            .and_then(|()| {
+                while let Some(reading) = readings.next()? {
+                    watch(reading)?;
+                }
+                Ok(())
+            });
         match watched {
-            Err(Stop::Closed) => Ok(ExitCode::SUCCESS),
             Err(Stop::Failed(failure)) => Err(failure),
-            Ok(()) => Ok(ExitCode::SUCCESS),
+            Err(Stop::Closed) | Ok(()) => Ok(ExitCode::SUCCESS),
         }
     }
 }
@@ -136,75 +131,75 @@ impl From<Failure> for Stop {
     }
 }
 
-impl From<Stop> for Failure {
-    fn from(stop: Stop) -> Self {
-        match stop {
-            Stop::Failed(failure) => failure,
-            Stop::Closed => Self::Run(anyhow!("standard output is closed")),
-        }
-    }
-}
-
 /// Samples from standard input.
 struct Readings<R> {
     lines: LineReader<R>,
-    /// Seconds between samples without times of their own.
-    interval: Option<f64>,
+    /// Hz, where it is known.
+    rate: Option<f64>,
+    /// When the last sample with a time was taken, s.
     last: Option<f64>,
+    /// The first intervals between such samples, s.
+    intervals: Vec<f64>,
     count: u64,
     keeps_going: bool,
 }
 
 impl<R: io::BufRead> Readings<R> {
-    /// The first readings, and the rate, measured or as known.
+    /// The first readings, at least one, and the rate: as known, or measured from as many as that takes.
     fn begin(&mut self, known: Option<f64>) -> Result<(Vec<Reading>, f64), Failure> {
-        self.interval = known.map(|rate| 1.0 / rate);
+        self.rate = known;
+        let wanted = if known.is_some() { 1 } else { MEASURED + 1 };
         let mut first: Vec<Reading> = Vec::new();
-        while first.len() < MEASURED {
+        while first.len() < wanted {
             match self.next()? {
                 Some(reading) => first.push(reading),
                 None => break,
             }
-            if self.last.is_none() {
-                break;
-            }
         }
-        if first.is_empty() {
-            return Err(Failure::Input(anyhow!(
-                "standard input: holds no reading (does the sensor send anything?)"
-            )));
-        }
-        let mut intervals: Vec<f64> = (first.windows(2))
-            .map(|pair| pair[1].0.time - pair[0].0.time)
-            .collect();
-        intervals.sort_by(f64::total_cmp);
-        let measured = intervals
-            .get(intervals.len() / 2)
-            .map(|median| 1.0 / median);
-        match (known, measured) {
-            (None, None) => Err(Failure::Input(anyhow!(
-                "standard input: the rate is measured from two readings or more, got {} (give --rate)",
-                first.len()
+        match (known.or(self.measured()), first.len()) {
+            (_, 0) => Err(Failure::Input(anyhow!(
+                "standard input: no samples (a line is `acceleration` or `time,acceleration`)"
             ))),
-            (Some(known), measured) => {
-                if let Some(measured) =
-                    measured.filter(|measured| (measured / known - 1.0).abs() > 0.05)
-                {
-                    self.warn(&format!(
-                        "samples come at {measured:.1} Hz, not at {known:.1} Hz"
-                    ));
-                }
-                Ok((first, known))
-            }
-            (None, Some(measured)) => Ok((first, measured)),
+            (None, readings) => Err(Failure::Input(anyhow!(
+                "standard input: {readings} reading, and the rate is measured from two or more (give --rate)"
+            ))),
+            (Some(rate), _) => Ok((first, rate)),
         }
+    }
+
+    /// Hz, by the median of the first intervals.
+    fn measured(&self) -> Option<f64> {
+        let mut intervals = self.intervals.clone();
+        intervals.sort_by(f64::total_cmp);
+        intervals
+            .get(intervals.len() / 2)
+            .map(|median| 1.0 / median)
+    }
+
+    /// Takes the time of a sample; once there are enough of them, they must come at the rate that is known.
+    fn take_time(&mut self, time: f64) -> Result<(), Failure> {
+        if let Some(last) = self.last.replace(time)
+            && self.intervals.len() < MEASURED
+        {
+            self.intervals.push(time - last);
+            if self.intervals.len() == MEASURED
+                && let (Some(rate), Some(measured)) = (self.rate, self.measured())
+                && (measured / rate - 1.0).abs() > 0.05
+            {
+                return Err(Failure::Input(anyhow!(
+                    "standard input: samples come at {measured:.1} Hz, and not at {rate:.1} Hz as --rate or the saved \
+                     state says (leave --rate out where samples have times, or learn a state at this rate)"
+                )));
+            }
+        }
+        Ok(())
     }
 
     fn next(&mut self) -> Result<Option<Reading>, Failure> {
         loop {
             let refusal = match self.lines.next() {
                 Ok(None) => return Ok(None),
-                Ok(Some(reading)) => match self.timed(&reading) {
+                Ok(Some(reading)) => match self.timed(&reading)? {
                     Ok(sample) => return Ok(Some((sample, reading.drum_turns))),
                     Err(refusal) => refusal,
                 },
@@ -220,33 +215,35 @@ impl<R: io::BufRead> Readings<R> {
         }
     }
 
-    /// A reading at its time, which must be later than that of the one before.
+    /// A reading at its time, which must be later than that of the one before; or why it is passed over.
     #[inline]
-    fn timed(&mut self, reading: &LineReading) -> Result<Sample, anyhow::Error> {
+    fn timed(&mut self, reading: &LineReading) -> Result<anyhow::Result<Sample>, Failure> {
         let acceleration = reading.acceleration;
         let line = self.lines.number();
-        check_strength(acceleration).with_context(|| format!("line {line}"))?;
+        if let Err(refusal) = check_strength(acceleration) {
+            return Ok(Err(refusal.context(format!("line {line}"))));
+        }
         let Some(time) = reading.time else {
-            let Some(interval) = self.interval else {
-                return Err(anyhow!("samples without times need a rate (give --rate)"));
+            let Some(rate) = self.rate else {
+                return Err(Failure::Input(anyhow!(
+                    "standard input: samples without times need a rate (give --rate)"
+                )));
             };
             self.count += 1;
-            return Ok(Sample {
-                time: (self.count - 1) as f64 * interval,
-                acceleration,
-            });
+            let time = (self.count - 1) as f64 / rate;
+            return Ok(Ok(Sample { time, acceleration }));
         };
         match self.last {
-            _ if time.abs() > LATEST => Err(anyhow!(
+            _ if time.abs() > LATEST => Ok(Err(anyhow!(
                 "line {line}: times must lie within {LATEST:e} s, got {time:e} (are they counted in s?)"
-            )),
-            Some(last) if time <= last => Err(anyhow!(
+            ))),
+            Some(last) if time <= last => Ok(Err(anyhow!(
                 "line {line}: time must increase, got {time} s after {last} s (are lines out of order or \
                  repeated, or is a comma the decimal mark?)"
-            )),
+            ))),
             _ => {
-                self.last = Some(time);
-                Ok(Sample { time, acceleration })
+                self.take_time(time)?;
+                Ok(Ok(Sample { time, acceleration }))
             }
         }
     }

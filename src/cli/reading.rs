@@ -1,8 +1,7 @@
 //! How a recording is read, as the command line has it.
 
 use super::Failure;
-use anyhow::anyhow;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use liftsim::signal::recording::{Axis, Reading, TimeUnit, Unit};
 
 /// How the recording is read. Whatever is left out is found in the file.
@@ -15,21 +14,15 @@ pub struct ReadingArguments {
     /// The name of the column with the vertical acceleration, up positive.
     #[arg(long, value_name = "COLUMN")]
     acceleration: Option<String>,
-    /// What time is counted in.
-    #[arg(long, value_name = "UNIT", value_enum)]
-    time_unit: Option<TimeUnitName>,
-    /// What acceleration is counted in; counts are those of a converter, see --scale.
-    #[arg(long, value_name = "UNIT", value_enum)]
-    unit: Option<UnitName>,
-    /// One count of the converter, m/s^2.
-    #[arg(long, value_name = "M/S2", allow_negative_numbers = true)]
-    scale: Option<f64>,
-    /// The count of no acceleration.
-    #[arg(long, value_name = "COUNT", allow_negative_numbers = true)]
-    offset: Option<f64>,
-    /// Which axis is vertical: the nearest to gravity, or the one with the ride, if left out.
-    #[arg(long, value_name = "AXIS", value_enum)]
-    axis: Option<AxisName>,
+    /// What time is counted in: s, ms, us or ns.
+    #[arg(long, value_name = "UNIT")]
+    time_unit: Option<TimeUnit>,
+    #[command(flatten)]
+    unit: UnitArguments,
+    /// Which axis is vertical: x, y, z, gravity (none of them: along gravity), or auto (the nearest to
+    /// gravity, or the one with the ride) [default: auto].
+    #[arg(long, value_name = "AXIS")]
+    axis: Option<Axis>,
     /// Bring the samples to a uniform rate first, Hz.
     #[arg(long, value_name = "HZ")]
     resample: Option<f64>,
@@ -38,76 +31,40 @@ pub struct ReadingArguments {
     member: Option<String>,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum TimeUnitName {
-    S,
-    Ms,
-    Us,
-    Ns,
+/// What the acceleration is counted in.
+#[derive(Debug, Args)]
+pub struct UnitArguments {
+    /// What acceleration is counted in: m/s^2, g, mg, or counts of a converter, see --scale.
+    #[arg(long, value_name = "UNIT")]
+    unit: Option<String>,
+    /// One count of the converter, m/s^2.
+    #[arg(long, value_name = "M/S2", allow_negative_numbers = true)]
+    scale: Option<f64>,
+    /// The count of no acceleration.
+    #[arg(long, value_name = "COUNT", allow_negative_numbers = true)]
+    offset: Option<f64>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-enum UnitName {
-    #[value(name = "m/s^2", alias = "m/s2")]
-    MetresPerSecondSquared,
-    G,
-    Mg,
-    Counts,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum AxisName {
-    X,
-    Y,
-    Z,
-    /// None of them: along gravity.
-    Gravity,
+impl UnitArguments {
+    /// The unit, if anything is said of it.
+    pub fn told(&self) -> Result<Option<Unit>, Failure> {
+        Unit::told(self.unit.as_deref(), self.scale, self.offset).map_err(Failure::input)
+    }
 }
 
 impl ReadingArguments {
     /// Lays what is given over what a config says.
-    pub fn over(self, config: Reading) -> Result<Reading, Failure> {
+    pub fn over(&self, config: &Reading) -> Result<Reading, Failure> {
+        let name =
+            |given: &Option<String>, config: &Option<String>| given.clone().or(config.clone());
         Ok(Reading {
-            unit: self.unit()?.unwrap_or(config.unit),
-            time: self.time.or(config.time),
-            acceleration: self.acceleration.or(config.acceleration),
-            time_unit: (self.time_unit.map(|unit| match unit {
-                TimeUnitName::S => TimeUnit::Seconds,
-                TimeUnitName::Ms => TimeUnit::Milliseconds,
-                TimeUnitName::Us => TimeUnit::Microseconds,
-                TimeUnitName::Ns => TimeUnit::Nanoseconds,
-            }))
-            .or(config.time_unit),
-            axis: self.axis.map_or(config.axis, |axis| match axis {
-                AxisName::X => Axis::X,
-                AxisName::Y => Axis::Y,
-                AxisName::Z => Axis::Z,
-                AxisName::Gravity => Axis::Gravity,
-            }),
+            unit: self.unit.told()?.unwrap_or(config.unit),
+            time: name(&self.time, &config.time),
+            acceleration: name(&self.acceleration, &config.acceleration),
+            time_unit: self.time_unit.or(config.time_unit),
+            axis: self.axis.unwrap_or(config.axis),
             resample: self.resample.or(config.resample),
-            member: self.member.or(config.member),
+            member: name(&self.member, &config.member),
         })
-    }
-
-    fn unit(&self) -> Result<Option<Unit>, Failure> {
-        let has_counts = self.scale.is_some() || self.offset.is_some();
-        match self.unit {
-            None if !has_counts => Ok(None),
-            None | Some(UnitName::Counts) => match self.scale {
-                Some(scale) => Ok(Some(Unit::Counts {
-                    scale,
-                    offset: self.offset.unwrap_or(0.0),
-                })),
-                None => Err(Failure::Input(anyhow!(
-                    "--unit counts needs --scale (how many m/s^2 one count is)"
-                ))),
-            },
-            Some(_) if has_counts => Err(Failure::Input(anyhow!(
-                "--scale and --offset are for --unit counts (leave them out)"
-            ))),
-            Some(UnitName::MetresPerSecondSquared) => Ok(Some(Unit::MetresPerSecondSquared)),
-            Some(UnitName::G) => Ok(Some(Unit::Gravity)),
-            Some(UnitName::Mg) => Ok(Some(Unit::Milligravity)),
-        }
     }
 }

@@ -1,14 +1,15 @@
 //! `liftsim record`: a simulated ride as a phone would record it, with the truth beside it.
 
+use super::output::Output;
 use super::{Failure, Outcome, print};
 use anyhow::{Context, anyhow};
 use clap::Args;
+use liftsim::signal::recording::GRAVITY;
 use liftsim::signal::{
-    Digitiser, Drive, Ending, Experiment, Pickup, Ride, Trip, write_phyphox, write_truth,
+    Digitiser, Drive, Ending, ExportLayout, Pickup, Ride, Trip, write_phyphox, write_truth,
 };
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, Write};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Write a simulated ride as a phone on the cage's floor would record it, with the truth beside it.
@@ -25,7 +26,7 @@ use std::process::ExitCode;
     Examples:\n  \
     liftsim record --out ride.csv\n  \
     liftsim record --out jam.csv --trip up:6 --trip down:20:jam --speed 1.6\n  \
-    liftsim record --out rest.csv --still --rest 600 --step 0.1")]
+    liftsim record --out rest.csv --still --rest 600 --step 0.01")]
 pub struct Record {
     /// Where the record goes; the truth goes to FILE.truth.csv.
     #[arg(long, value_name = "FILE.csv")]
@@ -69,7 +70,7 @@ pub struct Record {
     #[arg(long, value_name = "V", default_value_t = 2.2)]
     vibration: f64,
     /// The sensor's step, m/s^2; none by default.
-    #[arg(long, value_name = "QUANTUM")]
+    #[arg(long, value_name = "STEP")]
     step: Option<f64>,
     /// Leave gravity in the vertical axis: 9.80665 m/s^2.
     #[arg(long)]
@@ -91,8 +92,6 @@ enum When {
     After(f64),
 }
 
-const GRAVITY: f64 = 9.80665;
-
 /// `up:12`, `down:7.5`, `up:30:jam`, `up:30:jam@9`.
 fn request(text: &str) -> Result<Request, String> {
     let refused =
@@ -104,7 +103,12 @@ fn request(text: &str) -> Result<Request, String> {
         _ => return Err(refused()),
     };
     let metres = parts.next().and_then(|metres| metres.parse::<f64>().ok());
-    let metres = metres.filter(|metres| *metres > 0.0).ok_or_else(refused)?;
+    let metres = metres.ok_or_else(refused)?;
+    if !(metres > 0.0 && metres.is_finite()) {
+        return Err(format!(
+            "METRES must be positive, got {metres} (up or down says which way)"
+        ));
+    }
     let jam = match parts.next().map(|jam| jam.strip_prefix("jam")) {
         None => None,
         Some(Some("")) => Some(When::HalfWay),
@@ -130,32 +134,23 @@ impl Record {
             let out = self.out.display();
             return Err(Failure::Input(anyhow!("--out must end in .csv, got {out}")));
         }
-        let truth = self.out.with_extension("truth.csv");
-        self.refuse_to_replace(&truth)?;
+        let out = Output::new(&self.out, self.force)?;
+        let truth = Output::new(&self.out.with_extension("truth.csv"), self.force)?;
         let ride = self.ride().map_err(Failure::Input)?;
         let upright = self.pickup().map_err(Failure::Input)?;
-        write(&self.out, |out| self.write_record(out, &ride, &upright))?;
-        write(&truth, |out| write_truth(out, &ride))?;
+        out.write_with(|out| self.write_record(out, &ride, &upright))?;
+        truth.write_with(|out| write_truth(out, &ride))?;
         print(&format!(
-            "{}  {} samples, {:.1} s at {} Hz\n{}  {} trips\n",
-            self.out.display(),
+            "{}  {} samples, {:.1} s at {} Hz\n{}  {} trip{}\n",
+            out.path().display(),
             ride.samples(),
             ride.duration(),
             ride.rate(),
-            truth.display(),
+            truth.path().display(),
             ride.trips().len(),
+            if ride.trips().len() == 1 { "" } else { "s" },
         ))?;
         Ok(ExitCode::SUCCESS)
-    }
-
-    fn refuse_to_replace(&self, truth: &Path) -> Result<(), Failure> {
-        match [&*self.out, truth].into_iter().find(|path| path.exists()) {
-            Some(path) if !self.force => Err(Failure::Input(anyhow!(
-                "{}: exists (give another --out, or --force to replace it)",
-                path.display()
-            ))),
-            _ => Ok(()),
-        }
     }
 
     fn ride(&self) -> anyhow::Result<Ride> {
@@ -167,6 +162,12 @@ impl Record {
         let trips = (1..).zip(requests).map(trip);
         let trips = trips.collect::<anyhow::Result<Vec<Trip>>>()?;
         let rests = match self.rests[..] {
+            [_, _, ..] if self.still => {
+                return Err(anyhow!(
+                    "--still is one rest, got {} (give --rest once)",
+                    self.rests.len()
+                ));
+            }
             [rest] => vec![rest; trips.len() + 1],
             _ => self.rests.clone(),
         };
@@ -207,9 +208,13 @@ impl Record {
             ..Pickup::white(self.sigma)
         };
         let pickup = pickup.checked().context("sensor")?;
-        let quantum = self.step.map(|step| step / self.sigma);
-        let digitiser = Digitiser::new(quantum, None);
-        let digitiser = digitiser.context("--step, in units of --sigma")?;
+        let in_sigma = self.step.map(|step| step / self.sigma);
+        let digitiser = Digitiser::new(in_sigma, None).map_err(|_| {
+            anyhow!(
+                "--step must lie in [1e-9, 1e9] times --sigma, got {} (leave it out for no steps)",
+                self.step.unwrap_or_default()
+            )
+        })?;
         Ok(Pickup {
             digitiser,
             ..pickup
@@ -224,24 +229,10 @@ impl Record {
         };
         let axis = |pickup: &Pickup, index| ride.simulate(pickup, self.seed, index).record;
         let (x, y, z) = (axis(&level, 1), axis(&level, 2), axis(upright, 0));
-        let experiment = match self.with_gravity {
-            true => Experiment::WithGravity,
-            false => Experiment::Linear,
+        let layout = match self.with_gravity {
+            true => ExportLayout::WithGravity,
+            false => ExportLayout::Linear,
         };
-        write_phyphox(out, experiment, self.rate, [&x, &y, &z])
+        write_phyphox(out, layout, self.rate, [&x, &y, &z])
     }
-}
-
-fn write(
-    path: &Path,
-    content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> Result<(), Failure> {
-    let written = File::create(path).and_then(|file| {
-        let mut out = BufWriter::new(file);
-        content(&mut out)?;
-        out.flush()
-    });
-    written
-        .with_context(|| format!("{}: cannot be written (give another --out)", path.display()))
-        .map_err(Failure::Input)
 }

@@ -1,10 +1,9 @@
 //! `liftsim threshold`: C_W(T) and the exact size of a rule.
 
+use super::output::Output;
 use super::{Failure, Outcome, print, table};
-use anyhow::{Context, anyhow};
 use clap::{Args, ValueEnum};
 use liftsim::detect::{Alternative, NullLaws, Region, Rule, Samples};
-use liftsim::figure;
 use serde_json::json;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -67,14 +66,8 @@ enum Sign {
 impl Threshold {
     /// Runs the command.
     pub fn run(self) -> Outcome {
-        if let Some(path) = &self.figure
-            && !path.extension().is_some_and(|e| e == "png" || e == "svg")
-        {
-            return Err(Failure::Input(anyhow!(
-                "--figure must end in .png or .svg, got {}",
-                path.display()
-            )));
-        }
+        let figure = self.figure.as_ref();
+        let figure = figure.map(|path| Output::picture(path, true)).transpose()?;
         let samples =
             Samples::contiguous(self.reference, self.shift, self.scale).map_err(Failure::input)?;
         let rule = match self.rule {
@@ -94,21 +87,10 @@ impl Threshold {
             true => self.as_json(&laws, &region, &rule, alternative),
             false => self.as_table(&laws, &region, &rule, alternative),
         };
-        if let Some(path) = &self.figure {
-            let title = figure::region_title(&samples, alternative, self.alpha);
-            let drawing = figure::region(&laws, &rule, &region, title).map_err(Failure::run)?;
-            let bytes = match path.extension().and_then(|extension| extension.to_str()) {
-                Some("svg") => drawing.svg,
-                _ => drawing.png,
-            };
-            std::fs::write(path, bytes)
-                .with_context(|| {
-                    format!(
-                        "{}: cannot be written (give another --figure)",
-                        path.display()
-                    )
-                })
-                .map_err(Failure::Input)?;
+        if let Some(figure) = figure {
+            let title = liftsim::figure::region_title(&samples, alternative, self.alpha);
+            let drawing = liftsim::figure::region(&laws, &rule, &region, title);
+            figure.draw(&drawing.map_err(Failure::run)?)?;
         }
         print(&text)?;
         Ok(ExitCode::SUCCESS)

@@ -6,6 +6,7 @@ use super::ride::RideProblem;
 use crate::chain::RecordTooLong;
 use crate::detect::{RegionError, SamplesError};
 use crate::monitor::SettingsError;
+use crate::signal::recording::UnitError;
 use crate::signal::{
     DigitiserError, DisturbanceError, ImpulsesError, LawError, MotionError, SensorError,
 };
@@ -281,6 +282,9 @@ pub enum Problem {
     /// Rides that cannot be made or watched.
     #[error("ride: {0}")]
     Ride(#[from] RideProblem),
+    /// A unit that no recording has.
+    #[error("recording.{0}")]
+    Unit(UnitError),
     /// A claim that cannot be tested.
     #[error("{0}")]
     Claim(#[from] ClaimProblem),

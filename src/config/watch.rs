@@ -3,9 +3,9 @@
 //! Every key has a default; an unknown one is refused.
 
 use super::error::{ConfigError, Problem, Source};
-use super::value::{Number, Whole};
+use super::value::{Named, Number, Whole};
 use crate::monitor::{Settings, SettingsError};
-use crate::signal::recording::{Axis, Reading, TimeUnit, Unit};
+use crate::signal::recording::{Axis, Reading, TimeUnit, Unit, UnitError};
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, Visitor};
 use std::fmt;
@@ -37,47 +37,13 @@ struct WatchFile {
 struct RecordingTable {
     time: Option<String>,
     acceleration: Option<String>,
-    time_unit: Option<TimeUnitName>,
-    unit: Option<UnitName>,
-    scale: Option<Number>,
-    offset: Option<Number>,
-    axis: Option<AxisName>,
+    time_unit: Option<Named<TimeUnit>>,
+    unit: Option<Spanned<String>>,
+    scale: Option<Spanned<Number>>,
+    offset: Option<Spanned<Number>>,
+    axis: Option<Named<Axis>>,
     resample: Option<Number>,
     member: Option<String>,
-}
-
-#[derive(Clone, Copy, Debug, Deserialize)]
-enum TimeUnitName {
-    #[serde(rename = "s")]
-    Seconds,
-    #[serde(rename = "ms")]
-    Milliseconds,
-    #[serde(rename = "us")]
-    Microseconds,
-    #[serde(rename = "ns")]
-    Nanoseconds,
-}
-
-#[derive(Clone, Copy, Debug, Deserialize)]
-enum UnitName {
-    #[serde(rename = "m/s^2")]
-    MetresPerSecondSquared,
-    #[serde(rename = "g")]
-    Gravity,
-    #[serde(rename = "mg")]
-    Milligravity,
-    #[serde(rename = "counts")]
-    Counts,
-}
-
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum AxisName {
-    Auto,
-    X,
-    Y,
-    Z,
-    Gravity,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -142,7 +108,7 @@ impl WatchConfig {
             .check()
             .map_err(|error| source.at(file.place(&error), Problem::Watch(error)))?;
         Ok(Self {
-            reading: file.recording.reading(),
+            reading: file.recording.reading(&source)?,
             settings,
         })
     }
@@ -178,9 +144,6 @@ impl WatchFile {
 
     /// Where the value stands that an error is about.
     fn place(&self, error: &SettingsError) -> Option<Range<usize>> {
-        fn span<T>(value: &Option<Spanned<T>>) -> Option<Range<usize>> {
-            value.as_ref().map(Spanned::span)
-        }
         let (samples, monitor) = (&self.samples, &self.monitor);
         match error.key() {
             "reference" => span(&samples.reference),
@@ -202,40 +165,36 @@ impl WatchFile {
 }
 
 impl RecordingTable {
-    fn reading(self) -> Reading {
-        let number = |given: Option<Number>, default| given.map_or(default, |value| value.0);
-        let counts = Unit::Counts {
-            scale: number(self.scale, 1.0),
-            offset: number(self.offset, 0.0),
-        };
-        Reading {
+    fn reading(self, source: &Source) -> Result<Reading, ConfigError> {
+        let unit = self.unit().map_err(|error| {
+            let place = match error.key() {
+                "scale" => span(&self.scale),
+                "offset" => span(&self.offset),
+                _ => span(&self.unit).or(span(&self.offset)),
+            };
+            source.at(place, Problem::Unit(error))
+        })?;
+        Ok(Reading {
+            unit: unit.unwrap_or_default(),
             time: self.time,
             acceleration: self.acceleration,
-            time_unit: self.time_unit.map(|unit| match unit {
-                TimeUnitName::Seconds => TimeUnit::Seconds,
-                TimeUnitName::Milliseconds => TimeUnit::Milliseconds,
-                TimeUnitName::Microseconds => TimeUnit::Microseconds,
-                TimeUnitName::Nanoseconds => TimeUnit::Nanoseconds,
-            }),
-            unit: match self.unit {
-                Some(UnitName::MetresPerSecondSquared) => Unit::MetresPerSecondSquared,
-                Some(UnitName::Gravity) => Unit::Gravity,
-                Some(UnitName::Milligravity) => Unit::Milligravity,
-                Some(UnitName::Counts) => counts,
-                None if self.scale.is_some() || self.offset.is_some() => counts,
-                None => Unit::Found,
-            },
-            axis: match self.axis.unwrap_or(AxisName::Auto) {
-                AxisName::Auto => Axis::Auto,
-                AxisName::X => Axis::X,
-                AxisName::Y => Axis::Y,
-                AxisName::Z => Axis::Z,
-                AxisName::Gravity => Axis::Gravity,
-            },
+            time_unit: self.time_unit.map(|unit| unit.0),
+            axis: self.axis.map_or_else(Axis::default, |axis| axis.0),
             resample: self.resample.map(|rate| rate.0),
             member: self.member,
-        }
+        })
     }
+
+    fn unit(&self) -> Result<Option<Unit>, UnitError> {
+        let number = |given: &Option<Spanned<Number>>| given.as_ref().map(|n| n.get_ref().0);
+        let name = self.unit.as_ref().map(|name| name.get_ref().as_str());
+        Unit::told(name, number(&self.scale), number(&self.offset))
+    }
+}
+
+/// Where a value stands.
+fn span<T>(value: &Option<Spanned<T>>) -> Option<Range<usize>> {
+    value.as_ref().map(Spanned::span)
 }
 
 impl<'de> Deserialize<'de> for OrderValue {
@@ -262,5 +221,70 @@ impl<'de> Deserialize<'de> for OrderValue {
             }
         }
         deserializer.deserialize_any(OrderVisitor)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn reading(lines: &str) -> Result<Reading, String> {
+        let read = WatchConfig::parse("lift.toml", &format!("[recording]\n{lines}"));
+        read.map(|config| config.reading)
+            .map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn names_are_those_of_the_recording() {
+        let read = reading(
+            "time_unit = \"ms\"\nunit = \"counts\"\nscale = 0.5\noffset = 9\naxis = \"gravity\"",
+        );
+        let expected = Reading {
+            time_unit: Some(TimeUnit::Milliseconds),
+            unit: Unit::Counts {
+                scale: 0.5,
+                offset: 9.0,
+            },
+            axis: Axis::Gravity,
+            ..Reading::default()
+        };
+        assert_eq!(read, Ok(expected));
+    }
+
+    #[test]
+    fn refusals_point_at_the_value() {
+        for (lines, message) in [
+            (
+                "unit = \"g\"\nscale = 0.5",
+                "lift.toml:3:9: recording.scale: is for counts alone, the unit is g",
+            ),
+            (
+                "offset = 9.0",
+                "lift.toml:2:10: recording.unit: counts need a scale",
+            ),
+            (
+                "unit = \"counts\"",
+                "lift.toml:2:8: recording.unit: counts need a scale",
+            ),
+            (
+                "unit = \"ft\"",
+                "lift.toml:2:8: recording.unit: must be m/s^2, g, mg or counts, got \"ft\"",
+            ),
+            (
+                "scale = 0.0",
+                "lift.toml:2:9: recording.unit: scale must be between",
+            ),
+            (
+                "time_unit = \"h\"",
+                "lift.toml:2:13: recording.time_unit: must be s, ms, us or ns, got \"h\"",
+            ),
+            (
+                "axis = \"up\"",
+                "lift.toml:2:8: recording.axis: must be auto, x, y, z or gravity, got \"up\"",
+            ),
+        ] {
+            let refused = reading(lines).unwrap_err();
+            assert!(refused.contains(message), "{lines}: {refused}");
+        }
     }
 }

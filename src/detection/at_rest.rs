@@ -1,5 +1,5 @@
-//! The false-alarm rate on the recording's own rest: how many decisions, each of level α, were for motion
-//! while the cage stood.
+//! False alarms on the recording's own rest: how many decisions, each of level α, were for motion while the
+//! monitor said that the cage stood. Neighbours share most of their blocks, so no interval goes with it.
 
 use crate::monitor::{Event, Kind, Observation, State};
 use crate::signal::Phase;
@@ -12,16 +12,12 @@ pub struct AtRest {
     pub decisions: u64,
     /// Those for motion.
     pub alarms: u64,
-    /// Seconds that they span.
-    pub seconds: f64,
     /// Those that a start, reported late, may still turn out to have been part of.
     recent: VecDeque<Recent>,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Recent {
-    /// s
-    from: f64,
     /// s
     to: f64,
     moves: bool,
@@ -36,8 +32,8 @@ impl AtRest {
         let Some(moves) = block.moves.filter(|_| state == State::Known(Phase::Rest)) else {
             return;
         };
-        let (from, to) = block.times;
-        self.recent.push_back(Recent { from, to, moves });
+        let to = block.times.1;
+        self.recent.push_back(Recent { to, moves });
         while (self.recent.front()).is_some_and(|oldest| oldest.to < to - LATEST_REPORT) {
             self.count_oldest();
         }
@@ -64,7 +60,6 @@ impl AtRest {
         if let Some(decision) = self.recent.pop_front() {
             self.decisions += 1;
             self.alarms += u64::from(decision.moves);
-            self.seconds += decision.to - decision.from;
         }
     }
 }

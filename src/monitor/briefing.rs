@@ -1,6 +1,7 @@
 //! All that a monitor starts from, as a file holds it.
 
 use super::{Design, Knowledge, MOST_ORDER, STRONGEST, Settings, SettingsError};
+use crate::signal::recording::Sample;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::{self, Read};
@@ -17,6 +18,9 @@ pub struct Briefing {
     pub settings: Settings,
     /// Samples per second.
     pub rate: f64,
+    /// The time, s, and the acceleration, m/s², of the first sample of the record that it was learnt from:
+    /// how that record begins is known of no other.
+    pub first_sample: Option<(f64, f64)>,
     /// What it knows.
     pub knowledge: Knowledge,
 }
@@ -131,6 +135,15 @@ impl Briefing {
         }
     }
 
+    /// What it knows of a record that begins with this sample.
+    pub fn knowledge_of(&self, first: &Sample) -> Knowledge {
+        let is_same = self.first_sample == Some((first.time, first.acceleration));
+        Knowledge {
+            begins_at_rest: self.knowledge.begins_at_rest && is_same,
+            ..self.knowledge.clone()
+        }
+    }
+
     /// As a file has it.
     pub fn to_json(&self) -> String {
         let json = serde_json::to_string_pretty(self);
@@ -167,12 +180,13 @@ mod tests {
             deviation: 0.01,
             whiteness: None,
             training: settings.training,
-            span: (0.0, 5.0),
+            span: None,
             sample: vec![0.01; settings.reference],
         };
         Briefing {
             settings,
             rate: 100.0,
+            first_sample: Some((0.0, 9.81)),
             knowledge: Knowledge {
                 reference: Some(reference),
                 ..Knowledge::default()

@@ -9,11 +9,12 @@
 //! Vibration cannot be trusted to tell: people who get in shake a cage more than many a motion does. What
 //! tells is, in this order:
 //!
-//! - blocks like the reference of rest, where that is evidence, because the motions of this cage have been
+//! - blocks like the reference of rest, where that is evidence, because motions of this cage have been
 //!   seen to look different, or the record is known to begin at rest;
-//! - a reversal. Of the speeds between pulses every other one is zero. Of three pulses with signs + − −,
-//!   the first two cancelling out, the cage stood after the second: else it would have stood with two
-//!   different speeds. So it moves now; and with − − + it stands now;
+//! - a reversal. A motion at one speed leaves two pulses that cancel out. Of three pulses with signs + − −,
+//!   the first two cancelling out and the last no weaker than half of them, the cage stood after the second: else it would have
+//!   stood with two different speeds. So it moves now; and with − − + it stands now. Any other pulse
+//!   in between, a weak one or a shock, and the count begins again;
 //! - no pulse for as long as the longest motion takes.
 //!
 //! | state | leaves it when |
@@ -22,12 +23,16 @@
 //! | rest | a pulse changes the speed enough, and the decision forwards is H₁* with its sign |
 //! | accelerating | the pulse ends |
 //! | inertial | a pulse against the motion takes half of its speed, or as much as the slowest motion has |
-//! | braking | the pulse has ended and N blocks after it the decision backwards says that it was a stop |
+//! | braking | the pulse has ended, no speed is left, and the decision backwards says that it was a stop; or some is left, and the cage creeps on |
+//!
+//! A braking that takes more speed than there was proves that something has been misunderstood, and the state
+//! is unknown again. So it is after a motion longer than any, after a gap, and when a pulse does not
+//! end, because the sensor's own level has changed.
 //!
 //! A pulse stronger than any acceleration of a lift is no start: at rest it is a shock, or, if it lasts,
 //! somebody carrying the sensor. In motion and against it, it is a jam if it takes half of the speed, or if
-//! the decision backwards says that the vibration of motion has ended with it (a sensor at its limit does not see all of the
-//! speed go); else it was a shock, and the motion goes on.
+//! the decision backwards says that the vibration of motion has ended with it (a sensor at its limit does
+//! not see all of the speed go); else it was a shock, and the motion goes on.
 //!
 //! [^1]: see [`crate::signal`].
 
@@ -52,9 +57,9 @@ pub(super) enum Cage {
 pub(super) struct Doubt {
     /// The first block without a pulse.
     still_since: u64,
-    /// The first of the newest blocks at which the decision forwards was H₀*.
+    /// The block after the last one whose decision forwards was H₁*.
     calm_since: u64,
-    /// The last pulses but one and none.
+    /// The last two pulses, the older first.
     pulses: [Option<Pulse>; 2],
 }
 
@@ -69,7 +74,9 @@ pub(super) struct Motion {
     top_speed: f64,
     /// When it began, s.
     start: f64,
-    /// For how many blocks the decision forwards has been H₀*.
+    /// Blocks of inertial motion.
+    inertial: u64,
+    /// For how many of the latest of them the decision forwards has been H₀*.
     calm: u64,
     /// Whether it has ever looked like rest for N blocks.
     looks_like_rest: bool,
@@ -113,9 +120,10 @@ impl Cage {
         }
     }
 
-    /// Of a motion under way, whether it has looked like rest.
-    pub fn looks_like_rest(&self) -> Option<bool> {
-        self.motion().map(|motion| motion.looks_like_rest)
+    /// Of a motion under way with at least `blocks` of inertial motion, whether it has looked like rest.
+    pub fn looks_like_rest(&self, blocks: u64) -> Option<bool> {
+        let motion = self.motion().filter(|motion| motion.inertial >= blocks);
+        motion.map(|motion| motion.looks_like_rest)
     }
 
     /// Whether the pulses of a motion under way are those of a sensor behind a high-pass filter.
@@ -169,24 +177,14 @@ impl Doubt {
             self.calm_since = scene.now;
         }
         let calm = scene.now - self.calm_since;
-        let still_stands = scene.begins_at_rest && self.pulses == [None; 2];
-        if (scene.calm_is_rest || still_stands) && calm >= scene.reference_length() {
+        let stands_still = scene.begins_at_rest && self.pulses == [None; 2];
+        if (scene.calm_is_rest || stands_still) && calm >= scene.reference_length() {
             let seen = self.calm_since.saturating_sub(scene.scale_length());
             return (Cage::Rest, scene.starts(seen), None);
         }
-        if let Some(pulse) = self.significant(scene) {
-            self.still_since = scene.now;
-            match (self.pulses, pulse) {
-                ([Some(a), Some(b)], c) if b.sign == c.sign && a.cancels(&b) => {
-                    let start = scene.starts(c.onset);
-                    let motion = Motion::from_pulse(&c, start);
-                    events.push(Cage::Moving(motion).change(start, scene.time, None));
-                    return motion.on(Leg::Inertial, scene.ends(c.end));
-                }
-                ([Some(a), Some(b)], c) if a.sign == b.sign && b.cancels(&c) => {
-                    return (Cage::Rest, scene.ends(c.end), None);
-                }
-                _ => self.pulses = [self.pulses[1], Some(pulse)],
+        for pulse in scene.ended.into_iter().flatten() {
+            if let Some(next) = self.take(&pulse, scene, events) {
+                return next;
             }
         }
         let still = (scene.now - self.still_since) as f64 * scene.design.block;
@@ -196,13 +194,37 @@ impl Doubt {
         }
     }
 
-    /// A pulse that has ended and is more than noise, sway or a shock.
-    fn significant(&self, scene: &Scene) -> Option<Pulse> {
-        let is_seen = |pulse: &Pulse| {
-            let is_decided = scene.verdict.moves && scene.verdict.sign == pulse.sign;
-            is_decided && pulse.speed >= scene.least_speed() && !scene.is_violent(pulse)
+    /// What a pulse that has ended tells together with those before it.
+    fn take(&mut self, pulse: &Pulse, scene: &Scene, events: &mut Vec<Event>) -> Option<Next> {
+        let c = scene.whole(pulse);
+        if c.speed < scene.least_speed() / 2.0 {
+            return None;
+        }
+        self.still_since = scene.now;
+        if !Self::is_significant(&c, scene) {
+            self.pulses = [None; 2];
+            return None;
+        }
+        let cancel = |a: &Pulse, b: &Pulse| {
+            let largest = a.speed.max(b.speed);
+            (a.change() + b.change()).abs() <= scene.rounding(largest)
         };
-        scene.ended.into_iter().flatten().find(is_seen)
+        let [before, last] = self.pulses;
+        self.pulses = [last, Some(c)];
+        let (a, b) = (before?, last?);
+        if b.sign == c.sign && cancel(&a, &b) && c.speed >= b.speed / 2.0 {
+            let motion = Motion::from_pulse(&c, scene.starts(c.onset));
+            events.push(Cage::Moving(motion).change(motion.start, scene.time, None));
+            return Some(motion.on(Leg::Inertial, scene.ends(c.end)));
+        }
+        let stands = a.sign == b.sign && cancel(&b, &c) && a.speed >= b.speed / 2.0;
+        stands.then(|| (Cage::Rest, scene.ends(c.end), None))
+    }
+
+    /// Whether a pulse that has ended is more than noise, sway or a shock.
+    fn is_significant(pulse: &Pulse, scene: &Scene) -> bool {
+        let is_decided = scene.verdict.moves && scene.verdict.sign == pulse.sign;
+        is_decided && pulse.speed >= scene.least_speed() && !scene.is_violent(pulse)
     }
 }
 
@@ -238,6 +260,7 @@ impl Motion {
             speed: pulse.speed,
             top_speed: pulse.speed,
             start,
+            inertial: 0,
             calm: 0,
             looks_like_rest: false,
             first: None,
@@ -283,8 +306,8 @@ impl Motion {
         if scene.is_violent(&pulse) && scene.lasts(&pulse) > LONGEST_SHOCK {
             return (Cage::unknown(scene.now), scene.time, None);
         }
-        self.speed = pulse.speed;
-        self.top_speed = pulse.speed;
+        self.speed = scene.whole(&pulse).speed;
+        self.top_speed = self.speed;
         self.first = Some(pulse);
         self.on(Leg::Inertial, scene.ends(pulse.end))
     }
@@ -301,7 +324,7 @@ impl Motion {
         if let Some(pulse) = scene.ended(self.sign).filter(is_new)
             && pulse.speed >= scene.least_speed() / 2.0
         {
-            self.speed += pulse.speed;
+            self.speed += scene.whole(&pulse).speed;
             self.top_speed = self.top_speed.max(self.speed);
         }
         match self.against(scene) {
@@ -310,7 +333,8 @@ impl Motion {
         }
     }
 
-    /// What takes less than half of the speed leaves a creeping cage.
+    /// What does not take all of the speed leaves a creeping cage, and what takes more than all of it was
+    /// no braking of this motion.
     fn brake(mut self, scene: &Scene) -> Next {
         let Some(pulse) = scene.ended(-self.sign) else {
             return self.stay(scene);
@@ -318,13 +342,18 @@ impl Motion {
         let at_once = scene.blocks(LONGEST_SHOCK);
         let decays = |first: Pulse| first.decays_into(&pulse, at_once);
         self.decays = self.first.is_some_and(decays);
-        let left = self.speed - pulse.speed;
-        match left > self.top_speed / 2.0 && !scene.is_violent(&pulse) {
-            true => {
+        if scene.is_violent(&pulse) {
+            return self.on(Leg::Stopping(pulse), scene.time);
+        }
+        let left = self.speed - scene.whole(&pulse).speed;
+        let rounding = scene.rounding(self.top_speed);
+        match left {
+            _ if left > rounding => {
                 self.speed = left;
                 self.on(Leg::Inertial, scene.ends(pulse.end))
             }
-            false => self.on(Leg::Stopping(pulse), scene.time),
+            _ if left < -rounding => (Cage::unknown(scene.now), scene.time, None),
+            _ => self.on(Leg::Stopping(pulse), scene.time),
         }
     }
 

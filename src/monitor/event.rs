@@ -34,8 +34,9 @@ pub struct Decision {
     pub threshold: (Option<u64>, Option<u64>),
     /// Its level.
     pub alpha: f64,
-    /// When X, Y₁ and Y₂ began and ended, s.
-    pub samples: [(f64, f64); 3],
+    /// When X, Y₁ and Y₂ began and ended, s; X has no time of its own where it was taken from all rest of a
+    /// record.
+    pub samples: [Option<(f64, f64)>; 3],
 }
 
 /// Something that has happened.
@@ -155,14 +156,14 @@ impl Serialize for Decision {
         object.serialize_field("exceedances", &self.statistics.exceedances)?;
         object.serialize_field("threshold", &self.threshold)?;
         object.serialize_field("alpha", &self.alpha)?;
-        for (name, (from, to)) in ["reference", "shift", "scale"].iter().zip(self.samples) {
-            object.serialize_field(name, &[rounded(from), rounded(to)])?;
+        for (name, span) in ["reference", "shift", "scale"].iter().zip(self.samples) {
+            object.serialize_field(name, &span.map(|(from, to)| [rounded(from), rounded(to)]))?;
         }
         object.end()
     }
 }
 
 /// To a tenth of a millisecond, or of a millimetre per second: more than a block can tell.
-fn rounded(value: f64) -> f64 {
+pub fn rounded(value: f64) -> f64 {
     (value * 1e4).round() / 1e4
 }

@@ -10,7 +10,7 @@ use super::event::{Event, Kind, State};
 use super::pulse::is_level;
 use super::reference::Reference;
 use super::settings::{Design, LEAST_TRAINING, MOST_ORDER};
-use super::{Knowledge, Monitor, longest_gap};
+use super::{Knowledge, Monitor};
 use crate::signal::Phase;
 use crate::signal::recording::Sample;
 
@@ -58,8 +58,6 @@ struct Windows {
     design: Design,
     blocks: Blocks,
     open: Window,
-    /// When the last sample was taken, s.
-    last: f64,
     /// Blocks in a window.
     length: usize,
     kept: Vec<Window>,
@@ -95,7 +93,9 @@ impl Knowledge {
                 motions.step(event);
             }
         }
-        Ok(windows.knowledge(&motions))
+        // Behind a high-pass filter no motion is as it seems, and none tells how the record begins.
+        let begins_at_rest = motions.first_is_whole() || monitor.is_high_passed();
+        Ok(windows.knowledge(&motions, begins_at_rest))
     }
 
     fn at_rest(reference: Reference) -> Self {
@@ -110,9 +110,8 @@ impl Knowledge {
 impl Windows {
     fn new(design: &Design) -> Self {
         Self {
-            blocks: Blocks::new(design.samples.decimation()),
+            blocks: Blocks::new(design.samples.decimation(), design.block),
             open: Window::default(),
-            last: f64::INFINITY,
             length: SHORTEST_WINDOW.max((WINDOW / design.block).round() as usize),
             design: design.clone(),
             kept: Vec::new(),
@@ -122,21 +121,20 @@ impl Windows {
     }
 
     fn step(&mut self, sample: Sample) {
-        if sample.time - self.last > longest_gap(&self.design) {
+        if self.blocks.is_gap(sample.time) {
             self.blocks.clear();
             self.open = Window::default();
         }
-        self.last = sample.time;
-        let Some((times, mean)) = self.blocks.step(sample) else {
+        let Some(block) = self.blocks.step(sample) else {
             return;
         };
         if self.open.means.is_empty() {
-            self.open.from = times.from;
+            self.open.from = block.from;
         }
-        self.open.means.push(mean);
+        self.open.means.push(block.mean);
         if self.open.means.len() == self.length {
             let window = Window {
-                to: times.to,
+                to: block.to,
                 ..std::mem::take(&mut self.open)
             };
             self.close(window);
@@ -189,8 +187,7 @@ impl Windows {
                 needed: seconds(needed),
             });
         }
-        let span = (chosen[0].from, chosen[chosen.len() - 1].to);
-        Ok(Reference::from_stretches(&stretches, span, &self.design))
+        Ok(Reference::from_stretches(&stretches, &self.design))
     }
 
     /// Those like most others in level and in noise.
@@ -207,7 +204,7 @@ impl Windows {
     }
 
     /// What is rest, now that the motions are known.
-    fn knowledge(&self, motions: &Motions) -> Result<Knowledge, NoRest> {
+    fn knowledge(&self, motions: &Motions, begins_at_rest: bool) -> Result<Knowledge, NoRest> {
         let inside = |window: &Window| motions.hold(window.from, window.to);
         let outside = |window: &Window| !motions.touch(window.from, window.to);
         let deviation = |are: &dyn Fn(&Window) -> bool| {
@@ -223,7 +220,7 @@ impl Windows {
             false => self.reference(outside)?,
         };
         Ok(Knowledge {
-            begins_at_rest: !is_inverted,
+            begins_at_rest: begins_at_rest && !is_inverted,
             motion_shows: is_inverted,
             ..Knowledge::at_rest(reference)
         })
@@ -248,9 +245,19 @@ fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     values.get(values.len() / 2).copied()
 }
 
-/// From when to when the cage was seen to move, s.
+/// The motions that a monitor saw.
 #[derive(Clone, Debug, Default)]
-struct Motions(Vec<(f64, f64)>);
+struct Motions(Vec<Motion>);
+
+#[derive(Clone, Copy, Debug)]
+struct Motion {
+    /// s
+    from: f64,
+    /// s
+    to: f64,
+    /// Whether it ended at rest.
+    is_whole: bool,
+}
 
 impl Motions {
     fn step(&mut self, event: &Event) {
@@ -258,61 +265,34 @@ impl Motions {
             return;
         };
         match (state, self.0.last_mut()) {
-            (State::Known(Phase::Accelerating), _) => self.0.push((event.time, f64::INFINITY)),
-            (State::Known(Phase::Rest) | State::Unknown, Some(last)) if last.1.is_infinite() => {
-                last.1 = event.time;
+            (State::Known(Phase::Accelerating), _) => self.0.push(Motion {
+                from: event.time,
+                to: f64::INFINITY,
+                is_whole: false,
+            }),
+            (State::Known(Phase::Rest) | State::Unknown, Some(last)) if last.to.is_infinite() => {
+                last.to = event.time;
+                last.is_whole = state != State::Unknown;
             }
             _ => {}
         }
     }
 
+    /// Whether there is none, or the first has an end that fits its start. Where a record begins in
+    /// motion, a braking is taken for a start, and the start after it does not end it.
+    fn first_is_whole(&self) -> bool {
+        self.0.first().is_none_or(|first| first.is_whole)
+    }
+
     fn hold(&self, from: f64, to: f64) -> bool {
         self.0
             .iter()
-            .any(|motion| motion.0 <= from && to <= motion.1)
+            .any(|motion| motion.from <= from && to <= motion.to)
     }
 
     fn touch(&self, from: f64, to: f64) -> bool {
-        self.0.iter().any(|motion| motion.0 < to && from < motion.1)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::monitor::Settings;
-
-    /// What two minutes at 10 Hz teach, where a block is a sample: rest, but for where somebody shakes the sensor.
-    fn learnt(order: Option<usize>, shakes: impl Fn(u32) -> bool) -> Result<Knowledge, NoRest> {
-        let settings = Settings {
-            order,
-            ..Settings::default()
-        };
-        let design = settings.at(10.0).unwrap();
-        let sample = |i: u32| {
-            let noise = f64::from(i.wrapping_mul(2_654_435_769) >> 16) / 1e7;
-            let shaking = [5.0, -5.0][i as usize % 2];
-            Ok::<_, ()>(Sample {
-                time: f64::from(i) / 10.0,
-                acceleration: if shakes(i) { shaking } else { noise },
-            })
-        };
-        Knowledge::from_record(&design, || Ok((0..1200).map(sample))).unwrap()
-    }
-
-    /// What no filter of order 8 has blocks enough for is nothing to learn from, and no block stands in X twice.
-    #[test]
-    fn short_stretches() {
-        for order in [None, Some(0), Some(8)] {
-            assert!(learnt(order, |i| i % 10 >= 5).is_err(), "{order:?}");
-            let knowledge = learnt(order, |i| i % 20 >= 10).unwrap();
-            let mut sample = knowledge.reference.unwrap().sample;
-            sample.sort_by(f64::total_cmp);
-            sample.dedup();
-            assert_eq!(sample.len(), 24, "{order:?}");
-            let few = learnt(order, |i| i >= 100 || i % 20 >= 10);
-            let NoRest { level, needed, .. } = few.unwrap_err();
-            assert_eq!((level, needed), (5.0, 6.4), "{order:?}");
-        }
+        self.0
+            .iter()
+            .any(|motion| motion.from < to && from < motion.to)
     }
 }

@@ -1,5 +1,6 @@
 //! The latest blocks, as they were measured and whitened: as many as a decision or a training looks back.
 
+use super::blocks::Block;
 use super::reference::Reference;
 use crate::whiten;
 use std::ops::Range;
@@ -10,16 +11,8 @@ pub(super) struct History {
     capacity: usize,
     /// The number of the first block held.
     first: u64,
-    times: Vec<Span>,
-    means: Vec<f64>,
+    blocks: Vec<Block>,
     whitened: Vec<f64>,
-}
-
-/// When the first and the last sample of a block were taken, s.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Span {
-    pub from: f64,
-    pub to: f64,
 }
 
 impl History {
@@ -27,36 +20,33 @@ impl History {
         Self {
             capacity,
             first: 0,
-            times: Vec::with_capacity(2 * capacity),
-            means: Vec::with_capacity(2 * capacity),
+            blocks: Vec::with_capacity(2 * capacity),
             whitened: Vec::with_capacity(2 * capacity),
         }
     }
 
     /// The number of the next block.
     pub fn end(&self) -> u64 {
-        self.first + self.times.len() as u64
+        self.first + self.blocks.len() as u64
     }
 
     /// Takes a block; whitened where the filter is known. Amortised constant time: the older half goes
     /// when there is no more room.
-    pub fn push(&mut self, times: Span, mean: f64, reference: Option<&Reference>) {
-        if self.times.len() == 2 * self.capacity {
-            self.times.drain(..self.capacity);
-            self.means.drain(..self.capacity);
+    pub fn push(&mut self, block: Block, reference: Option<&Reference>) {
+        if self.blocks.len() == 2 * self.capacity {
+            self.blocks.drain(..self.capacity);
             self.whitened.drain(..self.capacity);
             self.first += self.capacity as u64;
         }
-        self.times.push(times);
-        self.means.push(mean);
+        self.blocks.push(block);
         let whitened = reference.map_or(0.0, |reference| {
             // What precedes the record counts as the level of rest.
-            let last = self.means.len() - 1;
+            let last = self.blocks.len() - 1;
             let order = reference.coefficients.len().min(last);
-            let past = self.means[last - order..last].iter().rev();
-            let mut rest = mean - reference.level;
-            for (a, mean) in reference.coefficients.iter().zip(past) {
-                rest -= a * (mean - reference.level);
+            let past = self.blocks[last - order..last].iter().rev();
+            let mut rest = block.mean - reference.level;
+            for (a, block) in reference.coefficients.iter().zip(past) {
+                rest -= a * (block.mean - reference.level);
             }
             rest
         });
@@ -65,16 +55,15 @@ impl History {
 
     /// Whitens all that is held anew.
     pub fn whiten(&mut self, reference: &Reference) {
-        let centred: Vec<f64> = (self.means.iter())
-            .map(|mean| mean - reference.level)
+        let centred: Vec<f64> = (self.blocks.iter())
+            .map(|block| block.mean - reference.level)
             .collect();
         whiten::whiten(&reference.coefficients, &centred, 0, &mut self.whitened);
     }
 
     pub fn clear(&mut self) {
         self.first = 0;
-        self.times.clear();
-        self.means.clear();
+        self.blocks.clear();
         self.whitened.clear();
     }
 
@@ -82,11 +71,11 @@ impl History {
     fn place(&self, blocks: Range<u64>) -> Option<Range<usize>> {
         let start = blocks.start.checked_sub(self.first)? as usize;
         let end = blocks.end.checked_sub(self.first)? as usize;
-        (start <= end && end <= self.times.len()).then_some(start..end)
+        (start <= end && end <= self.blocks.len()).then_some(start..end)
     }
 
-    pub fn means(&self, blocks: Range<u64>) -> Option<&[f64]> {
-        Some(&self.means[self.place(blocks)?])
+    pub fn blocks(&self, blocks: Range<u64>) -> Option<&[Block]> {
+        Some(&self.blocks[self.place(blocks)?])
     }
 
     pub fn whitened(&self, blocks: Range<u64>) -> Option<&[f64]> {
@@ -100,12 +89,12 @@ impl History {
 
     /// When the first sample of a block was taken; that of the oldest held, where it is gone.
     pub fn starts(&self, block: u64) -> f64 {
-        self.times[block.saturating_sub(self.first) as usize].from
+        self.blocks[block.saturating_sub(self.first) as usize].from
     }
 
     /// When the last sample of the block before `block` was taken.
     pub fn ends(&self, block: u64) -> f64 {
         let after = block.saturating_sub(self.first).max(1);
-        self.times[after as usize - 1].to
+        self.blocks[after as usize - 1].to
     }
 }

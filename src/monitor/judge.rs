@@ -1,10 +1,9 @@
-//! Decisions on X, Y₁ and Y₂, forwards at a start and backwards at a stop.
+//! Verdicts on X, Y₁ and Y₂, forwards at a start and backwards at a stop.
 //!
 //! Forwards X is the reference of rest, Y₂ the newest blocks and Y₁ those before them: one decision at
 //! every block. A stop is a start reversed in time: X is the newest blocks, Y₁ the middle of the braking and
 //! Y₂ the motion before it.
 
-use super::event::Decision;
 use super::history::History;
 use super::pulse::Pulse;
 use super::reference::Reference;
@@ -53,8 +52,8 @@ impl Places {
         })
     }
 
-    /// The newest blocks before `now` against the middle of a pulse and what was before it. At its ends a
-    /// pulse is whitened to the opposite sign.
+    /// The newest blocks before `now` against the middle of a pulse and what was before it. The middle, since
+    /// whitening answers the ends of a pulse with the opposite sign.
     pub fn backwards(design: &Design, pulse: &Pulse, now: u64) -> Option<Self> {
         let samples = &design.samples;
         let [n, m1, m2, gap] = [
@@ -118,26 +117,5 @@ impl Judge {
                 std::cmp::Ordering::Greater => 1.0,
             },
         })
-    }
-}
-
-/// A verdict with all that tells how it came about.
-pub(super) fn decision(
-    design: &Design,
-    history: &History,
-    reference: &Reference,
-    places: &Places,
-    verdict: &Verdict,
-) -> Decision {
-    let span = |blocks: &Range<u64>| (history.starts(blocks.start), history.ends(blocks.end));
-    Decision {
-        statistics: verdict.statistics,
-        threshold: design.region.critical_values()[verdict.statistics.exceedances],
-        alpha: design.settings.alpha,
-        samples: [
-            places.reference.as_ref().map_or(reference.span, span),
-            span(&places.shift),
-            span(&places.scale),
-        ],
     }
 }

@@ -56,11 +56,11 @@ pub use reference::Reference;
 pub use settings::{Design, MOST_ORDER, Settings, SettingsError};
 
 use crate::signal::recording::Sample;
-use blocks::Blocks;
+use blocks::{Block, Blocks};
 use cage::Cage;
-use history::{History, Span};
+use history::History;
 use judge::{Judge, Places};
-use pulse::{Cusum, Pulse, is_level};
+use pulse::{Cusum, is_level};
 use scene::Scene;
 use serde::{Deserialize, Serialize};
 
@@ -108,8 +108,8 @@ pub struct Monitor {
     cage: Cage,
     /// The first block that the next reference may be learnt from.
     learns_from: u64,
-    /// When the last sample was taken, s.
-    last: f64,
+    /// How many motions in a row have looked different from rest.
+    shown: u32,
     /// Whether a motion has shown the marks of a high-pass filter.
     is_high_passed: bool,
     /// What the newest block came to, if a sample has just completed one.
@@ -119,13 +119,11 @@ pub struct Monitor {
     events: Vec<Event>,
 }
 
-/// A longer silence, s, may hide a start: half a second or three blocks.
-fn longest_gap(design: &Design) -> f64 {
-    f64::max(0.5, 3.0 * design.block)
-}
+/// The longest start or braking, s. A pulse that lasts longer is a level that has changed.
+const LONGEST_PULSE: f64 = 60.0;
 
-/// The longest pulse that a decision backwards looks past, s.
-const LONGEST_PULSE: f64 = 10.0;
+/// After so many motions in a row that looked different from rest, what looks like rest is rest.
+const MOTIONS_TO_TRUST: u32 = 2;
 
 impl Monitor {
     /// Watches a cage of which this much is known.
@@ -137,7 +135,7 @@ impl Monitor {
         } = knowledge;
         let drift = design.settings.least_acceleration / 2.0;
         let patience = design.samples.shift();
-        let cusum = |sign| Cusum::new(sign, drift, design.block, patience);
+        let cusum = |sign| Cusum::new(sign, drift, patience);
         let learnt = design.settings.training + design.samples.reference() + patience;
         let looked_back = 4 * design.samples.span() + (LONGEST_PULSE / design.block) as usize;
         Self {
@@ -145,13 +143,13 @@ impl Monitor {
             reference,
             begins_at_rest,
             motion_shows,
-            blocks: Blocks::new(design.samples.decimation()),
+            blocks: Blocks::new(design.samples.decimation(), design.block),
             history: History::new(learnt.max(looked_back)),
             judge: Judge::new(&design),
             cusums: [cusum(1.0), cusum(-1.0)],
             cage: Cage::unknown(0),
             learns_from: 0,
-            last: f64::INFINITY,
+            shown: 0,
             is_high_passed: false,
             newest: None,
             slack: 0,
@@ -196,20 +194,19 @@ impl Monitor {
     pub fn step(&mut self, sample: Sample, drum_turns: Option<bool>) -> &[Event] {
         self.events.clear();
         self.newest = None;
-        if sample.time - self.last > longest_gap(&self.design) {
+        if self.blocks.is_gap(sample.time) {
+            self.blocks.clear();
             self.lose_track(sample.time);
         }
-        self.last = sample.time;
-        if let Some((times, mean)) = self.blocks.step(sample) {
-            self.block(times, mean);
-            self.watch_drum(times.to, drum_turns);
+        if let Some(block) = self.blocks.step(sample) {
+            self.block(block);
+            self.watch_drum(block.to, drum_turns);
         }
         &self.events
     }
 
     /// The record has a gap: what is known of rest stays, what is known of the cage does not.
     fn lose_track(&mut self, time: f64) {
-        self.blocks.clear();
         self.history.clear();
         self.cusums.iter_mut().for_each(Cusum::reset);
         self.learns_from = 0;
@@ -221,59 +218,81 @@ impl Monitor {
         }
     }
 
-    fn block(&mut self, times: Span, mean: f64) {
-        self.history.push(times, mean, self.reference.as_ref());
+    fn block(&mut self, block: Block) {
+        self.history.push(block, self.reference.as_ref());
         let now = self.history.end();
-        if let Some(reference) = &self.reference {
-            let excess = mean - reference.level;
-            let ended = self
-                .cusums
-                .each_mut()
-                .map(|cusum| cusum.step(now - 1, excess));
-            let places = Places::forwards(&self.design, now);
-            let verdict = places.as_ref().and_then(|places| {
-                (self.judge).verdict(&self.design, reference, &self.history, places)
-            });
-            self.newest = Some(Observation {
-                times: (times.from, times.to),
-                mean,
-                whitened: self.history.newest(),
-                moves: verdict.map(|verdict| verdict.moves),
-            });
-            if let (Some(places), Some(verdict)) = (places, verdict) {
-                let mut scene = Scene {
-                    design: &self.design,
-                    history: &self.history,
-                    reference,
-                    calm_is_rest: self.is_rest && self.motion_shows,
-                    begins_at_rest: self.is_rest && self.begins_at_rest,
-                    judge: &mut self.judge,
-                    cusums: &self.cusums,
-                    ended,
-                    places,
-                    verdict,
-                    now,
-                    time: times.to,
-                };
-                let was = self.cage;
-                self.cage = was.step(&mut scene, &mut self.events);
-                self.remember(was, now);
-            }
+        if self.reference.is_some() {
+            self.judge_block(now, &block);
+            self.doubt_level(now, &block);
         }
         self.learn(now);
     }
 
+    /// The decision at a block, the pulses, and what they make of the state.
+    fn judge_block(&mut self, now: u64, block: &Block) {
+        let Some(reference) = &self.reference else {
+            return;
+        };
+        let excess = block.mean - reference.level;
+        let ended =
+            (self.cusums.each_mut()).map(|cusum| cusum.step(now - 1, excess, block.seconds));
+        let places = Places::forwards(&self.design, now);
+        let verdict = places.as_ref().and_then(|places| {
+            (self.judge).verdict(&self.design, reference, &self.history, places)
+        });
+        self.newest = Some(Observation {
+            times: (block.from, block.to),
+            mean: block.mean,
+            whitened: self.history.newest(),
+            moves: verdict.map(|verdict| verdict.moves),
+        });
+        let (Some(places), Some(verdict)) = (places, verdict) else {
+            return;
+        };
+        let mut scene = Scene {
+            design: &self.design,
+            history: &self.history,
+            reference,
+            calm_is_rest: self.is_rest && self.motion_shows,
+            begins_at_rest: self.is_rest && self.begins_at_rest,
+            judge: &mut self.judge,
+            cusums: &self.cusums,
+            ended,
+            places,
+            verdict,
+            now,
+            time: block.to,
+        };
+        let was = self.cage;
+        self.cage = was.step(&mut scene, &mut self.events);
+        self.remember(was, now);
+    }
+
+    /// A pulse that does not end is no pulse: the sensor's level has changed, and nothing is known any more.
+    fn doubt_level(&mut self, now: u64, block: &Block) {
+        let longest = (LONGEST_PULSE / self.design.block) as u64;
+        let mut pulses = self.cusums.iter().filter_map(Cusum::pulse);
+        if pulses.any(|pulse| now - pulse.onset > longest) {
+            self.lose_track(block.to);
+            self.reference = None;
+            self.is_rest = false;
+        }
+    }
+
     /// What a change of state tells of this cage.
     fn remember(&mut self, was: Cage, now: u64) {
+        self.is_high_passed |= self.cage.decays();
         if self.cage.state() != was.state() {
             self.learns_from = now;
         }
-        self.is_high_passed |= self.cage.decays();
-        if self.cage == Cage::Rest {
-            self.begins_at_rest = false;
-            if let Some(looks_like_rest) = was.looks_like_rest() {
-                self.motion_shows = !looks_like_rest;
-            }
+        if self.cage != Cage::Rest {
+            return;
+        }
+        self.begins_at_rest = false;
+        let enough = 2 * self.design.samples.reference() as u64;
+        if let Some(looks_like_rest) = was.looks_like_rest(enough) {
+            self.shown = if looks_like_rest { 0 } else { self.shown + 1 };
+            self.motion_shows = self.shown >= MOTIONS_TO_TRUST;
         }
     }
 
@@ -287,29 +306,28 @@ impl Monitor {
         if now < self.learns_from + needed + lag || self.cage.state().moves() {
             return;
         }
-        let stands = self.cage == Cage::Rest;
-        let blocks = now - lag - needed..now - lag;
-        // While nothing is known, the level may be wrong and an old pulse without end.
-        let may_be_start = |pulse: &Pulse| stands || pulse.onset >= blocks.start;
-        let mut pulses = self.cusums.iter().filter_map(Cusum::pulse);
-        if pulses.any(may_be_start) {
+        // A pulse under way must not be lost with the level that it was measured from.
+        if self.cusums.iter().any(|cusum| cusum.pulse().is_some()) {
             return;
         }
-        let Some(record) = self.history.means(blocks.clone()) else {
+        let stands = self.cage == Cage::Rest;
+        let blocks = now - lag - needed..now - lag;
+        let Some(record) = self.history.blocks(blocks.clone()) else {
             return;
         };
+        let record: Vec<f64> = record.iter().map(|block| block.mean).collect();
         // Not at every block, if this record is none to learn from.
         self.learns_from += needed / 4;
         let drift = self.design.settings.least_acceleration / 2.0;
         let bound = self.design.settings.least_speed / 2.0;
-        if !is_level(record, drift, self.design.block, bound) {
+        if !is_level(&record, drift, self.design.block, bound) {
             return;
         }
         let span = (
             self.history.starts(blocks.start),
             self.history.ends(blocks.end),
         );
-        let learnt = Reference::from_rest(record, span, &self.design);
+        let learnt = Reference::from_rest(&record, span, &self.design);
         // A reference of rest is given up only for another, or when the sensor has been moved.
         let fits = |known: &Reference| (learnt.level - known.level).abs() < drift;
         if !stands && self.is_rest && self.reference.as_ref().is_some_and(fits) {
@@ -320,7 +338,6 @@ impl Monitor {
         // What is known of the beginning is known of no other record.
         self.is_rest = stands || (self.begins_at_rest && blocks.start == 0);
         self.learns_from = now;
-        self.cusums.iter_mut().for_each(Cusum::reset);
     }
 
     /// The alarm of a cage that stands while the rope is paid out.

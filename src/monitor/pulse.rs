@@ -1,9 +1,9 @@
 //! Pulses of acceleration, found by Page's cumulative sum [^1].
 //!
-//! S_k = max(0, S_{k−1} + s·e_k − h), where e is the acceleration above the level of rest, s the sign
-//! looked for and h half the weakest acceleration of a start. An excursion of S from zero is a pulse: it
-//! begins where S left zero, ends where S was largest, and Σ s·e over it, times the length of a block,
-//! is the change of speed it stands for.
+//! S_k = max(0, S_{k−1} + (s·e_k − h) t_k), where e is the acceleration above the level of rest, t the length of
+//! a block in seconds, s the sign looked for and h half the weakest acceleration of a start. An excursion
+//! of S from zero is a pulse: it begins where S left zero, ends where S was largest, and Σ s·e·t over it is
+//! the change of speed it stands for.
 //!
 //! [^1]: E. S. Page, "Continuous inspection schemes", Biometrika 41, 1954.
 
@@ -42,10 +42,9 @@ impl Pulse {
         self.end - self.onset
     }
 
-    /// Whether two pulses leave no more than a quarter of the larger one's change of speed.
-    pub fn cancels(&self, other: &Self) -> bool {
-        let left = self.sign * self.speed + other.sign * other.speed;
-        left.abs() <= self.speed.max(other.speed) / 4.0
+    /// The change of speed with its sign, m/s.
+    pub fn change(&self) -> f64 {
+        self.sign * self.speed
     }
 }
 
@@ -64,8 +63,6 @@ pub(super) struct Cusum {
     sign: f64,
     /// h, m/s².
     drift: f64,
-    /// Seconds in a block.
-    block: f64,
     /// Blocks without a new maximum after which a pulse is over.
     patience: u64,
     sum: f64,
@@ -77,11 +74,10 @@ pub(super) struct Cusum {
 }
 
 impl Cusum {
-    pub fn new(sign: f64, drift: f64, block: f64, patience: usize) -> Self {
+    pub fn new(sign: f64, drift: f64, patience: usize) -> Self {
         Self {
             sign,
             drift,
-            block,
             patience: patience as u64,
             sum: 0.0,
             largest: 0.0,
@@ -96,14 +92,15 @@ impl Cusum {
         self.pulse.as_ref()
     }
 
-    /// Takes block `index` of acceleration `excess`; the pulse that has just ended, where one has.
-    pub fn step(&mut self, index: u64, excess: f64) -> Option<Pulse> {
+    /// Takes block `index`, which has this acceleration for so many seconds; the pulse that has just ended,
+    /// where one has.
+    pub fn step(&mut self, index: u64, excess: f64, seconds: f64) -> Option<Pulse> {
         let excess = self.sign * excess;
-        self.sum += excess - self.drift;
+        self.sum += (excess - self.drift) * seconds;
         if self.sum <= 0.0 {
             return self.end();
         }
-        self.speed += excess * self.block;
+        self.speed += excess * seconds;
         let pulse = self.pulse.get_or_insert(Pulse {
             sign: self.sign,
             onset: index,
@@ -112,7 +109,7 @@ impl Cusum {
             peak: 0.0,
             centre: 0.5,
         });
-        self.moment += excess * self.block * ((index - pulse.onset) as f64 + 0.5);
+        self.moment += excess * seconds * ((index - pulse.onset) as f64 + 0.5);
         pulse.peak = pulse.peak.max(excess);
         if self.sum > self.largest {
             self.largest = self.sum;
@@ -137,15 +134,15 @@ impl Cusum {
     }
 }
 
-/// Whether a record of block means stays at one level: no excursion from its mean changes the speed by
+/// Whether a record of means over so many seconds stays at one level: no excursion from its mean changes the speed by
 /// `speed`.
-pub(super) fn is_level(record: &[f64], drift: f64, block: f64, speed: f64) -> bool {
+pub(super) fn is_level(record: &[f64], drift: f64, seconds: f64, speed: f64) -> bool {
     let level = record.iter().sum::<f64>() / record.len() as f64;
     [1.0, -1.0].iter().all(|sign| {
         let mut sum: f64 = 0.0;
         record.iter().all(|mean| {
             sum = (sum + sign * (mean - level) - drift).max(0.0);
-            sum * block < speed
+            sum * seconds < speed
         })
     })
 }
@@ -188,9 +185,9 @@ mod tests {
             let taken = if sums[last] <= 0.0 { last } else { last + 1 };
             let length = largest(taken) + 1;
             let own = &record[onset..onset + length];
-            let speed: f64 = own.iter().map(|e| sign * e * 0.05).sum();
+            let speed: f64 = own.iter().map(|e| sign * e * 0.0625).sum();
             let moment: f64 = (own.iter().enumerate())
-                .map(|(i, e)| sign * e * 0.05 * (i as f64 + 0.5))
+                .map(|(i, e)| sign * e * 0.0625 * (i as f64 + 0.5))
                 .sum();
             let peaks = record[onset..onset + taken].iter().map(|e| sign * e);
             pulses.push(Pulse {
@@ -216,8 +213,8 @@ mod tests {
             sign in prop::sample::select(vec![1.0, -1.0]),
         ) {
             let record: Vec<f64> = record.into_iter().map(|e| f64::from(e) / 16.0).collect();
-            let mut cusum = Cusum::new(sign, 0.0625, 0.05, patience);
-            let found: Vec<Pulse> = (0..).zip(&record).filter_map(|(i, e)| cusum.step(i, *e)).collect();
+            let mut cusum = Cusum::new(sign, 0.0625, patience);
+            let found: Vec<Pulse> = (0..).zip(&record).filter_map(|(i, e)| cusum.step(i, *e, 0.0625)).collect();
             let expected = naive(sign, 0.0625, patience, &record);
             prop_assert_eq!(found.len(), expected.len());
             for (a, b) in found.iter().zip(&expected) {

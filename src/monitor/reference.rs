@@ -19,8 +19,9 @@ pub struct Reference {
     pub whiteness: Option<f64>,
     /// Blocks it was fitted to.
     pub training: usize,
-    /// From when to when it was recorded, s.
-    pub span: (f64, f64),
+    /// From when to when the latest rest lasted that it was learnt from, s; none where that was all rest of a
+    /// record.
+    pub span: Option<(f64, f64)>,
     /// X: whitened blocks, N of them.
     pub sample: Vec<f64>,
 }
@@ -35,16 +36,12 @@ impl Reference {
         let filter = Filter::fit(&[&centred[..training.len()]], design);
         let mut sample = vec![0.0; n];
         whiten::whiten(&filter.coefficients, &centred, training.len(), &mut sample);
-        filter.into_reference(level, span, training.len(), sample)
+        filter.into_reference(level, Some(span), training.len(), sample)
     }
 
     /// From all stretches of rest in a record. X is taken at even distances from all of them, so that it
     /// stands for all that rest was like; it is part of what the filter is fitted to.
-    pub(super) fn from_stretches(
-        stretches: &[Vec<f64>],
-        span: (f64, f64),
-        design: &Design,
-    ) -> Self {
+    pub(super) fn from_stretches(stretches: &[Vec<f64>], design: &Design) -> Self {
         let blocks: usize = stretches.iter().map(Vec::len).sum();
         let level = stretches.iter().flatten().sum::<f64>() / blocks as f64;
         let centre = |stretch: &Vec<f64>| stretch.iter().map(|mean| mean - level).collect();
@@ -54,7 +51,7 @@ impl Reference {
         let n = design.samples.reference();
         let sample = (0..n).map(|i| filter.whitened[(2 * i + 1) * filter.whitened.len() / (2 * n)]);
         let sample = sample.collect();
-        filter.into_reference(level, span, blocks, sample)
+        filter.into_reference(level, None, blocks, sample)
     }
 }
 
@@ -93,7 +90,7 @@ impl Filter {
     fn into_reference(
         self,
         level: f64,
-        span: (f64, f64),
+        span: Option<(f64, f64)>,
         training: usize,
         sample: Vec<f64>,
     ) -> Reference {

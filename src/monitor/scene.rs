@@ -1,13 +1,17 @@
 //! What there is to go by when the cage's next state is asked for: the newest block's decision, the pulses,
 //! and what can be looked up in the blocks before.
 
+use super::blocks::Block;
 use super::event::Decision;
 use super::history::History;
-use super::judge::{Judge, Places, Verdict, decision};
+use super::judge::{Judge, Places, Verdict};
 use super::pulse::{Cusum, Pulse};
 use super::reference::Reference;
 use super::settings::Design;
 use std::ops::Range;
+
+/// What pulses of real rides leave of the speed, at most.
+const ROUNDING: f64 = 0.1;
 
 /// The view from the newest block.
 pub(super) struct Scene<'a> {
@@ -84,9 +88,28 @@ impl Scene<'_> {
 
     /// The change of speed over some blocks, m/s.
     pub fn change_of_speed(&self, blocks: Range<u64>) -> Option<f64> {
-        let means = self.history.means(blocks)?.iter();
-        let excess: f64 = means.map(|mean| mean - self.reference.level).sum();
-        Some(excess * self.design.block)
+        let blocks = self.history.blocks(blocks)?.iter();
+        let change = |block: &Block| (block.mean - self.reference.level) * block.seconds;
+        Some(blocks.map(change).sum())
+    }
+
+    /// A pulse that has ended, with all of the change of speed: what was too weak for the sum at its end
+    /// included.
+    pub fn whole(&self, pulse: &Pulse) -> Pulse {
+        let patience = self.design.samples.shift() as u64;
+        let next = self.pulse(-pulse.sign).map_or(self.now, |next| next.onset);
+        let end = self.now.min(pulse.end + patience).min(next.max(pulse.end));
+        let change = self.change_of_speed(pulse.onset..end);
+        Pulse {
+            speed: change.map_or(pulse.speed, |change| pulse.sign * change),
+            ..*pulse
+        }
+    }
+
+    /// How far from zero a sum of changes of speed may be that leaves a cage at rest, where the
+    /// largest was `speed`.
+    pub fn rounding(&self, speed: f64) -> f64 {
+        self.least_speed().max(ROUNDING * speed)
     }
 
     /// When a block began.
@@ -113,7 +136,18 @@ impl Scene<'_> {
     }
 
     fn decision(&self, places: &Places, verdict: &Verdict) -> Decision {
-        decision(self.design, self.history, self.reference, places, verdict)
+        let span = |blocks: &Range<u64>| (self.starts(blocks.start), self.ends(blocks.end));
+        let reference = places.reference.as_ref();
+        Decision {
+            statistics: verdict.statistics,
+            threshold: self.design.region.critical_values()[verdict.statistics.exceedances],
+            alpha: self.design.settings.alpha,
+            samples: [
+                reference.map(span).or(self.reference.span),
+                Some(span(&places.shift)),
+                Some(span(&places.scale)),
+            ],
+        }
     }
 
     fn judge(&mut self, places: &Places) -> Option<Verdict> {

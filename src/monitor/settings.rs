@@ -1,10 +1,10 @@
 //! What a monitor is told, and what that comes to at one sampling rate.
 //!
-//! Times are in seconds and sizes in *blocks*: means of as many samples as fit into
-//! [`Settings::block`]. Twelve samples at 100 Hz are 0.12 s, while a lift takes 0.5 to 1.5 s to gain
-//! speed; twelve blocks are 0.6 s at any sampling rate. A block mean is the best estimate of a constant
-//! level in white noise, and the first zero of its frequency response lies at the block rate, which is
-//! all the anti-aliasing that ranks of levels need.
+//! Times are in seconds and sizes in *blocks*: means of a whole number of samples, about
+//! [`Settings::block`] long. Twelve samples at 100 Hz are 0.12 s, while a lift takes 0.5 to 1.5 s to gain
+//! speed; twelve blocks are about 0.6 s wherever a block has more than a sample or two. A block mean is the
+//! best estimate of a constant level in white noise, and the first zero of its frequency response lies at
+//! the block rate, which is all the anti-aliasing that ranks of levels need.
 
 use crate::detect::{
     Alternative, NullLawError, NullLaws, Region, RegionError, Rule, Samples, SamplesError,
@@ -55,6 +55,9 @@ const MOST_BLOCKS: usize = 200;
 /// Blocks that a filter may be fitted to: more than an hour, in a few megabytes.
 const MOST_TRAINING: usize = 100_000;
 
+/// s: a lift gains speed in about a second.
+const LONGEST_BLOCK: f64 = 0.5;
+
 /// Settings at one sampling rate.
 #[derive(Clone, Debug)]
 pub struct Design {
@@ -84,6 +87,9 @@ pub enum SettingsError {
         /// As given.
         value: f64,
     },
+    /// A sample takes longer than half a start.
+    #[error("rate must be at least 2 Hz, got {0} (a lift gains speed in about a second)")]
+    TooSlow(f64),
     /// A block takes longer than a start, or no time at all.
     #[error("block must lie in [0.001, 0.5] s, got {0} s (a lift gains speed in about a second)")]
     Block(f64),
@@ -151,7 +157,7 @@ impl SettingsError {
     /// The setting to change.
     pub fn key(&self) -> &'static str {
         match self {
-            Self::Rate(_) => "rate",
+            Self::Rate(_) | Self::TooSlow(_) => "rate",
             Self::NotPositive { name, .. } | Self::TooMany { name, .. } => name,
             Self::Block(_) => "block",
             Self::Accelerations { .. } => "most_acceleration",
@@ -181,7 +187,11 @@ impl Settings {
     /// Where a value is out of its range, or no region has the level asked for.
     pub fn at(&self, rate: f64) -> Result<Design, SettingsError> {
         self.check_values(rate)?;
-        let decimation = (self.block * rate).round().max(1.0) as usize;
+        // Rounded down up to three quarters, so that 10, 30 and 50 Hz are not on the edge between two lengths.
+        let decimation = (self.block * rate + 0.25).floor().max(1.0) as usize;
+        if decimation as f64 / rate > LONGEST_BLOCK {
+            return Err(SettingsError::TooSlow(rate));
+        }
         let samples = Samples::new(self.reference, self.shift, self.scale, self.gap, decimation)?;
         let laws = NullLaws::new(Alternative::TwoSided, &samples)?;
         Ok(Design {
@@ -206,7 +216,7 @@ impl Settings {
                 return Err(SettingsError::NotPositive { name, value });
             }
         }
-        if !(0.001..=0.5).contains(&self.block) {
+        if !(0.001..=LONGEST_BLOCK).contains(&self.block) {
             return Err(SettingsError::Block(self.block));
         }
         if !(1.0..=1e6).contains(&rate) {

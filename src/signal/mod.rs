@@ -24,7 +24,7 @@ pub use motion::{DeltaAt, Motion, MotionError, Profile};
 pub use noise::{Law, LawError, Noise};
 pub use phase::Phase;
 pub use ride::{
-    Course, Drive, Ending, Experiment, Journey, Pickup, PickupError, Ride, RideError, Simulated,
+    Course, Drive, Ending, ExportLayout, Journey, Pickup, PickupError, Ride, RideError, Simulated,
     Stretch, Trip, TripError, write_phyphox, write_truth,
 };
 pub use sensor::{Sensor, SensorError, Transfer};

@@ -16,6 +16,8 @@
 mod fit;
 mod order;
 mod portmanteau;
+#[cfg(test)]
+mod tests;
 
 pub use fit::Fitter;
 pub use order::{Chosen, OrderError, SAMPLES_PER_COEFFICIENT, coefficients};

@@ -121,16 +121,10 @@ fn residual_energy(products: &[f64], most: usize, order: usize) -> f64 {
 mod tests {
     use super::*;
     use crate::binomial;
-    use crate::signal::{Pickup, Ride, Sensor};
-    use crate::whiten::whiten;
+    use crate::whiten::{tests, whiten};
 
     fn record(ar: &[f64], samples: usize, index: u64) -> Vec<f64> {
-        let pickup = Pickup {
-            sensor: Sensor::from_ar(ar.to_vec()).unwrap(),
-            ..Pickup::white(1.0)
-        };
-        let ride = Ride::still(1.0, samples as f64).unwrap();
-        ride.simulate(&pickup, 2014, index).record
+        tests::record(ar, samples, 2014, index)
     }
 
     /// Filters run over the common samples: none leaves less than the criterion says, and the one fitted to

@@ -6,7 +6,6 @@
 //!
 //! [^1]: G. M. Ljung, G. E. P. Box, "On a measure of lack of fit in time series models", Biometrika 65, 1978.
 
-use super::whiten;
 use crate::chi_squared;
 
 /// The statistic of some residuals and what it says.
@@ -47,23 +46,10 @@ pub enum PortmanteauError {
 const LAGS_BEYOND_ORDER: usize = 20;
 
 impl LjungBox {
-    /// Tests what a filter with these coefficients, fitted to this record, leaves of it.
-    ///
-    /// # Errors
-    /// Where a fifth of the residuals is no more than the order, or all are equal.
-    pub fn of_filter(coefficients: &[f64], record: &[f64]) -> Result<Self, PortmanteauError> {
-        let order = coefficients.len();
-        let mut residuals = vec![0.0; record.len().saturating_sub(order)];
-        if !residuals.is_empty() {
-            whiten(coefficients, record, order, &mut residuals);
-        }
-        Self::of_residuals(&residuals, order)
-    }
-
     /// Tests residuals of a filter of order `order`, by as many lags as their number allows.
     ///
     /// # Errors
-    /// As [`LjungBox::of_filter`].
+    /// Where a fifth of the residuals is no more than the order, or all are equal.
     pub fn of_residuals(residuals: &[f64], order: usize) -> Result<Self, PortmanteauError> {
         let lags = (order + LAGS_BEYOND_ORDER).min(residuals.len() / 5);
         Self::new(residuals, order, lags)
@@ -112,16 +98,20 @@ impl LjungBox {
 mod tests {
     use super::*;
     use crate::binomial;
-    use crate::signal::{Pickup, Ride, Sensor};
-    use crate::whiten::{Chosen, Fit, Fitter, Whitening};
+    use crate::whiten::{Chosen, Fit, Fitter, Whitening, tests, whiten};
 
     fn record(ar: &[f64], samples: usize, index: u64) -> Vec<f64> {
-        let pickup = Pickup {
-            sensor: Sensor::from_ar(ar.to_vec()).unwrap(),
-            ..Pickup::white(1.0)
-        };
-        let ride = Ride::still(1.0, samples as f64).unwrap();
-        ride.simulate(&pickup, 2015, index).record
+        tests::record(ar, samples, 2015, index)
+    }
+
+    /// Tests what a filter with these coefficients, fitted to this record, leaves of it.
+    fn of_filter(coefficients: &[f64], record: &[f64]) -> Result<LjungBox, PortmanteauError> {
+        let order = coefficients.len();
+        let mut residuals = vec![0.0; record.len().saturating_sub(order)];
+        if !residuals.is_empty() {
+            whiten(coefficients, record, order, &mut residuals);
+        }
+        LjungBox::of_residuals(&residuals, order)
     }
 
     /// By the definition in numpy 2, the tail by scipy's chi2.sf.
@@ -152,14 +142,14 @@ mod tests {
     fn holds_its_level() {
         let n = 2000;
         let white = |index| {
-            let test = LjungBox::of_filter(&[], &record(&[], n, index));
+            let test = of_filter(&[], &record(&[], n, index));
             test.unwrap().p_value
         };
         let fitted = |index| {
             let record = record(&[-1.5365, -0.75056], n, index);
             let whitening = Whitening::new(2, Fit::LeastSquares, n, false, 2).unwrap();
             let mut fitter = Fitter::new(whitening, &[]);
-            let test = LjungBox::of_filter(fitter.fit(&record), &record);
+            let test = of_filter(fitter.fit(&record), &record);
             test.unwrap().p_value
         };
         for (name, (hits, p)) in [
@@ -174,10 +164,10 @@ mod tests {
     #[test]
     fn sees_what_a_short_filter_leaves() {
         let record = record(&[-1.5365, -0.75056], 500, 0);
-        let test = LjungBox::of_filter(&[], &record).unwrap();
+        let test = of_filter(&[], &record).unwrap();
         assert!(test.p_value < 1e-12, "{test:?}");
         let chosen = Chosen::new(&record, 10, Fit::LeastSquares).unwrap();
-        let test = LjungBox::of_filter(&chosen.coefficients, &record).unwrap();
+        let test = of_filter(&chosen.coefficients, &record).unwrap();
         assert_eq!((chosen.order(), test.lags, test.degrees), (2, 22, 20));
         assert!(test.p_value > 1e-3, "{test:?}");
     }
@@ -188,7 +178,7 @@ mod tests {
         assert!(new(&[1.0, 2.0, 3.0], 1, 1).is_err());
         assert!(new(&[1.0, 2.0, 3.0], 1, 3).is_err());
         assert_eq!(new(&[0.1; 9], 0, 3), Err(PortmanteauError::Constant(9)));
-        let short = LjungBox::of_filter(&[0.5], &[1.0]).unwrap_err();
+        let short = of_filter(&[0.5], &[1.0]).unwrap_err();
         assert!(short.to_string().contains("the 0 residuals, got 0"));
     }
 }

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 /// Each config, and the head of its rows.
-const EXHIBITS: [(&str, &str); 8] = [
+const EXHIBITS: [(&str, &str); 9] = [
     ("fig1", "lag,theory,exact_transfer,estimate,low,high"),
     (
         "fig2",
@@ -27,6 +27,10 @@ const EXHIBITS: [(&str, &str); 8] = [
     (
         "field",
         "all_samples,alpha,size,power,delta,low,high,trials,confidence",
+    ),
+    (
+        "ride_rate",
+        "curve,label,axis,x,outcome,count,exposure,unit,estimate,low,high,trials,confidence,measure",
     ),
 ];
 

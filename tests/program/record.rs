@@ -50,14 +50,14 @@ fn replaces_nothing_unasked() {
     let (code, _, err) = record(directory.path(), &other);
     assert_eq!(code, 2);
     assert!(
-        err.contains("ride.csv: exists (give another --out, or --force"),
+        err.contains("ride.csv: is there already (give another name, or --force"),
         "{err}"
     );
     assert_eq!(fs::read(directory.path().join("ride.csv")).unwrap(), first);
     fs::remove_file(directory.path().join("ride.csv")).unwrap();
     let (code, _, err) = record(directory.path(), &other);
     assert_eq!(code, 2);
-    assert!(err.contains("ride.truth.csv: exists"), "{err}");
+    assert!(err.contains("ride.truth.csv: is there already"), "{err}");
     let forced = [&other[..], &["--force"]].concat();
     assert_eq!(record(directory.path(), &forced).0, 0);
     assert_ne!(fs::read(directory.path().join("ride.csv")).unwrap(), first);
@@ -123,8 +123,6 @@ fn bad_flags_get_sentences() {
         "up",
         "up:",
         "up:x",
-        "up:0",
-        "up:-3",
         "left:3",
         "up:3:stop",
         "up:3:jam@x",
@@ -134,6 +132,14 @@ fn bad_flags_get_sentences() {
         assert!(
             err.contains("a trip reads up:METRES or down:METRES"),
             "{trip}: {err}"
+        );
+    }
+    for metres in ["0", "-3", "inf", "nan"] {
+        let err = refused(&["--trip", &format!("up:{metres}")]);
+        assert!(
+            err.to_lowercase()
+                .contains(&format!("metres must be positive, got {metres}")),
+            "{err}"
         );
     }
     for (flags, sentence) in [
@@ -166,7 +172,11 @@ fn bad_flags_get_sentences() {
         (&["--vibration=-1"], "vibration must be zero or positive"),
         (
             &["--step", "0"],
-            "--step, in units of --sigma: quantum must lie in",
+            "--step must lie in [1e-9, 1e9] times --sigma, got 0",
+        ),
+        (
+            &["--still", "--rest", "3", "--rest", "4"],
+            "--still is one rest, got 2 (give --rest once)",
         ),
         (&["--still", "--trip", "up:3"], "cannot be used with"),
         (&["--out", "ride"], "cannot be used multiple times"),
@@ -181,7 +191,9 @@ fn bad_flags_get_sentences() {
     let (code, _, err) = record(directory.path(), &["--out", "none/ride.csv"]);
     assert_eq!(code, 2);
     assert!(
-        err.contains("none/ride.csv: cannot be written (give another --out)"),
+        err.contains(
+            "none/ride.csv: cannot be written: no folder none (make it, or give another name)"
+        ),
         "{err}"
     );
 }

@@ -1,6 +1,8 @@
 //! Which way is up.
 
+use super::reading::UnknownName;
 use std::fmt;
+use std::str::FromStr;
 
 /// Which of a sensor's axes is vertical.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
@@ -21,6 +23,21 @@ pub enum Axis {
 impl Axis {
     /// The axes, in the order of all triples.
     pub(super) const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
+}
+
+impl FromStr for Axis {
+    type Err = UnknownName;
+
+    fn from_str(name: &str) -> Result<Self, UnknownName> {
+        match name.trim().to_lowercase().as_str() {
+            "auto" => Ok(Self::Auto),
+            "x" => Ok(Self::X),
+            "y" => Ok(Self::Y),
+            "z" => Ok(Self::Z),
+            "gravity" => Ok(Self::Gravity),
+            _ => Err(UnknownName::new("auto, x, y, z or gravity", name)),
+        }
+    }
 }
 
 impl fmt::Display for Axis {

@@ -96,7 +96,7 @@ impl Column {
         let name = name.trim();
         let (words, unit_name) = parted(name);
         let (time_unit, unit) = match unit_name {
-            Some(name) => (TimeUnit::from_name(name), Unit::from_name(name)),
+            Some(name) => (name.parse().ok(), Unit::from_name(name)),
             None => (None, None),
         };
         let word: String = words.chars().filter(|c| c.is_alphanumeric()).collect();
@@ -174,7 +174,7 @@ fn parted(name: &str) -> (&str, Option<&str>) {
     }
     match name.rsplit_once('_') {
         Some((words, unit))
-            if TimeUnit::from_name(unit).is_some() || Unit::from_name(unit).is_some() =>
+            if unit.parse::<TimeUnit>().is_ok() || Unit::from_name(unit).is_some() =>
         {
             (words, Some(unit))
         }

@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::lines::LONGEST_LINE;
-use super::reading::TimeUnit;
+use super::reading::{TimeUnit, UnitError};
 use std::fmt;
 use std::io;
 
@@ -57,7 +57,7 @@ pub enum RecordingProblem {
     #[error("must be a file, got {0} (a stream of readings is for the monitor)")]
     NotAFile(&'static str),
     /// A member of what has none.
-    #[error("no zip archive, so it has no member \"{0}\" (leave the member out)")]
+    #[error("no zip archive, so it has no member \"{0}\" (leave out --member)")]
     NotAnArchive(String),
     /// An archive by its name alone.
     #[error("ends in .zip, but is no zip archive (was it downloaded whole?)")]
@@ -82,7 +82,7 @@ pub enum RecordingProblem {
     #[error("zip archive: no member is a table of accelerations, it holds {0} (export as CSV)")]
     NoTable(Names),
     /// More than one to choose from.
-    #[error("zip archive: {0} are tables of accelerations (name the member to read)")]
+    #[error("zip archive: {0} are tables of accelerations (--member NAME)")]
     SeveralTables(Names),
     /// Nothing at all.
     #[error("is empty (was it exported whole?)")]
@@ -114,15 +114,26 @@ pub enum RecordingProblem {
         /// All there are.
         found: Names,
     },
+    /// Numbers alone, of which two might be those.
+    #[error(
+        "a table of {width} columns must have a header (or give the numbers of two of them: \
+         --time 1 --acceleration {})",
+        .width.min(&4)
+    )]
+    Unnamed {
+        /// How many columns there are.
+        width: usize,
+    },
     /// No column looks like time.
-    #[error("no column looks like time, the columns are {0} (name it)")]
+    #[error("no column looks like time, the columns are {0} (--time COLUMN)")]
     NoTime(Names),
     /// No column looks like an acceleration.
-    #[error("no column looks like an acceleration, the columns are {0} (name it)")]
+    #[error("no column looks like an acceleration, the columns are {0} (--acceleration COLUMN)")]
     NoAcceleration(Names),
     /// A table without the axis that is asked for.
     #[error(
-        "no column looks like the acceleration along {axis}, the columns are {found} (name it)"
+        "no column looks like the acceleration along {axis}, the columns are {found} \
+         (--acceleration COLUMN)"
     )]
     NoAxis {
         /// As asked.
@@ -133,16 +144,18 @@ pub enum RecordingProblem {
     /// Gravity cannot say where up is.
     #[error(
         "vertical along gravity: needs x, y and z in the same rows and a mean of about 9.8 m/s^2, \
-         got {0} (name an axis)"
+         got {0} (--axis x, y or z)"
     )]
     NoGravity(&'static str),
     /// Words among numbers.
-    #[error("column \"{column}\": must be a number, got \"{got}\"")]
+    #[error("column \"{column}\": must be a number, got \"{got}\"{remedy}")]
     NotANumber {
         /// Its name.
         column: String,
         /// As written, shortened.
         got: String,
+        /// What to do, in brackets after a space; or nothing.
+        remedy: &'static str,
     },
     /// NaN or an infinity.
     #[error(
@@ -155,9 +168,7 @@ pub enum RecordingProblem {
         got: String,
     },
     /// A number that no lift makes, and that sums of squares would not survive.
-    #[error(
-        "column \"{column}\": must lie within 1e{exponent} {unit}, got {got} (is the unit right?)"
-    )]
+    #[error("column \"{column}\": must lie within 1e{exponent} {unit}, got {got} ({remedy})")]
     OutOfRange {
         /// Its name.
         column: String,
@@ -167,6 +178,8 @@ pub enum RecordingProblem {
         unit: &'static str,
         /// In that unit.
         got: f64,
+        /// What to do.
+        remedy: &'static str,
     },
     /// A row of another table.
     #[error("must have {expected} cells as the first row has, got {got}{}", .hint.unwrap_or_default())]
@@ -198,8 +211,8 @@ pub enum RecordingProblem {
     },
     /// A clock that cannot be right.
     #[error(
-        "column \"{column}\": counted in {unit} it gives {rate} readings a second \
-         (say whether it is s, ms, us or ns)"
+        "column \"{column}\": counted in {unit} it gives {rate} readings a second (--time-unit {})",
+        .likely.map_or("s, ms, us or ns".to_owned(), |unit| unit.to_string())
     )]
     Rate {
         /// Its name.
@@ -208,17 +221,12 @@ pub enum RecordingProblem {
         unit: TimeUnit,
         /// Hz.
         rate: f64,
+        /// The unit in which it would be a sensor's clock.
+        likely: Option<TimeUnit>,
     },
-    /// A scale that is none.
-    #[error("unit: {name} must be {rule}, got {got}")]
-    Counts {
-        /// Which one.
-        name: &'static str,
-        /// What would do.
-        rule: &'static str,
-        /// As given.
-        got: f64,
-    },
+    /// A unit that is none.
+    #[error("{0}")]
+    Unit(#[from] UnitError),
     /// A rate that is none.
     #[error("resample must lie in (0, {limit}] Hz, ten times what was recorded, got {got}")]
     Resample {

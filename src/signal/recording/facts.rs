@@ -27,8 +27,6 @@ pub struct Facts {
     pub gaps: u64,
     /// m/s²: the sensor's step, where its first readings lie on a grid.
     pub quantum: Option<f64>,
-    /// The share of the first 8192 readings that equal another of them.
-    pub ties: f64,
     /// The share of samples that equal the one before.
     pub repeats: f64,
     /// The share of samples at a limit of the sensor, where there clearly is one.
@@ -168,7 +166,6 @@ impl Survey {
             longest_gap: self.intervals.longest(),
             gaps: self.intervals.gaps(),
             quantum: steps.quantum,
-            ties: steps.ties,
             repeats: self.repeats as f64 / count,
             saturated: (at_limits > 0).then(|| at_limits as f64 / count),
             mean: self.mean,

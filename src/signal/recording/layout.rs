@@ -87,6 +87,10 @@ impl Layout {
             true => headed(&splitter, owner),
             false => numbered(splitter.cells().count()),
         };
+        let is_told = reading.time.is_some() && reading.acceleration.is_some();
+        if let (false, false, width @ 3..) = (is_headed, is_told, columns.len()) {
+            return Err(RecordingProblem::Unnamed { width });
+        }
         let time = time(&columns, reading)?;
         let acceleration = accelerations(&columns, reading, time)?;
         let format = format(&columns, time);

@@ -63,7 +63,7 @@ pub use facts::Facts;
 pub use intervals::Gap;
 pub use layout::Format;
 pub use line_reader::{LineError, LineReader, LineReading};
-pub use reading::{Reading, TimeUnit, Unit};
+pub use reading::{GRAVITY, Reading, TimeUnit, Unit, UnitError, UnknownName};
 pub use series::Sample;
 pub use vertical::{Direction, Reason, Vertical};
 pub use warning::Warning;
@@ -267,8 +267,17 @@ fn check_clock(layout: &Layout, facts: &Facts) -> Result<(), RecordingProblem> {
             column: layout.columns[layout.time].name.clone(),
             unit: layout.time_unit,
             rate: facts.rate,
+            likely: likely_unit(layout.time_unit, facts.rate),
         }),
     }
+}
+
+/// The coarsest unit in which a clock would be that of a sensor.
+fn likely_unit(unit: TimeUnit, rate: f64) -> Option<TimeUnit> {
+    let a_tick = rate / unit.per_second();
+    TimeUnit::ALL
+        .into_iter()
+        .find(|unit| (2.0..=5e4).contains(&(a_tick * unit.per_second())))
 }
 
 /// A grid must not be finer than the clock's own numbers, nor pretend to what was not recorded.

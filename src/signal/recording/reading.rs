@@ -1,8 +1,8 @@
 //! How a recording is to be read; whatever is left open is found in the file.
 
 use super::axis::Axis;
-use super::error::RecordingProblem;
 use std::fmt;
+use std::str::FromStr;
 
 /// How a file is to be read. The default finds everything.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,17 +36,45 @@ pub enum TimeUnit {
     Nanoseconds,
 }
 
-impl TimeUnit {
-    /// The unit of a name: s, ms, us or ns.
-    pub fn from_name(name: &str) -> Option<Self> {
-        match name.trim().to_lowercase().as_str() {
-            "s" | "sec" | "secs" | "second" | "seconds" => Some(Self::Seconds),
-            "ms" | "msec" | "millis" | "milliseconds" => Some(Self::Milliseconds),
-            "us" | "\u{b5}s" | "\u{3bc}s" | "micros" | "microseconds" => Some(Self::Microseconds),
-            "ns" | "nanos" | "nanoseconds" => Some(Self::Nanoseconds),
-            _ => None,
+/// A name that stands for nothing here.
+#[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
+#[error("must be {known}, got \"{got}\"")]
+pub struct UnknownName {
+    known: &'static str,
+    got: String,
+}
+
+impl UnknownName {
+    pub(super) fn new(known: &'static str, got: &str) -> Self {
+        Self {
+            known,
+            got: got.to_owned(),
         }
     }
+}
+
+impl FromStr for TimeUnit {
+    type Err = UnknownName;
+
+    fn from_str(name: &str) -> Result<Self, UnknownName> {
+        match name.trim().to_lowercase().as_str() {
+            "s" | "sec" | "secs" | "second" | "seconds" => Ok(Self::Seconds),
+            "ms" | "msec" | "millis" | "milliseconds" => Ok(Self::Milliseconds),
+            "us" | "\u{b5}s" | "\u{3bc}s" | "micros" | "microseconds" => Ok(Self::Microseconds),
+            "ns" | "nanos" | "nanoseconds" => Ok(Self::Nanoseconds),
+            _ => Err(UnknownName::new("s, ms, us or ns", name)),
+        }
+    }
+}
+
+impl TimeUnit {
+    /// From the coarsest to the finest.
+    pub(super) const ALL: [Self; 4] = [
+        Self::Seconds,
+        Self::Milliseconds,
+        Self::Microseconds,
+        Self::Nanoseconds,
+    ];
 
     /// How many of them make a second. Dividing by it keeps 20 ms the double nearest to 0.02 s, which
     /// multiplying by 0.001 would not.
@@ -72,7 +100,7 @@ impl fmt::Display for TimeUnit {
 }
 
 /// Standard gravity, m/s².
-pub(super) const GRAVITY: f64 = 9.80665;
+pub const GRAVITY: f64 = 9.80665;
 
 /// What acceleration is counted in.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -95,7 +123,79 @@ pub enum Unit {
     },
 }
 
+/// Why a unit was refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum UnitError {
+    /// No unit of an acceleration.
+    #[error("unit: {0}")]
+    Name(UnknownName),
+    /// Counts of nobody knows what.
+    #[error("unit: counts need a scale (say how many m/s^2 one count is)")]
+    NoScale,
+    /// A converter's number beside a unit that has none.
+    #[error("{key}: is for counts alone, the unit is {unit} (leave one of them out)")]
+    NotCounts {
+        /// Scale or offset.
+        key: &'static str,
+        /// As given.
+        unit: Unit,
+    },
+    /// A scale or an offset that is none.
+    #[error("unit: {key} must be {rule}, got {got}")]
+    Counts {
+        /// Which one.
+        key: &'static str,
+        /// What would do.
+        rule: &'static str,
+        /// As given.
+        got: f64,
+    },
+}
+
+impl UnitError {
+    /// Which of unit, scale and offset is to be mended.
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Name(_) | Self::NoScale => "unit",
+            Self::NotCounts { key, .. } | Self::Counts { key, .. } => key,
+        }
+    }
+}
+
 impl Unit {
+    /// The unit that a user's words come to, if there are any. Counts need not be called so where their
+    /// scale is given.
+    ///
+    /// # Errors
+    /// Where the name is none, counts have no scale, another unit has one, or a number is out of its range.
+    pub fn told(
+        name: Option<&str>,
+        scale: Option<f64>,
+        offset: Option<f64>,
+    ) -> Result<Option<Self>, UnitError> {
+        let of_counts = scale.map(|_| "scale").or(offset.map(|_| "offset"));
+        let is_counts = |name: &str| name.trim().eq_ignore_ascii_case("counts");
+        match (name.filter(|name| !is_counts(name)), of_counts) {
+            (None, None) if name.is_none() => Ok(None),
+            (None, _) => {
+                let counts = Self::Counts {
+                    scale: scale.ok_or(UnitError::NoScale)?,
+                    offset: offset.unwrap_or(0.0),
+                };
+                counts.check().map(|()| Some(counts))
+            }
+            (Some(name), of_counts) => {
+                let known = "m/s^2, g, mg or counts";
+                let unknown = || UnitError::Name(UnknownName::new(known, name));
+                let unit = Self::from_name(name).ok_or_else(unknown)?;
+                match of_counts {
+                    Some(key) => Err(UnitError::NotCounts { key, unit }),
+                    None => Ok(Some(unit)),
+                }
+            }
+        }
+    }
+
     /// The unit of a name: m/s^2, g or mg, in their usual spellings.
     pub fn from_name(name: &str) -> Option<Self> {
         let name: String = name.to_lowercase().split_whitespace().collect();
@@ -111,7 +211,7 @@ impl Unit {
 
     /// A reading in m/s².
     #[inline]
-    pub(super) fn convert(self, reading: f64) -> f64 {
+    pub fn convert(self, reading: f64) -> f64 {
         match self {
             Self::Found | Self::MetresPerSecondSquared => reading,
             Self::Gravity => reading * GRAVITY,
@@ -122,11 +222,11 @@ impl Unit {
 
     /// # Errors
     /// Where a scale or an offset is no number to calculate with.
-    pub(super) fn check(self) -> Result<(), RecordingProblem> {
+    pub(super) fn check(self) -> Result<(), UnitError> {
         let Self::Counts { scale, offset } = self else {
             return Ok(());
         };
-        let refused = |name, rule, got| Err(RecordingProblem::Counts { name, rule, got });
+        let refused = |key, rule, got| Err(UnitError::Counts { key, rule, got });
         match () {
             () if !(1e-12..=1e12).contains(&scale.abs()) => {
                 refused("scale", "between 1e-12 and 1e12 in size", scale)
@@ -170,10 +270,46 @@ mod tests {
 
     #[test]
     fn names_are_known() {
-        assert_eq!(TimeUnit::from_name(" MS"), Some(TimeUnit::Milliseconds));
-        assert_eq!(TimeUnit::from_name("h"), None);
+        assert_eq!(" MS".parse(), Ok(TimeUnit::Milliseconds));
+        let refused = "h".parse::<TimeUnit>().unwrap_err().to_string();
+        assert_eq!(refused, "must be s, ms, us or ns, got \"h\"");
+        let axes = ["auto", "x", "Y", "z", "gravity"].map(|name| name.parse::<Axis>().unwrap());
+        assert_eq!(axes, [Axis::Auto, Axis::X, Axis::Y, Axis::Z, Axis::Gravity]);
+        assert!("up".parse::<Axis>().is_err());
         assert_eq!(Unit::from_name("m/s²"), Some(Unit::MetresPerSecondSquared));
         assert_eq!(Unit::from_name("rad/s"), None);
+    }
+
+    #[test]
+    fn words_of_a_unit() {
+        let counts = |scale, offset| Ok(Some(Unit::Counts { scale, offset }));
+        assert_eq!(Unit::told(None, None, None), Ok(None));
+        assert_eq!(
+            Unit::told(Some("mg"), None, None),
+            Ok(Some(Unit::Milligravity))
+        );
+        assert_eq!(
+            Unit::told(Some("counts"), Some(0.5), Some(9.0)),
+            counts(0.5, 9.0)
+        );
+        assert_eq!(Unit::told(None, Some(0.5), None), counts(0.5, 0.0));
+        let refused = |name, scale, offset| {
+            let error = Unit::told(name, scale, offset).unwrap_err();
+            (error.key(), error.to_string())
+        };
+        let no_scale = "unit: counts need a scale (say how many m/s^2 one count is)";
+        for name in [None, Some("counts")] {
+            assert_eq!(refused(name, None, Some(9.0)), ("unit", no_scale.into()));
+        }
+        let beside = "scale: is for counts alone, the unit is g (leave one of them out)";
+        assert_eq!(
+            refused(Some("g"), Some(0.5), Some(9.0)),
+            ("scale", beside.into())
+        );
+        assert_eq!(refused(Some("g"), None, Some(9.0)).0, "offset");
+        let unknown = "unit: must be m/s^2, g, mg or counts, got \"ft\"";
+        assert_eq!(refused(Some("ft"), None, None), ("unit", unknown.into()));
+        assert_eq!(refused(None, Some(0.0), None).0, "scale");
     }
 
     #[test]

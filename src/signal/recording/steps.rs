@@ -35,8 +35,6 @@ const ASTRAY: f64 = 0.01;
 pub(super) struct Steps {
     /// m/s².
     pub quantum: Option<f64>,
-    /// Of the readings, how many equal another, as a share.
-    pub ties: f64,
     /// Values that differ.
     pub levels: usize,
 }
@@ -54,7 +52,6 @@ impl Steps {
         distances.sort_by(f64::total_cmp);
         Self {
             quantum: grid(&distances, if ties > TIED { 1 } else { FEWEST }),
-            ties,
             levels,
         }
     }
@@ -119,7 +116,6 @@ mod tests {
         for size in [2, 6, 100, 8192] {
             let steps = Steps::of(draws(size));
             assert_eq!(steps.quantum, None, "{size}");
-            assert_eq!(steps.ties, 0.0);
         }
         assert_eq!(Steps::of(vec![]).quantum, None);
         assert_eq!(Steps::of(vec![1.0; 9]).quantum, None);
@@ -131,10 +127,5 @@ mod tests {
         let without_gravity = |x: f64| f64::from((9.8 + x) as f32) - 9.8;
         let steps = Steps::of(draws(5000).into_iter().map(without_gravity).collect());
         assert_eq!(steps.quantum, None);
-    }
-
-    #[test]
-    fn ties_are_counted() {
-        assert_eq!(Steps::of(vec![1.0, 1.0, 2.0, 3.0]).ties, 0.25);
     }
 }

@@ -122,7 +122,14 @@ impl Table {
         let (column, got) = (self.layout.columns[column].name.clone(), shortened(cell));
         match read {
             Cell::NotFinite => RecordingProblem::NotFinite { column, got },
-            _ => RecordingProblem::NotANumber { column, got },
+            _ => RecordingProblem::NotANumber {
+                remedy: match is_date(cell) {
+                    true => " (dates are not read: write times as numbers, in s from any start)",
+                    false => "",
+                },
+                column,
+                got,
+            },
         }
     }
 
@@ -131,6 +138,21 @@ impl Table {
             NoLine::TooLong => RecordingProblem::TooLong,
             NoLine::Io(error) => RecordingProblem::Unreadable(error),
         })
+    }
+}
+
+/// Whether a cell looks like a date, 2013-11-25 or 25.11.2013, or has a time of day in it.
+fn is_date(cell: &[u8]) -> bool {
+    let digits = |part: &[u8]| part.iter().take_while(|c| c.is_ascii_digit()).count();
+    let parts: Vec<usize> = cell
+        .trim_ascii()
+        .splitn(3, |c| matches!(c, b'-' | b'/' | b'.' | b':'))
+        .map(digits)
+        .collect();
+    match parts[..] {
+        [1..=2, 1..=2, 4] | [4, 1..=2, 1..=2] => true,
+        [hours, minutes, ..] => hours > 0 && minutes > 0 && cell.contains(&b':'),
+        _ => false,
     }
 }
 

@@ -67,8 +67,8 @@ impl fmt::Display for Vertical {
                 let is_down = *sign < 0.0;
                 match axis {
                     Some(axis) => write!(f, "{}{axis}", if is_down { "-" } else { "" })?,
-                    None if is_down => f.write_str("as the column upside down")?,
-                    None => f.write_str("as the column")?,
+                    None if is_down => f.write_str("that column upside down")?,
+                    None => f.write_str("that column")?,
                 }
             }
             Direction::Projected { up: [x, y, z], .. } => {
@@ -76,10 +76,16 @@ impl fmt::Display for Vertical {
             }
         }
         match self.reason {
-            Reason::Given => f.write_str(", as given"),
-            Reason::Only => f.write_str(", the only one"),
-            Reason::Gravity(angle) => write!(f, ", {angle:.1} degrees from gravity"),
-            Reason::Ride(factor) => write!(f, ", with {factor:.1} times the ride of any other"),
+            Reason::Given => f.write_str(" (as given)"),
+            Reason::Only => f.write_str(" (the only one)"),
+            Reason::Gravity(angle) => write!(f, " ({angle:.1} degrees from gravity)"),
+            Reason::Ride(factor) => {
+                let digits = if factor < 10.0 { 1 } else { 0 };
+                write!(
+                    f,
+                    ", which carries the ride {factor:.digits$} times as strongly as any other axis"
+                )
+            }
             Reason::NearTie => f.write_str(", though no axis stands out"),
         }
     }

@@ -167,7 +167,7 @@ impl fmt::Display for Warning {
         match self {
             Self::Uneven { jitter } => write!(
                 f,
-                "sampling is uneven: intervals deviate by {:.1} % (resample to even it out)",
+                "sampling is uneven: intervals deviate by {:.1} % (--resample HZ evens it out)",
                 percent(*jitter)
             ),
             Self::Gaps { count, longest } => write!(
@@ -175,9 +175,13 @@ impl fmt::Display for Warning {
                 "samples are missing: {count} gaps, the longest {:.3} s after {:.3} s",
                 longest.length, longest.start
             ),
+            Self::RepeatedTimes { count: 1, line } => write!(
+                f,
+                "line {line}: time repeats once (the first reading is kept)"
+            ),
             Self::RepeatedTimes { count, line } => write!(
                 f,
-                "line {line}: time repeats, here and in all {count} times (the first reading is kept)"
+                "line {line}: time repeats here, {count} times in all (the first reading is kept)"
             ),
             Self::BlankRows { count, samples } => write!(
                 f,
@@ -208,7 +212,7 @@ impl fmt::Display for Warning {
                 "{:.0} % of the samples equal the one before (was a slow sensor read too often?)",
                 percent(*repeats)
             ),
-            Self::NearTie(vertical) => write!(f, "vertical axis: {vertical} (name it)"),
+            Self::NearTie(vertical) => write!(f, "vertical axis: {vertical} (--axis x, y or z)"),
             Self::Tilted { angle } => write!(
                 f,
                 "the vertical axis lies {angle:.0} degrees from gravity, and the axes stand in different \
@@ -216,15 +220,15 @@ impl fmt::Display for Warning {
             ),
             Self::Magnitude { column } => write!(
                 f,
-                "column \"{column}\" is a magnitude: it cannot tell up from down (name an axis)"
+                "column \"{column}\" is a magnitude: it cannot tell up from down (--acceleration COLUMN)"
             ),
             Self::PerhapsCounts { mean } => write!(
                 f,
-                "the mean is {mean:.1} m/s^2, that of gravity 9.8 (in which unit are the readings?)"
+                "the mean is {mean:.1} m/s^2, that of gravity 9.8 (--unit, if readings are in another)"
             ),
             Self::PerhapsGravity { mean } => write!(
                 f,
-                "no unit is named, and the mean is {mean:.3} m/s^2 (if readings are in g, say so)"
+                "no unit is named, and the mean is {mean:.3} m/s^2 (--unit g, if readings are in g)"
             ),
         }
     }

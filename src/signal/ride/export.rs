@@ -7,16 +7,16 @@ use super::{Journey, Ride};
 use libm::sqrt;
 use std::io::{self, Write};
 
-/// Which of phyphox's experiments a record looks like.
+/// The layout of an export: which of phyphox's experiments a record looks like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Experiment {
+pub enum ExportLayout {
     /// Acceleration without g.
     Linear,
     /// Acceleration with g.
     WithGravity,
 }
 
-impl Experiment {
+impl ExportLayout {
     fn quantity(self) -> (&'static str, &'static str) {
         match self {
             Self::Linear => ("Linear Acceleration", "Absolute acceleration"),
@@ -31,11 +31,11 @@ impl Experiment {
 /// Where `out` does not take them.
 pub fn write_phyphox(
     out: &mut impl Write,
-    experiment: Experiment,
+    layout: ExportLayout,
     rate: f64,
     [x, y, z]: [&[f64]; 3],
 ) -> io::Result<()> {
-    let (axis, absolute) = experiment.quantity();
+    let (axis, absolute) = layout.quantity();
     let columns = ["x", "y", "z"].map(|name| format!("\"{axis} {name} (m/s^2)\""));
     let columns = columns.join(",");
     write!(out, "\"Time (s)\",{columns},\"{absolute} (m/s^2)\"")?;
@@ -90,7 +90,7 @@ mod tests {
     fn phyphox_layout() {
         let mut out = Vec::new();
         let axes: [&[f64]; 3] = [&[3.0, -0.0], &[0.0, 0.0], &[-4.0, 1.25e-3]];
-        write_phyphox(&mut out, Experiment::Linear, 50.0, axes).unwrap();
+        write_phyphox(&mut out, ExportLayout::Linear, 50.0, axes).unwrap();
         let expected = "\"Time (s)\",\"Linear Acceleration x (m/s^2)\",\
             \"Linear Acceleration y (m/s^2)\",\"Linear Acceleration z (m/s^2)\",\
             \"Absolute acceleration (m/s^2)\"\n\
@@ -98,7 +98,7 @@ mod tests {
             3.000000000E-2,0.000000000E0,0.000000000E0,1.250000000E-3,1.250000000E-3";
         assert_eq!(String::from_utf8(out).unwrap(), expected);
         let mut out = Vec::new();
-        write_phyphox(&mut out, Experiment::WithGravity, 50.0, [&[]; 3]).unwrap();
+        write_phyphox(&mut out, ExportLayout::WithGravity, 50.0, [&[]; 3]).unwrap();
         assert!(out.starts_with(b"\"Time (s)\",\"Acceleration x (m/s^2)\","));
     }
 

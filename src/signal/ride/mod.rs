@@ -26,7 +26,7 @@ mod tests;
 mod trip;
 
 pub use drive::Drive;
-pub use export::{Experiment, write_phyphox, write_truth};
+pub use export::{ExportLayout, write_phyphox, write_truth};
 pub use pickup::{Pickup, PickupError};
 pub use simulate::Simulated;
 pub use trip::{Course, Ending, Trip, TripError};

@@ -31,8 +31,6 @@ pub struct Pickup {
     pub impulses: Impulses,
     /// d, in σ and samples.
     pub disturbance: Disturbance,
-    /// From when on d acts, s from the first sample.
-    pub disturbed_from: f64,
 }
 
 /// Why a pickup was refused.
@@ -50,9 +48,6 @@ pub enum PickupError {
     /// A deviation that is none.
     #[error("vibration must be zero or positive, and finite, got {0}")]
     Vibration(f64),
-    /// A time that is none.
-    #[error("disturbed_from must be zero or positive, and finite, got {0}")]
-    DisturbedFrom(f64),
 }
 
 impl Pickup {
@@ -69,7 +64,6 @@ impl Pickup {
             vibration: 0.0,
             impulses: Impulses::none(),
             disturbance: Disturbance::default(),
-            disturbed_from: 0.0,
         }
     }
 
@@ -78,7 +72,6 @@ impl Pickup {
     /// # Errors
     /// Where one is out of its range.
     pub fn checked(self) -> Result<Self, PickupError> {
-        let is_size = |value: f64| value >= 0.0 && value.is_finite();
         if !(1e-12..=1e12).contains(&self.sigma) {
             return Err(PickupError::Sigma(self.sigma));
         }
@@ -88,11 +81,8 @@ impl Pickup {
         if !(-1.0..=1.0).contains(&self.cosine) {
             return Err(PickupError::Cosine(self.cosine));
         }
-        if !is_size(self.vibration) {
+        if !(self.vibration >= 0.0 && self.vibration.is_finite()) {
             return Err(PickupError::Vibration(self.vibration));
-        }
-        if !is_size(self.disturbed_from) {
-            return Err(PickupError::DisturbedFrom(self.disturbed_from));
         }
         Ok(self)
     }

@@ -31,7 +31,9 @@ impl Ride {
             Stream::new(seed, purpose, &subject).at(index)
         };
         add_noise(pickup, &mut generator("ride noise"), &mut record);
-        self.disturb(pickup, &mut generator("ride footfalls"), &mut record);
+        let mut footfalls = generator("ride footfalls");
+        let disturbance = &pickup.disturbance;
+        disturbance.act(&mut record, 0, || footfalls.next_u64());
         self.vibrate(pickup, &mut generator("ride vibration"), &mut record);
         self.knock(pickup, &mut generator("ride impulses"), &mut record);
         self.accelerate(pickup, &mut record);
@@ -42,13 +44,6 @@ impl Ride {
             truth: self.truth(),
             journeys: self.journeys(),
         }
-    }
-
-    fn disturb(&self, pickup: &Pickup, generator: &mut Generator, record: &mut [f64]) {
-        let from = (pickup.disturbed_from * self.rate).ceil() as usize;
-        let from = from.min(record.len());
-        let disturbance = &pickup.disturbance;
-        disturbance.act(record, from, || generator.next_u64());
     }
 
     fn vibrate(&self, pickup: &Pickup, generator: &mut Generator, record: &mut [f64]) {

@@ -49,7 +49,12 @@ fn no_such_column() {
         refused("when,acc\n0,1\n").contains("no column looks like time, the columns are \"when\"")
     );
     assert!(refused("time,value\n0,1\n").contains("no column looks like an acceleration"));
-    assert!(refused("0,1,2\n1,2,3\n").contains("the columns are \"1\", \"2\", \"3\""));
+    assert_eq!(
+        refused("0,1,2,3,4\n1,2,3,4,5\n"),
+        "ride.csv:1: a table of 5 columns must have a header (or give the numbers of two of them: \
+         --time 1 --acceleration 4)"
+    );
+    assert!(refused("0,1,2\n1,2,3\n").contains("--time 1 --acceleration 3"));
     let along = |axis| Reading {
         axis,
         ..Reading::default()
@@ -77,7 +82,18 @@ fn cells_that_are_no_numbers() {
         refused_cell("n/a"),
         "ride.csv:3: column \"acc\": must be a number, got \"n/a\""
     );
-    assert!(refused("time,acc\n0,1\n1e15,2\n").contains("must lie within 1e12 s"));
+    for date in [
+        "2013-11-25T12:30:00Z",
+        "25.11.2013",
+        "12:30:00.5",
+        "2013/11/25",
+    ] {
+        let refused = refused(format!("time,acc\n{date},1\n"));
+        assert!(refused.contains("(dates are not read:"), "{refused}");
+    }
+    assert!(refused("time,acc\n0,1\n2e14,2\n").contains("must lie within 1e12 s"));
+    let epoch = "time,acc\n1385337600000,1\n1385337600020,2\n";
+    assert!(refused(epoch).contains("(--time-unit ms, if these are milliseconds since 1970)"));
 }
 
 #[test]
@@ -114,9 +130,20 @@ fn time() {
         recording.warnings(),
         [Warning::RepeatedTimes { count: 2, line: 4 }]
     );
+    assert_eq!(
+        recording.warnings()[0].to_string(),
+        "line 4: time repeats here, 2 times in all (the first reading is kept)"
+    );
+    let once = open("time,acc\n0,1\n0.1,2\n0.1,3\n0.2,5\n");
+    assert_eq!(
+        once.warnings()[0].to_string(),
+        "line 4: time repeats once (the first reading is kept)"
+    );
     // Milliseconds that nobody called so.
     let counted = "time,acc\n0,1\n20,2\n40,1\n";
-    assert!(refused(counted).contains("column \"time\": counted in s it gives 0.05"));
+    assert!(refused(counted).contains(
+        "column \"time\": counted in s it gives 0.05 readings a second (--time-unit ms)"
+    ));
     let reading = Reading {
         time_unit: Some(TimeUnit::Milliseconds),
         ..Reading::default()

@@ -117,8 +117,4 @@ fn refusals() {
     ));
     assert_eq!(pickup(|p| p.cosine = 1.1), PickupError::Cosine(1.1));
     assert_eq!(pickup(|p| p.vibration = -1.0), PickupError::Vibration(-1.0));
-    assert_eq!(
-        pickup(|p| p.disturbed_from = -1.0),
-        PickupError::DisturbedFrom(-1.0)
-    );
 }
