@@ -95,7 +95,12 @@ impl MonitorCommand {
         if let Some(begins) = self.begins {
             knowledge.begins_at_rest = begins == Beginning::Rest;
         }
-        let design = briefing.design().map_err(Failure::input)?;
+        let design = briefing.design().map_err(anyhow::Error::from);
+        let design = match self.rate.or(saved_rate) {
+            Some(_) => design,
+            None => design.context("standard input, whose times must be in s"),
+        };
+        let design = design.map_err(Failure::Input)?;
         let mut monitor = Monitor::new(design, knowledge);
         let mut out = Reports::new();
         let begun = out.say(&monitor.beginning(beginning.time));
@@ -158,7 +163,7 @@ impl<R: io::BufRead> Readings<R> {
         }
         match (known.or(self.measured()), first.len()) {
             (_, 0) => Err(Failure::Input(anyhow!(
-                "standard input: no samples (a line is `acceleration` or `time,acceleration`)"
+                "standard input: holds no reading (does the sensor send anything?)"
             ))),
             (None, readings) => Err(Failure::Input(anyhow!(
                 "standard input: {readings} reading, and the rate is measured from two or more (give --rate)"

@@ -1,7 +1,7 @@
 //! What else users type.
 
 use super::{liftsim, outcome, project};
-use liftsim::config::{Config, Experiment};
+use liftsim::config::{Config, Experiment, WatchConfig};
 use std::fs;
 
 fn run(arguments: &[&str]) -> String {
@@ -155,13 +155,14 @@ fn closed_pipe_is_no_error() {
 #[test]
 fn readme_shows_the_defaults() {
     let readme = fs::read_to_string(project().join("README.md")).unwrap();
-    let block = readme
-        .split("```toml\n")
-        .nth(1)
-        .unwrap()
-        .split("```")
-        .next()
-        .unwrap();
+    let mut blocks = readme.split("```toml\n").skip(1).map(|text| {
+        let (block, _) = text.split_once("```").unwrap();
+        block
+    });
+    let watched = blocks.next().unwrap();
+    let read = WatchConfig::parse("README.md", watched).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(read, WatchConfig::default());
+    let block = blocks.next().unwrap();
     let (explained, curve) = block.split_once("[[curve]]").unwrap();
     let minimal =
         "question = \"?\"\nseed = 2014\n[axis]\ndelta = { from = 0.0, to = 3.0, step = 0.1 }\n";
