@@ -516,8 +516,11 @@ fn misled(ride: &Simulation, record: &[f64], mut monitor: Monitor, grace: f64) -
     wrong.count() as f64 / ride.rate()
 }
 
+/// ±1 for a draw.
+type Directions = fn(u64) -> f64;
+
 /// Ten trips in chosen directions after one another, of chosen lengths and with chosen rests.
-fn journey(index: u64, direction: fn(u64) -> f64) -> Simulation {
+fn journey(index: u64, direction: Directions) -> Simulation {
     let part =
         |i: u64, salt: u64| (index * 131 + i * 17 + salt).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 40;
     let share = |i: u64, salt: u64| part(i, salt) as f64 / (1u64 << 24) as f64;
@@ -538,7 +541,7 @@ fn journey(index: u64, direction: fn(u64) -> f64) -> Simulation {
 /// knows nothing, and one that is told, rightly, that the cage stands at first.
 #[test]
 fn no_moving_cage_is_called_still() {
-    let directions: [(&str, fn(u64) -> f64); 3] = [
+    let directions: [(&str, Directions); 3] = [
         ("up, always", |_| 1.0),
         ("either way", |draw| if draw % 2 == 0 { 1.0 } else { -1.0 }),
         ("down, always", |_| -1.0),
