@@ -16,6 +16,7 @@ use serde::de::DeserializeOwned;
 use std::fmt;
 use std::io;
 use std::ops::Range;
+use std::path::Path;
 
 /// Why a config was refused, and where.
 #[derive(Debug, thiserror::Error)]
@@ -410,6 +411,14 @@ impl Source {
             place: span.map(|span| self.place(span)),
             problem,
         }))
+    }
+
+    /// A file's text.
+    pub fn load(path: &Path) -> Result<Self, ConfigError> {
+        let name = path.display().to_string();
+        std::fs::read_to_string(path)
+            .map(|text| Self::new(&name, &text))
+            .map_err(|error| Self::new(&name, "").at(None, Problem::Unreadable(error)))
     }
 
     /// Reads the text as TOML.

@@ -97,11 +97,7 @@ impl Experiment {
     /// # Errors
     /// As [`Config::load`], where a sweep and a drawing are asked for at once, or neither.
     pub fn load(path: &Path) -> Result<Self, ConfigError> {
-        let name = path.display().to_string();
-        match std::fs::read_to_string(path) {
-            Ok(text) => Self::parse(&name, &text),
-            Err(error) => Err(Source::new(&name, "").at(None, Problem::Unreadable(error))),
-        }
+        Self::from_source(Source::load(path)?)
     }
 
     /// Checks a file's text; `name` is what messages call it.
@@ -109,7 +105,10 @@ impl Experiment {
     /// # Errors
     /// As [`Experiment::load`].
     pub fn parse(name: &str, text: &str) -> Result<Self, ConfigError> {
-        let source = Source::new(name, text);
+        Self::from_source(Source::new(name, text))
+    }
+
+    fn from_source(source: Source) -> Result<Self, ConfigError> {
         let file = File::parse(&source)?;
         let axis = file.axis.as_ref().map(|axis| ("axis", axis.span()));
         let asked = file.asked();

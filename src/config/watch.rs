@@ -89,11 +89,7 @@ impl WatchConfig {
     /// # Errors
     /// Where it cannot be read, is no TOML, has a key that means nothing, or a value out of its range.
     pub fn load(path: &Path) -> Result<Self, ConfigError> {
-        let name = path.display().to_string();
-        match std::fs::read_to_string(path) {
-            Ok(text) => Self::parse(&name, &text),
-            Err(error) => Err(Source::new(&name, "").at(None, Problem::Unreadable(error))),
-        }
+        Self::from_source(Source::load(path)?)
     }
 
     /// Checks a file's text; `name` is what messages call it.
@@ -101,7 +97,10 @@ impl WatchConfig {
     /// # Errors
     /// As [`WatchConfig::load`].
     pub fn parse(name: &str, text: &str) -> Result<Self, ConfigError> {
-        let source = Source::new(name, text);
+        Self::from_source(Source::new(name, text))
+    }
+
+    fn from_source(source: Source) -> Result<Self, ConfigError> {
         let file: WatchFile = source.read()?;
         let settings = file.settings();
         settings
