@@ -5,12 +5,12 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use liftsim::config::Config;
 use liftsim::detect::{Alternative, Crossings, Lines, NullLaws, Pooled, Rule, Samples};
-use liftsim::lanes::{LANES, Vectors, Wide};
 use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
 use liftsim::rng::Stream;
 use liftsim::run;
 use liftsim::signal::{Law, Noise, Sensor};
+use liftsim::simd::{LANES, Vectors, Wide};
 use liftsim::whiten::{Fit, Fitter, Whitening};
 use std::hint::black_box;
 

@@ -17,7 +17,7 @@
 //! Splitting by levels of W has the same fault, and its chains are dependent.
 
 use crate::plan::Point;
-use crate::tally::{self, Tally};
+use crate::stats::tally::{self, Tally};
 
 /// The probability that a gate fails although every scenario holds, at most.
 pub const FAMILY_LEVEL: f64 = 1e-3;

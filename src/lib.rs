@@ -32,8 +32,8 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | 0 | [`rng`]: coordinates → generator · [`binomial`], [`chi_squared`]: exact tails · [`bisect`] · [`numeral`]: numbers in print · [`lanes`]: trials side by side |
-//! | 1 | [`tally`], [`poisson`], [`quantile`]: counts and what may be concluded from them · [`ledger`]: which trials have been counted |
+//! | 0 | [`rng`]: coordinates → generator · [`stats`]: exact tails, intervals, tests · [`format`]: numbers in print · [`simd`]: trials side by side |
+//! | 1 | [`ledger`]: which trials have been counted |
 //! | 2 | [`signal`]: sensor, noise, impulses, motion, rides · [`whiten`]: filters · [`detect`]: W, T, their laws, regions |
 //! | 3 | [`chain`]: one trial, every stage · [`monitor`]: one lift, sample by sample |
 //! | 4 | [`config`]: what the author wrote · [`ensemble`]: blocks of trials in parallel · [`detection`]: what a monitor finds in a recording |
@@ -73,11 +73,8 @@
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
-pub mod binomial;
-pub mod bisect;
 pub mod campaign;
 pub mod chain;
-pub mod chi_squared;
 pub mod claim;
 pub mod config;
 pub mod detect;
@@ -85,19 +82,17 @@ pub mod detection;
 pub mod ensemble;
 pub mod exhibit;
 pub mod figure;
+pub mod format;
 pub mod gate;
-pub mod lanes;
 pub mod ledger;
 pub mod monitor;
-pub mod numeral;
 pub mod pilot;
 pub mod plan;
-pub mod poisson;
-pub mod quantile;
 pub mod report;
 pub mod results;
 pub mod rng;
 pub mod run;
 pub mod signal;
-pub mod tally;
+pub mod simd;
+pub mod stats;
 pub mod whiten;

@@ -6,15 +6,8 @@ use std::path::{Path, PathBuf};
 
 /// Each module of the library and its floor.
 const FLOORS: [&[&str]; 9] = [
-    &[
-        "rng",
-        "binomial",
-        "chi_squared",
-        "bisect",
-        "numeral",
-        "lanes",
-    ],
-    &["tally", "poisson", "quantile", "ledger"],
+    &["rng", "stats", "format", "simd"],
+    &["ledger"],
     &["signal", "whiten", "detect"],
     &["chain", "monitor"],
     &["config", "ensemble", "detection"],

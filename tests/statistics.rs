@@ -6,7 +6,7 @@ use liftsim::detect::{NullLaw, Samples};
 use liftsim::pilot::Pilots;
 use liftsim::plan::{Design, Hypothesis, Plan};
 use liftsim::run;
-use liftsim::tally::{Tally, difference_interval};
+use liftsim::stats::tally::{Tally, difference_interval};
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha20Rng;

@@ -4,7 +4,7 @@ use crate::claim::{self, Pair};
 use crate::config::Config;
 use crate::plan::Plan;
 use crate::results::{Comparison, Row};
-use crate::tally::Tally;
+use crate::stats::tally::Tally;
 
 /// The counts of every point and of every pair that claims compare.
 #[derive(Clone, Debug)]

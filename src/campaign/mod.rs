@@ -23,7 +23,7 @@ use crate::ledger::{Key, Ledger};
 use crate::plan::Plan;
 use crate::results::{Checkpoint, Directory, Lock, Manifest, Origin, ResultsError, Row, Shard};
 use crate::run::{Lacks, Subject};
-use crate::tally::Tally;
+use crate::stats::tally::Tally;
 use held::Held;
 use saver::Saver;
 use std::collections::{BTreeMap, BTreeSet};

@@ -4,9 +4,9 @@
 //! them are asked for, in which order, makes no difference.
 
 use super::family::{Branch, Family, Source};
-use crate::lanes::{LANES, Value, Vectors, Wide};
 use crate::rng::Generator;
 use crate::signal::Digitiser;
+use crate::simd::{LANES, Value, Vectors, Wide};
 use crate::whiten::{Fitter, step};
 use rand::Rng;
 

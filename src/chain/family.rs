@@ -4,9 +4,9 @@
 
 use super::scenario::Scenario;
 use crate::detect::{Samples, Ties};
-use crate::lanes::LANES;
 use crate::rng::Stream;
 use crate::signal::{Digitiser, Disturbance, During, Impulses, Noise, Sensor};
+use crate::simd::LANES;
 use crate::whiten::Whitening;
 
 /// All points that share their noise.

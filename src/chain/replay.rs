@@ -6,7 +6,7 @@ use super::observation::{Decision, Observation};
 use super::scenario::Scenario;
 use super::trial::Trial;
 use crate::detect::{Samples, Statistics, Ties};
-use crate::lanes::{LANES, Wide};
+use crate::simd::{LANES, Wide};
 
 /// Every stage of a trial, in the order of its computation. Raw samples run from the first of the record
 /// to the last of Y₂; observations are their block means.

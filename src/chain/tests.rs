@@ -7,12 +7,12 @@ use crate::detect::{
     Alternative, Baseline, Clairvoyant, Forward, Method, NullLaws, Region, Rule, Samples,
     Statistics, Ties,
 };
-use crate::lanes::{LANES, Wide};
 use crate::rng::Stream;
 use crate::signal::{
     DeltaAt, Digitiser, Disturbance, During, ImpulseMemory, Impulses, Law, Motion, Noise, Profile,
     Sensor,
 };
+use crate::simd::{LANES, Wide};
 use crate::whiten::{Fit, Whitening};
 use rand::Rng;
 use std::ops::Range;

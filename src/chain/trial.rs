@@ -5,9 +5,9 @@ use super::batch::{Batch, observe};
 use super::family::{Branch, Course, Family, Source};
 use super::observation::{Observation, Scratch, View};
 use crate::detect::{Crossings, Lines, Pooled, Samples, Statistics};
-use crate::lanes::Vectors;
 use crate::rng::Stream;
 use crate::signal::Digitiser;
+use crate::simd::Vectors;
 use crate::whiten::whiten;
 use rand::Rng;
 

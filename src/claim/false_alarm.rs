@@ -5,7 +5,7 @@ use super::words::{at, count, curve as named, exact, interval, ranges};
 use super::{ClaimError, Evidence, Judgement, Verdict};
 use crate::config::{Axis, Claim};
 use crate::results::Row;
-use crate::tally::holm;
+use crate::stats::tally::holm;
 
 /// One row at rest.
 struct Rest<'a> {

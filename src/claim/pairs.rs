@@ -4,7 +4,7 @@ use super::place::point_at;
 use crate::config::{Claim, Config, Contrast, Test};
 use crate::plan::Point;
 use crate::results::{Comparison, Place};
-use crate::tally::Tally;
+use crate::stats::tally::Tally;
 
 /// Two points to compare for a claim; the first is the one expected to be greater.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use super::*;
 use crate::config::Config;
 use crate::plan::Plan;
 use crate::results::Place;
-use crate::tally::Tally;
+use crate::stats::tally::Tally;
 
 const MARGIN: f64 = 0.005;
 

@@ -1,7 +1,7 @@
 //! Numbers and places in words.
 
 use crate::config::{Axis, Parameter};
-use crate::numeral::{minus, thousands};
+use crate::format::{minus, thousands};
 use crate::results::Comparison;
 
 /// A number and its interval, `0.8231 [0.8214, 0.8248]`, with two digits of the half-width; an exact

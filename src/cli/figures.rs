@@ -9,7 +9,7 @@ use liftsim::config::{Config, ExhibitConfig, Experiment};
 use liftsim::plan::Plan;
 use liftsim::report::{self, Section};
 use liftsim::results::{Directory, Lock, Manifest, Origin};
-use liftsim::tally::MOST_TRIALS;
+use liftsim::stats::tally::MOST_TRIALS;
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};

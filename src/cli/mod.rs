@@ -28,7 +28,7 @@ use anyhow::Context;
 use clap::{Args, Parser, Subcommand};
 use liftsim::config::{Config, ConfigError, ExhibitConfig, MOST_PILOT_TRIALS};
 use liftsim::plan::Plan;
-use liftsim::tally::MOST_TRIALS;
+use liftsim::stats::tally::MOST_TRIALS;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;

@@ -7,7 +7,7 @@ use liftsim::ensemble::BLOCK;
 use liftsim::pilot::Pilots;
 use liftsim::plan::{Hypothesis, Plan};
 use liftsim::run;
-use liftsim::tally::Tally;
+use liftsim::stats::tally::Tally;
 use serde_json::json;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};

@@ -10,7 +10,7 @@ use crate::signal::recording::UnitError;
 use crate::signal::{
     DigitiserError, DisturbanceError, ImpulsesError, LawError, MotionError, SensorError,
 };
-use crate::tally::MOST_TRIALS;
+use crate::stats::tally::MOST_TRIALS;
 use crate::whiten::WhiteningError;
 use serde::de::DeserializeOwned;
 use std::fmt;

@@ -28,7 +28,7 @@ pub use ride::{Measure, RideCurve, RidePoint, RideProblem, RideStudy};
 pub use trace::{Part, Trace};
 pub use watch::WatchConfig;
 
-use crate::tally;
+use crate::stats::tally;
 use error::Source;
 use file::{AxisTable, File, Sections};
 use std::ops::Range;

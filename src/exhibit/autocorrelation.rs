@@ -14,11 +14,11 @@
 //!
 //! [^1]: see [`crate::signal`].
 
-use super::normal::two_sided_quantile;
 use crate::config::ExhibitConfig;
 use crate::results::{Quantity, eight_digits};
 use crate::rng::Stream;
 use crate::signal::{Sensor, Transfer};
+use crate::stats::normal::two_sided_quantile;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

@@ -12,7 +12,7 @@ use crate::config::ExhibitConfig;
 use crate::results::{Quantity, eight_digits};
 use crate::rng::Stream;
 use crate::signal::ImpulseMemory;
-use crate::tally::Tally;
+use crate::stats::tally::Tally;
 use rand::Rng;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -205,8 +205,8 @@ impl Counts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::binomial;
     use crate::config::Experiment;
+    use crate::stats::binomial;
 
     fn config(trials: u64) -> ExhibitConfig {
         let text = format!(

@@ -8,7 +8,6 @@ pub mod autocorrelation;
 pub mod impulse_law;
 pub mod independence;
 pub mod layout;
-mod normal;
 pub mod operating_point;
 pub mod region;
 pub mod ride;

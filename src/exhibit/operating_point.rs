@@ -14,7 +14,7 @@ use crate::detect::{Method, NullLaws, Region, RegionError, Samples, Ties};
 use crate::ensemble::{Ensemble, Sink};
 use crate::results::{Quantity, eight_digits};
 use crate::signal::Motion;
-use crate::tally::Tally;
+use crate::stats::tally::Tally;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;

@@ -9,7 +9,7 @@ use super::text::literal;
 use super::words::wrap;
 use crate::config::ExhibitConfig;
 use crate::exhibit::autocorrelation::Row;
-use crate::numeral::thousands;
+use crate::format::thousands;
 use crate::results::Manifest;
 use crate::signal::Sensor;
 use plotters::prelude::{Color, DrawingBackend};

@@ -3,7 +3,7 @@
 use super::FigureError;
 use super::sheet::Sheet;
 use super::text::{Align, Style, text_width};
-use crate::numeral::minus;
+use crate::format::minus;
 use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor};
 
 /// Em size of tick labels, in points.

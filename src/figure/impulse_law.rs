@@ -7,7 +7,7 @@ use super::look::Look;
 use super::sheet::{Picture, Sheet};
 use super::words::wrap;
 use crate::exhibit::impulse_law::Row;
-use crate::numeral::thousands;
+use crate::format::thousands;
 use crate::results::Manifest;
 use plotters::prelude::{Color, DrawingBackend};
 

@@ -7,7 +7,7 @@ use super::look::Look;
 use super::sheet::{Picture, Sheet};
 use super::words::wrap;
 use crate::exhibit::independence::{Row, findings};
-use crate::numeral::thousands;
+use crate::format::thousands;
 use plotters::prelude::{BLACK, Color, DrawingBackend};
 
 const HEIGHT: f64 = 280.0;

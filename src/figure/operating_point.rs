@@ -8,7 +8,7 @@ use super::sheet::{Picture, Sheet};
 use super::words::wrap;
 use crate::config::ExhibitConfig;
 use crate::exhibit::operating_point::Row;
-use crate::numeral::thousands;
+use crate::format::thousands;
 use crate::results::Manifest;
 use plotters::prelude::{Color, DrawingBackend};
 

@@ -6,7 +6,7 @@
 use super::frame::CAPTION;
 use super::text::{literal, text_width};
 use crate::config::Parameter;
-use crate::numeral::thousands;
+use crate::format::thousands;
 use crate::results::{Manifest, Row};
 
 /// One parameter in words.

@@ -1,10 +1,10 @@
 //! The monitor on records made for the purpose.
 
 use super::*;
-use crate::binomial;
 use crate::detect::Statistics;
 use crate::rng::Stream;
 use crate::signal::{Law, Noise, Phase};
+use crate::stats::binomial;
 
 const RATE: f64 = 100.0;
 

@@ -4,11 +4,11 @@
 use super::gather::{Gathered, Gauge};
 use super::ladder::Ladder;
 use super::{PROMISE_LEVEL, PROMISED_LAWS, PilotError, Stage};
-use crate::binomial;
 use crate::chain::{Calibration, Decision, Detector, Scenario, Score};
 use crate::detect::{Method, Region};
 use crate::plan::Point;
 use crate::signal::{Law, Noise};
+use crate::stats::binomial;
 use std::sync::Arc;
 
 /// A rate measured by fewer false alarms is none.

@@ -9,7 +9,7 @@ pub use text::{PlaceholderError, fill};
 
 use crate::claim::{self, ClaimError, Evidence, Judgement, Verdict};
 use crate::config::{Axis, Claim, Narrative};
-use crate::numeral::thousands;
+use crate::format::thousands;
 use crate::results::{Comparison, Quantity, Row};
 use std::fmt::Write;
 

@@ -4,7 +4,7 @@
 //! one, only the other decided for H₁. Their difference is that of the rates, without the trials on
 //! which both agree, which is what makes a paired interval narrow.
 
-use crate::tally::{Tally, difference_interval};
+use crate::stats::tally::{Tally, difference_interval};
 use serde::{Deserialize, Serialize};
 
 /// One row of `comparisons.csv`: the rate at the first point minus that at the second.

@@ -6,7 +6,7 @@ use crate::config::Parameter;
 use crate::ledger::Key;
 use crate::plan::{Hypothesis, Point};
 use crate::signal::{Impulses, Motion};
-use crate::tally::Tally;
+use crate::stats::tally::Tally;
 use serde::{Deserialize, Serialize};
 
 /// One row of `points.csv`.

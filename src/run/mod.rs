@@ -28,7 +28,7 @@ use crate::chain::{Decision, Observation, View};
 use crate::detect::{Region, Statistics};
 use crate::ensemble::Sink;
 use crate::plan::Plan;
-use crate::tally::Tally;
+use crate::stats::tally::Tally;
 
 /// What a run comes to.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -10,7 +10,7 @@
 //!
 //! [^1]: see [`crate::signal`].
 
-use crate::lanes::Value;
+use crate::simd::Value;
 use std::fmt;
 
 /// What is added to the noise of a rest.

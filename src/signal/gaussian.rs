@@ -8,8 +8,8 @@
 //! [^1]: G. E. P. Box, M. E. Muller, "A note on the generation of random normal deviates",
 //! Ann. Math. Statist. 29, 1958.
 
-use crate::lanes::{LANES, Value, Vectors};
 use crate::rng::Generator;
+use crate::simd::{LANES, Value, Vectors};
 use rand::Rng;
 use std::f64::consts::{FRAC_PI_4, LN_2, SQRT_2};
 

@@ -150,8 +150,8 @@ impl fmt::Display for During {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::binomial;
     use crate::rng::Stream;
+    use crate::stats::binomial;
     use rand::Rng;
 
     /// Two-sided exact binomial p-value, doubled smaller tail.

@@ -8,8 +8,8 @@
 //! Math. Comp. 62, 1994.
 
 use super::gaussian::normals;
-use crate::lanes::{Value, Vectors};
 use crate::rng::Generator;
+use crate::simd::{Value, Vectors};
 use libm::{log, pow, sqrt, tan};
 use rand::Rng;
 use std::f64::consts::PI;

@@ -7,7 +7,7 @@
 //!
 //! [^1]: see [`crate::signal`].
 
-use crate::lanes::Value;
+use crate::simd::Value;
 use std::fmt;
 
 /// A stable autoregression driven by unit-scale white noise.

@@ -1,7 +1,7 @@
 //! Fitting the filter's coefficients: least squares, Yule–Walker, Burg.
 
 use super::{Fit, Whitening};
-use crate::lanes::Value;
+use crate::simd::Value;
 use std::ops::Range;
 
 /// Fits coefficients without allocating: a [`Whitening`] with its scratch space.

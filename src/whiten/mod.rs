@@ -23,7 +23,7 @@ pub use fit::Fitter;
 pub use order::{Chosen, OrderError, SAMPLES_PER_COEFFICIENT, coefficients};
 pub use portmanteau::{LjungBox, PortmanteauError};
 
-use crate::lanes::Value;
+use crate::simd::Value;
 use std::fmt;
 
 /// How a filter comes by its coefficients.

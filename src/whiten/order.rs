@@ -120,7 +120,7 @@ fn residual_energy(products: &[f64], most: usize, order: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::binomial;
+    use crate::stats::binomial;
     use crate::whiten::{tests, whiten};
 
     fn record(ar: &[f64], samples: usize, index: u64) -> Vec<f64> {

@@ -6,7 +6,7 @@
 //!
 //! [^1]: G. M. Ljung, G. E. P. Box, "On a measure of lack of fit in time series models", Biometrika 65, 1978.
 
-use crate::chi_squared;
+use crate::stats::chi_squared;
 
 /// The statistic of some residuals and what it says.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,7 +97,7 @@ impl LjungBox {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::binomial;
+    use crate::stats::binomial;
     use crate::whiten::{Chosen, Fit, Fitter, Whitening, tests, whiten};
 
     fn record(ar: &[f64], samples: usize, index: u64) -> Vec<f64> {

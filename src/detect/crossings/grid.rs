@@ -1,7 +1,7 @@
 //! The values of Δ that crossings are counted at, and where among them two lines cross.
 
 use super::Lines;
-use crate::lanes::Wide;
+use crate::simd::Wide;
 
 /// The values of Δ, in ascending order.
 #[derive(Clone, Debug)]

@@ -15,7 +15,7 @@
 mod grid;
 
 use super::statistics::{Statistics, smallest_rank_sum};
-use crate::lanes::{Vectors, Wide};
+use crate::simd::{Vectors, Wide};
 use grid::{Grid, greatest, least, round, round_up};
 
 /// Two samples nearer than this share of the largest value may compare one way or the other by

@@ -2,9 +2,9 @@
 
 use super::account::{Account, Trip};
 use crate::config::Measure;
-use crate::poisson;
-use crate::quantile::Quantile;
-use crate::tally::Tally;
+use crate::stats::poisson;
+use crate::stats::quantile::Quantile;
+use crate::stats::tally::Tally;
 
 /// One outcome: a count and what it says.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use crate::exhibit::ride::Row;
 use crate::figure::frame::{CAPTION_LEFT, WIDTH};
 use crate::figure::text::literal;
 use crate::figure::words::wrap;
-use crate::numeral::thousands;
+use crate::format::thousands;
 use crate::results::Manifest;
 
 /// The axis in words.

@@ -1,10 +1,10 @@
 //! What the sensor writes down.
 
 use super::{LIFT, trip, two_trips};
-use crate::binomial;
 use crate::signal::{
     Digitiser, Disturbance, During, Ending, Impulses, Law, Noise, Phase, Pickup, Ride, Sensor,
 };
+use crate::stats::binomial;
 
 /// Without noise to speak of, the samples add up to the speed at their edges at every moment, and twice to
 /// the way, of which rectangles miss at most a period times the total variation of the speed, 0.04 m.

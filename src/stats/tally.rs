@@ -8,8 +8,8 @@
 //! [^1]: C. Clopper, E. Pearson, "The use of confidence or fiducial limits", Biometrika 26, 1934.
 //! [^2]: S. Holm, "A simple sequentially rejective multiple test procedure", 1979.
 
-use crate::binomial;
-use crate::bisect::bisect;
+use crate::stats::binomial;
+use crate::stats::bisect::bisect;
 
 /// More trials than anyone can run; the exact tails take time that grows with their root.
 pub const MOST_TRIALS: u64 = 100_000_000_000;

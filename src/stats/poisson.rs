@@ -8,8 +8,8 @@
 //!
 //! [^1]: F. Garwood, "Fiducial limits for the Poisson distribution", Biometrika 28, 1936.
 
-use crate::bisect::bisect;
-use crate::chi_squared;
+use crate::stats::bisect::bisect;
+use crate::stats::chi_squared;
 
 /// The two-sided interval for the mean behind `count` events.
 pub fn interval(count: u64, confidence: f64) -> (f64, f64) {

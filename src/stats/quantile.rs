@@ -7,7 +7,7 @@
 //!
 //! [^1]: H. A. David, H. N. Nagaraja, "Order Statistics", 3rd ed., 2003, section 7.1.
 
-use crate::binomial::critical_count;
+use crate::stats::binomial::critical_count;
 
 /// A quantile and its interval, infinite where no order statistic would do.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +41,7 @@ impl Quantile {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::binomial::mass;
+    use crate::stats::binomial::mass;
 
     /// Against sums of the binomial law, place by place: the interval covers, and each end is the nearest that does.
     #[test]
