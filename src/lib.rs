@@ -96,4 +96,5 @@ pub mod signal;
 pub mod simd;
 pub mod stats;
 pub mod suggest;
+pub mod values;
 pub mod whiten;

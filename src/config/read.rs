@@ -204,16 +204,25 @@ impl<'de> Deserializer<'de> for &'de Node {
     fn deserialize_enum<V: Visitor<'de>>(
         self,
         _: &'static str,
-        _: &'static [&'static str],
+        known: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Refusal> {
         let choice = match &self.value {
+            Value::Table(table) if table.len() != 1 => {
+                let second = table.values().map(|(span, _)| span.clone()).max_by_key(|s| s.start);
+                let refusal = Refusal::custom(format_args!(
+                    "must have exactly one of {}, got {}",
+                    known.join(", "),
+                    table.len()
+                ));
+                return Err(refusal.at(&second.unwrap_or(self.span.clone())));
+            }
             Value::Text(name) => Choice {
                 name,
                 span: &self.span,
                 content: None,
             },
-            Value::Table(table) if table.len() == 1 => {
+            Value::Table(table) => {
                 let (name, (span, node)) = table.iter().next().expect("there is one");
                 Choice {
                     name,
@@ -221,7 +230,7 @@ impl<'de> Deserializer<'de> for &'de Node {
                     content: Some(node),
                 }
             }
-            _ => return Err(self.refused(&"a name, or a table with one name")),
+            _ => return Err(self.refused(&"a name, or a table with one key")),
         };
         visitor
             .visit_enum(choice)

@@ -23,5 +23,5 @@ pub use law::{NullLaw, NullLawError};
 pub use likelihood::{Histogram, LikelihoodOrder};
 pub use region::{Region, RegionError};
 pub use rule::{Alternative, Baseline, Method, Rule, Ties};
-pub use samples::{Samples, SamplesError};
+pub use samples::Samples;
 pub use statistics::{Pooled, Statistics};

@@ -1,6 +1,9 @@
 //! What a decision is made by: the rule that fills a region of (W, T), or another statistic to hold
 //! against it, and the sign of Δ it looks for.
 
+use schemars::JsonSchema;
+use serde::de::{Deserializer, Error, MapAccess, Visitor};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// How a region is filled from the exact laws alone.
@@ -43,7 +46,8 @@ pub enum Method {
 }
 
 /// What becomes of equal values.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Ties {
     /// A random key for each sample puts them in order, which keeps the laws exact.
     #[default]
@@ -55,8 +59,10 @@ pub enum Ties {
 }
 
 /// The sign of Δ that a region is made for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Alternative {
+    #[default]
     /// Δ > 0.
     Greater,
     /// Δ < 0.
@@ -113,6 +119,33 @@ impl Baseline {
 }
 
 impl Method {
+    /// Those that a name is enough for.
+    const NAMED: [Self; 9] = [
+        Self::Rule(Rule::Wilcoxon),
+        Self::Rule(Rule::Product),
+        Self::Rule(Rule::Disjunction),
+        Self::Rule(Rule::Conjunction),
+        Self::LikelihoodRatio,
+        Self::Baseline(Baseline::StudentT),
+        Self::Baseline(Baseline::VarianceRatio),
+        Self::Baseline(Baseline::BlockMeans),
+        Self::Baseline(Baseline::Clairvoyant),
+    ];
+
+    /// All names.
+    const NAMES: [&'static str; 10] = [
+        "wilcoxon",
+        "product",
+        "disjunction",
+        "conjunction",
+        TABLE,
+        "likelihood-ratio",
+        "student-t",
+        "variance-ratio",
+        "block-means",
+        "clairvoyant",
+    ];
+
     /// Its name in a config.
     pub fn name(&self) -> &'static str {
         match self {
@@ -141,6 +174,100 @@ impl Method {
             self,
             Self::Baseline(Baseline::BlockMeans | Baseline::Clairvoyant)
         )
+    }
+}
+
+/// C_W(T) for one T: a rank sum, or "never".
+struct Critical(Option<u64>);
+
+impl<'de> Deserialize<'de> for Critical {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct CriticalVisitor;
+        impl Visitor<'_> for CriticalVisitor {
+            type Value = Critical;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a rank sum or \"never\"")
+            }
+
+            fn visit_i64<E: Error>(self, value: i64) -> Result<Critical, E> {
+                let refused = || E::invalid_value(serde::de::Unexpected::Signed(value), &self);
+                let value = u64::try_from(value).map_err(|_| refused())?;
+                Ok(Critical(Some(value)))
+            }
+
+            fn visit_str<E: Error>(self, value: &str) -> Result<Critical, E> {
+                match value {
+                    "never" => Ok(Critical(None)),
+                    _ => Err(E::invalid_value(serde::de::Unexpected::Str(value), &self)),
+                }
+            }
+        }
+        deserializer.deserialize_any(CriticalVisitor)
+    }
+}
+
+/// A name, or `{ table = [...] }`.
+impl<'de> Deserialize<'de> for Method {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(MethodVisitor)
+    }
+}
+
+struct MethodVisitor;
+
+impl<'de> Visitor<'de> for MethodVisitor {
+    type Value = Method;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("the name of a rule or { table = [...] }")
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<Method, E> {
+        match Method::NAMED.iter().find(|method| method.name() == name) {
+            Some(method) => Ok(method.clone()),
+            None if name == TABLE => {
+                let remedy = "needs its parameters (write { table = [...] })";
+                Err(E::custom(remedy))
+            }
+            None => Err(E::unknown_variant(name, &Method::NAMES)),
+        }
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Method, A::Error> {
+        match map.next_key::<String>()?.as_deref() {
+            Some(TABLE) => {
+                let entries: Vec<Critical> = map.next_value()?;
+                let entries = entries.into_iter().map(|Critical(rank_sum)| rank_sum);
+                Ok(Method::Rule(Rule::Table(entries.collect())))
+            }
+            Some(name) => Err(A::Error::unknown_field(name, &[TABLE])),
+            None => Err(A::Error::missing_field(TABLE)),
+        }
+    }
+}
+
+const TABLE: &str = "table";
+
+impl JsonSchema for Method {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Rule".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let names: Vec<&str> = Self::NAMED.iter().map(Self::name).collect();
+        schemars::json_schema!({ "anyOf": [
+            { "enum": names },
+            {
+                "type": "object",
+                "properties": { "table": {
+                    "type": "array",
+                    "items": { "anyOf": [{ "type": "integer", "minimum": 0 }, { "const": "never" }] },
+                } },
+                "required": ["table"],
+                "additionalProperties": false,
+            },
+        ] })
     }
 }
 

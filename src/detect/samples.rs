@@ -4,34 +4,32 @@
 //!
 //! [^1]: see [`crate::signal`].
 
+use crate::values::{OutOfRange, Size};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::ops::Range;
 
 /// Sizes and spacing of X, Y₁ and Y₂.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct Samples {
-    reference: usize,
-    shift: usize,
-    scale: usize,
+    /// N, size of X.
+    reference: Size,
+    /// M₁, size of Y₁.
+    shift: Size,
+    /// M₂, size of Y₂.
+    scale: Size,
+    /// Observations skipped between X and Y₁ and between Y₁ and Y₂.
     gap: usize,
-    decimation: usize,
+    /// Raw observations whose mean is one observation, before everything else; 1 keeps every one.
+    decimation: Size,
 }
 
-/// Why sizes were refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum SamplesError {
-    /// N = 0.
-    #[error("reference must be at least 1, got 0")]
-    Reference,
-    /// M₁ = 0.
-    #[error("shift must be at least 1, got 0")]
-    Shift,
-    /// M₂ = 0.
-    #[error("scale must be at least 1, got 0")]
-    Scale,
-    /// A block of no observations.
-    #[error("decimation must be at least 1, got 0 (1 keeps every observation)")]
-    Decimation,
+impl Default for Samples {
+    fn default() -> Self {
+        Self::contiguous(12, 12, 12).expect("none is 0")
+    }
 }
 
 impl Samples {
@@ -46,43 +44,37 @@ impl Samples {
         scale: usize,
         gap: usize,
         decimation: usize,
-    ) -> Result<Self, SamplesError> {
-        match 0 {
-            _ if reference == 0 => Err(SamplesError::Reference),
-            _ if shift == 0 => Err(SamplesError::Shift),
-            _ if scale == 0 => Err(SamplesError::Scale),
-            _ if decimation == 0 => Err(SamplesError::Decimation),
-            _ => Ok(Self {
-                reference,
-                shift,
-                scale,
-                gap,
-                decimation,
-            }),
-        }
+    ) -> Result<Self, OutOfRange> {
+        Ok(Self {
+            reference: Size::new(reference)?,
+            shift: Size::new(shift)?,
+            scale: Size::new(scale)?,
+            gap,
+            decimation: Size::new(decimation)?,
+        })
     }
 
     /// Three samples side by side, every observation used.
     ///
     /// # Errors
     /// Where a size is zero.
-    pub fn contiguous(reference: usize, shift: usize, scale: usize) -> Result<Self, SamplesError> {
+    pub fn contiguous(reference: usize, shift: usize, scale: usize) -> Result<Self, OutOfRange> {
         Self::new(reference, shift, scale, 0, 1)
     }
 
     /// N.
     pub fn reference(&self) -> usize {
-        self.reference
+        self.reference.get()
     }
 
     /// M₁.
     pub fn shift(&self) -> usize {
-        self.shift
+        self.shift.get()
     }
 
     /// M₂.
     pub fn scale(&self) -> usize {
-        self.scale
+        self.scale.get()
     }
 
     /// Observations skipped between X and Y₁, and between Y₁ and Y₂.
@@ -92,24 +84,24 @@ impl Samples {
 
     /// Raw observations in each block mean.
     pub fn decimation(&self) -> usize {
-        self.decimation
+        self.decimation.get()
     }
 
     /// Where X lies.
     pub fn reference_range(&self) -> Range<usize> {
-        0..self.reference
+        0..self.reference()
     }
 
     /// Where Y₁ lies.
     pub fn shift_range(&self) -> Range<usize> {
-        let start = self.reference.saturating_add(self.gap);
-        start..start.saturating_add(self.shift)
+        let start = self.reference().saturating_add(self.gap);
+        start..start.saturating_add(self.shift())
     }
 
     /// Where Y₂ lies.
     pub fn scale_range(&self) -> Range<usize> {
         let start = self.shift_range().end.saturating_add(self.gap);
-        start..start.saturating_add(self.scale)
+        start..start.saturating_add(self.scale())
     }
 
     /// Observations from the first of X to the last of Y₂.
@@ -119,14 +111,14 @@ impl Samples {
 
     /// Observations from the first after X to the last of Y₁: how long Δ acts unless told otherwise.
     pub fn acceleration(&self) -> usize {
-        self.shift_range().end - self.reference
+        self.shift_range().end - self.reference()
     }
 }
 
 impl fmt::Display for Samples {
     /// N/M₁/M₂.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}/{}/{}", self.reference, self.shift, self.scale)
+        write!(f, "{}/{}/{}", self.reference(), self.shift(), self.scale())
     }
 }
 
@@ -146,9 +138,8 @@ mod tests {
 
     #[test]
     fn refusals() {
-        assert_eq!(Samples::contiguous(0, 1, 1), Err(SamplesError::Reference));
-        assert_eq!(Samples::contiguous(1, 0, 1), Err(SamplesError::Shift));
-        assert_eq!(Samples::contiguous(1, 1, 0), Err(SamplesError::Scale));
-        assert_eq!(Samples::new(1, 1, 1, 0, 0), Err(SamplesError::Decimation));
+        for [reference, shift, scale, decimation] in [[0, 1, 1, 1], [1, 0, 1, 1], [1, 1, 0, 1], [1, 1, 1, 0]] {
+            assert!(Samples::new(reference, shift, scale, 0, decimation).is_err());
+        }
     }
 }

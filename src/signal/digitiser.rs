@@ -3,48 +3,41 @@
 //! A quantised record has ties, and a clipped one is not linear in Δ; both break an assumption of
 //! the exact laws, which is why they can be simulated.
 
+use crate::values::{OutOfRange, Positive, bounded_f64};
+
 /// Rounds to multiples of a quantum, then clips.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Digitiser {
-    quantum: Option<f64>,
-    range: Option<f64>,
+    quantum: Option<Quantum>,
+    range: Option<Positive>,
 }
 
-/// Why a digitiser was refused.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum DigitiserError {
-    /// A step that is no size.
-    #[error("quantum must lie in [1e-9, 1e9], got {0} (leave it out for a continuous record)")]
-    Quantum(f64),
-    /// Limits that are no size.
-    #[error("range must be positive and finite, got {0} (leave it out for an unlimited record)")]
-    Range(f64),
+bounded_f64! {
+    /// The step of a converter.
+    Quantum: "lie in [1e-9, 1e9]", |x| (1e-9..=1e9).contains(&x),
+        { "type": "number", "minimum": 1e-9, "maximum": 1e9 };
 }
 
 impl Digitiser {
     /// A converter with step `quantum` and limits ± `range`, either of them absent.
     ///
     /// # Errors
-    /// Where one is not a positive, finite number.
-    pub fn new(quantum: Option<f64>, range: Option<f64>) -> Result<Self, DigitiserError> {
-        let bad = |value: &f64| !(*value > 0.0 && value.is_finite());
-        if let Some(value) = quantum.filter(|quantum| !(1e-9..=1e9).contains(quantum)) {
-            return Err(DigitiserError::Quantum(value));
-        }
-        if let Some(value) = range.filter(bad) {
-            return Err(DigitiserError::Range(value));
-        }
-        Ok(Self { quantum, range })
+    /// Where one is out of its range.
+    pub fn new(quantum: Option<f64>, range: Option<f64>) -> Result<Self, OutOfRange> {
+        Ok(Self {
+            quantum: quantum.map(Quantum::new).transpose()?,
+            range: range.map(Positive::new).transpose()?,
+        })
     }
 
     /// The step.
     pub fn quantum(&self) -> Option<f64> {
-        self.quantum
+        self.quantum.map(Quantum::get)
     }
 
     /// The limit.
     pub fn range(&self) -> Option<f64> {
-        self.range
+        self.range.map(Positive::get)
     }
 
     /// Whether the record passes unchanged, and so stays linear in what is added to it.
@@ -57,7 +50,7 @@ impl Digitiser {
     #[inline]
     pub fn code(&self, x: f64) -> f64 {
         let limit = |limit: f64, code: f64| code.clamp(-limit, limit);
-        match (self.quantum, self.range) {
+        match (self.quantum(), self.range()) {
             (None, None) => x,
             (None, Some(range)) => limit(range, x),
             (Some(quantum), None) => (x / quantum).round_ties_even(),
@@ -72,7 +65,7 @@ impl Digitiser {
     /// What one code stands for.
     #[inline]
     pub fn unit(&self) -> f64 {
-        self.quantum.unwrap_or(1.0)
+        self.quantum.map_or(1.0, Quantum::get)
     }
 }
 

@@ -11,46 +11,44 @@
 //! [^1]: see [`crate::signal`].
 
 use crate::simd::Value;
+use crate::values::{OutOfRange, Probability, bounded_f64};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// What is added to the noise of a rest.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What disturbs the rest; the swell multiplies what the sensor gives, its colour included.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct Disturbance {
-    drift: f64,
-    swell: f64,
-    footfalls: f64,
-    jolt: f64,
+    /// Drift of the sensor, σ_ξ per raw sample.
+    drift: Drift,
+    /// Factor of the sensor's output after X.
+    swell: Swell,
+    /// Probability of a footfall per raw sample after X.
+    footfalls: Probability,
+    /// Strength of a footfall, σ_ξ.
+    jolt: Jolt,
+}
+
+bounded_f64! {
+    /// σ_ξ per raw sample.
+    Drift: "lie in [-1e6, 1e6]", |x| (-1e6..=1e6).contains(&x),
+        { "type": "number", "minimum": -1e6, "maximum": 1e6 };
+    /// A factor of the noise.
+    Swell: "lie in (0, 1e6]", |x| x > 0.0 && x <= 1e6,
+        { "type": "number", "exclusiveMinimum": 0, "maximum": 1e6 };
+    /// σ_ξ.
+    Jolt: "lie in [0, 1e6]", |x| (0.0..=1e6).contains(&x),
+        { "type": "number", "minimum": 0, "maximum": 1e6 };
 }
 
 /// What is left of a jolt one sample later.
 const DECAY: f64 = 0.8;
 
-/// Why a disturbance was refused.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum DisturbanceError {
-    /// A drift that is no number of σ_ξ.
-    #[error("drift must lie in [-1e6, 1e6], got {0}")]
-    Drift(f64),
-    /// A factor that is none.
-    #[error("swell must lie in (0, 1e6], got {0} (1 leaves the noise as it is)")]
-    Swell(f64),
-    /// A probability that is none.
-    #[error("footfalls must lie in [0, 1], got {0}")]
-    Footfalls(f64),
-    /// A strength that is none.
-    #[error("jolt must lie in [0, 1e6], got {0}")]
-    Jolt(f64),
-}
-
 impl Default for Disturbance {
     /// None at all.
     fn default() -> Self {
-        Self {
-            drift: 0.0,
-            swell: 1.0,
-            footfalls: 0.0,
-            jolt: 0.0,
-        }
+        Self::new(0.0, 1.0, 0.0, 10.0).expect("each is in its range")
     }
 }
 
@@ -60,55 +58,38 @@ impl Disturbance {
     ///
     /// # Errors
     /// Where one is out of its range.
-    pub fn new(
-        drift: f64,
-        swell: f64,
-        footfalls: f64,
-        jolt: f64,
-    ) -> Result<Self, DisturbanceError> {
-        if !(-1e6..=1e6).contains(&drift) {
-            return Err(DisturbanceError::Drift(drift));
-        }
-        if !(swell > 0.0 && swell <= 1e6) {
-            return Err(DisturbanceError::Swell(swell));
-        }
-        if !(0.0..=1.0).contains(&footfalls) {
-            return Err(DisturbanceError::Footfalls(footfalls));
-        }
-        if !(0.0..=1e6).contains(&jolt) {
-            return Err(DisturbanceError::Jolt(jolt));
-        }
+    pub fn new(drift: f64, swell: f64, footfalls: f64, jolt: f64) -> Result<Self, OutOfRange> {
         Ok(Self {
-            drift,
-            swell,
-            footfalls,
-            jolt,
+            drift: Drift::new(drift)?,
+            swell: Swell::new(swell)?,
+            footfalls: Probability::new(footfalls)?,
+            jolt: Jolt::new(jolt)?,
         })
     }
 
     /// σ_ξ a raw sample.
     pub fn drift(&self) -> f64 {
-        self.drift
+        self.drift.get()
     }
 
     /// The factor of the noise after X.
     pub fn swell(&self) -> f64 {
-        self.swell
+        self.swell.get()
     }
 
     /// Probability of a step, per raw sample.
     pub fn footfalls(&self) -> f64 {
-        self.footfalls
+        self.footfalls.get()
     }
 
     /// Its strength, σ_ξ.
     pub fn jolt(&self) -> f64 {
-        self.jolt
+        self.jolt.get()
     }
 
     /// Whether anybody walks: whether draws are needed.
     pub fn has_footfalls(&self) -> bool {
-        self.footfalls > 0.0 && self.jolt > 0.0
+        self.footfalls() > 0.0 && self.jolt() > 0.0
     }
 
     /// Disturbs `record`, whose sample `after` is the first after X. `draws` gives 64 random bits for
@@ -120,7 +101,7 @@ impl Disturbance {
         let mut jolt = V::default();
         for (i, x) in record.iter_mut().enumerate() {
             if i >= after {
-                *x = *x * self.swell;
+                *x = *x * self.swell();
                 if self.has_footfalls() {
                     jolt = jolt * DECAY;
                     for jolt in jolt.lanes_mut() {
@@ -129,7 +110,7 @@ impl Disturbance {
                     *x = *x + jolt;
                 }
             }
-            let drift = self.drift * (i as f64 - after as f64);
+            let drift = self.drift() * (i as f64 - after as f64);
             x.lanes_mut().iter_mut().for_each(|x| *x += drift);
         }
     }
@@ -137,26 +118,19 @@ impl Disturbance {
     /// 53 bits of `draw` decide whether there is a step, its lowest bit the sign.
     fn footfall(&self, draw: u64) -> f64 {
         let uniform = (draw >> 11) as f64 * (1.0 / (1u64 << 53) as f64);
-        match (uniform < self.footfalls, draw & 1) {
+        match (uniform < self.footfalls(), draw & 1) {
             (false, _) => 0.0,
-            (true, 1) => self.jolt,
-            (true, _) => -self.jolt,
+            (true, 1) => self.jolt(),
+            (true, _) => -self.jolt(),
         }
     }
 }
 
 impl fmt::Display for Disturbance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            drift,
-            swell,
-            footfalls,
-            jolt,
-        } = self;
-        write!(
-            f,
-            "drift {drift} swell {swell} footfalls {footfalls} {jolt}"
-        )
+        let (drift, swell) = (self.drift(), self.swell());
+        let (footfalls, jolt) = (self.footfalls(), self.jolt());
+        write!(f, "drift {drift} swell {swell} footfalls {footfalls} {jolt}")
     }
 }
 

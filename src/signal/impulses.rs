@@ -9,18 +9,26 @@
 //!
 //! [^1]: see [`crate::signal`].
 
+use crate::values::{NonNegative, OutOfRange, Probability};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Impulse noise: how often, how strong, from when.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct Impulses {
-    nu: f64,
-    theta: f64,
+    /// ν, probability of an impulse per raw sample.
+    nu: Probability,
+    /// θ/σ_ξ, strength of an impulse.
+    theta: NonNegative,
+    /// From when on impulses act.
     during: During,
 }
 
 /// From when on impulses act.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum During {
     /// From the first observation after X.
     Motion,
@@ -28,15 +36,10 @@ pub enum During {
     Inertial,
 }
 
-/// Why impulses were refused.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum ImpulsesError {
-    /// ν is no probability.
-    #[error("nu must lie in [0, 1], got {0}")]
-    Nu(f64),
-    /// θ is negative or not finite.
-    #[error("theta must be zero or positive, and finite, got {0}")]
-    Theta(f64),
+impl Default for Impulses {
+    fn default() -> Self {
+        Self::new(0.1, 2.0, During::Motion).expect("each is in its range")
+    }
 }
 
 impl Impulses {
@@ -44,33 +47,27 @@ impl Impulses {
     ///
     /// # Errors
     /// Where `nu` is no probability or `theta` is negative.
-    pub fn new(nu: f64, theta: f64, during: During) -> Result<Self, ImpulsesError> {
-        if !(0.0..=1.0).contains(&nu) {
-            return Err(ImpulsesError::Nu(nu));
-        }
-        if !(theta >= 0.0 && theta.is_finite()) {
-            return Err(ImpulsesError::Theta(theta));
-        }
-        Ok(Self { nu, theta, during })
+    pub fn new(nu: f64, theta: f64, during: During) -> Result<Self, OutOfRange> {
+        Ok(Self {
+            nu: Probability::new(nu)?,
+            theta: NonNegative::new(theta)?,
+            during,
+        })
     }
 
     /// No impulses at all.
     pub fn none() -> Self {
-        Self {
-            nu: 0.0,
-            theta: 0.0,
-            during: During::Motion,
-        }
+        Self::new(0.0, 0.0, During::Motion).expect("each is in its range")
     }
 
     /// ν.
     pub fn nu(&self) -> f64 {
-        self.nu
+        self.nu.get()
     }
 
     /// θ/σ_ξ.
     pub fn theta(&self) -> f64 {
-        self.theta
+        self.theta.get()
     }
 
     /// From when on impulses act.
@@ -80,14 +77,14 @@ impl Impulses {
 
     /// Whether nothing is ever added.
     pub fn are_absent(&self) -> bool {
-        self.nu == 0.0 || self.theta == 0.0
+        self.nu() == 0.0 || self.theta() == 0.0
     }
 
     /// λ/θ for each 64-bit draw, from S = 0. Draws may serve impulses of any ν: a sample that
     /// carries an impulse at some ν carries one at every larger ν.
     pub fn pattern(&self, draws: &[[u8; 8]], pattern: &mut [f64]) {
         let mut memory = ImpulseMemory::default();
-        let chance = chance(self.nu);
+        let chance = chance(self.nu());
         pattern.fill(0.0);
         for (draws, pattern) in draws.chunks(64).zip(pattern.chunks_mut(64)) {
             // Where there is an impulse, as bits: most draws bring none.

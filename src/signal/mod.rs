@@ -17,9 +17,9 @@ pub mod recording;
 mod ride;
 mod sensor;
 
-pub use digitiser::{Digitiser, DigitiserError};
-pub use disturbance::{Disturbance, DisturbanceError};
-pub use impulses::{During, ImpulseMemory, Impulses, ImpulsesError};
+pub use digitiser::{Digitiser, Quantum};
+pub use disturbance::Disturbance;
+pub use impulses::{During, ImpulseMemory, Impulses};
 pub use motion::{DeltaAt, Motion, MotionError, Profile};
 pub use noise::{Law, LawError, Noise};
 pub use phase::Phase;
@@ -27,4 +27,4 @@ pub use ride::{
     Course, Drive, Ending, ExportLayout, Journey, Pickup, PickupError, Ride, RideError, Simulated,
     Stretch, Trip, TripError, write_phyphox, write_truth,
 };
-pub use sensor::{Sensor, SensorError, Transfer};
+pub use sensor::{Choice as SensorChoice, Sensor, SensorError, Transfer};

@@ -5,25 +5,49 @@
 //!
 //! [^1]: see [`crate::signal`].
 
+use crate::values::Size;
+use schemars::JsonSchema;
+use serde::{Deserialize, Deserializer, Serialize};
 use std::fmt;
 
 /// An acceleration: how strong, of what shape, where in the trial.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct Motion {
     /// Δ/σ_ξ, of either sign.
     pub delta: f64,
     /// Where Δ is measured.
     pub delta_at: DeltaAt,
-    /// The shape in time.
+    /// The shape in time, taken at the middle of each raw sample.
     pub profile: Profile,
-    /// d, in samples.
+    /// Length of the acceleration, samples; where it is left out, to the last of Y₁.
+    #[serde(deserialize_with = "at_least_one")]
+    #[schemars(with = "Size")]
     pub duration: usize,
     /// Samples between the end of X and the start of the acceleration.
     pub offset: usize,
 }
 
+impl Default for Motion {
+    /// No motion; `duration` is 0 until a scenario fills in what its samples make of it.
+    fn default() -> Self {
+        Self {
+            delta: 0.0,
+            delta_at: DeltaAt::Record,
+            profile: Profile::Rectangular,
+            duration: 0,
+            offset: 0,
+        }
+    }
+}
+
+fn at_least_one<'de, D: Deserializer<'de>>(deserializer: D) -> Result<usize, D::Error> {
+    Size::deserialize(deserializer).map(Size::get)
+}
+
 /// Where Δ is measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum DeltaAt {
     /// The shift in the record.
     Record,
@@ -32,7 +56,8 @@ pub enum DeltaAt {
 }
 
 /// The shape of an acceleration in time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Profile {
     /// Δ at once, and off at once, as in (8).
     Rectangular,

@@ -12,11 +12,14 @@ use crate::rng::Generator;
 use crate::simd::{Value, Vectors};
 use libm::{log, pow, sqrt, tan};
 use rand::Rng;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::fmt;
 
 /// A family of distributions, symmetric about zero.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Law {
     /// N(0, 1).
     Normal,
@@ -54,11 +57,32 @@ pub enum LawError {
 }
 
 /// A source of independent draws from a [`Law`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Law", into = "Law")]
 pub struct Noise {
     law: Law,
     /// What brings the law's natural scale to unit variance.
     unit: f64,
+}
+
+impl TryFrom<Law> for Noise {
+    type Error = LawError;
+
+    fn try_from(law: Law) -> Result<Self, LawError> {
+        Self::new(law)
+    }
+}
+
+impl From<Noise> for Law {
+    fn from(noise: Noise) -> Self {
+        noise.law
+    }
+}
+
+impl Default for Noise {
+    fn default() -> Self {
+        Self::new(Law::Normal).expect("it has no parameters")
+    }
 }
 
 impl Noise {

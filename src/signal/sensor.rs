@@ -8,10 +8,14 @@
 //! [^1]: see [`crate::signal`].
 
 use crate::simd::Value;
+use schemars::JsonSchema;
+use serde::de::{Deserializer, Error};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// A stable autoregression driven by unit-scale white noise.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(from = "Choice")]
 pub struct Sensor {
     /// φ₁, φ₂, …; empty for a sensor whose noise is already white.
     ar: Vec<f64>,
@@ -28,7 +32,8 @@ struct Start {
 }
 
 /// K(p) = 1/(a p² + b p + c) and the sampling period, eq. (1).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Transfer {
     /// Coefficient of p², s².
     pub a: f64,
@@ -40,12 +45,58 @@ pub struct Transfer {
     pub period: f64,
 }
 
+/// The ways to say what a sensor is, of which a file takes one.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Choice {
+    /// A sensor by its name.
+    Model(Model),
+    /// φ₁, φ₂, … of x_i = φ₁ x_(i−1) + φ₂ x_(i−2) + … + ξ_i; none for white noise.
+    Ar(#[serde(deserialize_with = "coefficients")] #[schemars(with = "Vec<f64>")] Sensor),
+    /// K(p) = 1/(a p² + b p + c), sampled with a period in s.
+    Transfer(#[serde(deserialize_with = "transfer")] #[schemars(with = "Transfer")] Sensor),
+}
+
+/// A sensor by its name.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Model {
+    /// The coefficients printed in (2).
+    Adxl105,
+}
+
+impl From<Choice> for Sensor {
+    fn from(choice: Choice) -> Self {
+        match choice {
+            Choice::Model(Model::Adxl105) => Self::adxl105(),
+            Choice::Ar(sensor) | Choice::Transfer(sensor) => sensor,
+        }
+    }
+}
+
+impl Default for Sensor {
+    fn default() -> Self {
+        Self::adxl105()
+    }
+}
+
+fn coefficients<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Sensor, D::Error> {
+    Sensor::from_ar(Vec::deserialize(deserializer)?).map_err(D::Error::custom)
+}
+
+fn transfer<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Sensor, D::Error> {
+    Sensor::from_transfer(Transfer::deserialize(deserializer)?).map_err(D::Error::custom)
+}
+
 /// Why a sensor was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SensorError {
     /// A coefficient is NaN or infinite.
     #[error("coefficients must be finite numbers, got {0}")]
     NotFinite(f64),
+    /// More coefficients than any sensor has.
+    #[error("must have at most {MOST_COEFFICIENTS} coefficients, got {0}")]
+    TooMany(usize),
     /// A pole lies on or outside the unit circle.
     #[error(
         "unstable autoregression {ar:?}: reflection coefficient {index} is {reflection}, outside (-1, 1) \
@@ -91,6 +142,9 @@ pub enum SensorError {
     },
 }
 
+/// Predictors of every lower order are kept, so memory grows with the square.
+const MOST_COEFFICIENTS: usize = 1000;
+
 /// The longest burn-in that a trial may spend.
 const LONGEST_BURN_IN: usize = 1_000_000;
 
@@ -109,6 +163,9 @@ impl Sensor {
     /// Where a pole is not inside the unit circle, or so close to it that no record would be long
     /// enough.
     pub fn from_ar(ar: Vec<f64>) -> Result<Self, SensorError> {
+        if ar.len() > MOST_COEFFICIENTS {
+            return Err(SensorError::TooMany(ar.len()));
+        }
         if let Some(&value) = ar.iter().find(|value| !value.is_finite()) {
             return Err(SensorError::NotFinite(value));
         }

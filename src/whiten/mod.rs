@@ -24,10 +24,13 @@ pub use order::{Chosen, OrderError, SAMPLES_PER_COEFFICIENT, coefficients};
 pub use portmanteau::{LjungBox, PortmanteauError};
 
 use crate::simd::Value;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// How a filter comes by its coefficients.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Fit {
     /// Covariance method.
     LeastSquares,
@@ -43,12 +46,29 @@ pub enum Fit {
 }
 
 /// A whitening filter's order and where its coefficients come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct Whitening {
+    /// m, order of the filter.
     order: usize,
+    /// How the filter comes by its coefficients.
     fit: Fit,
+    /// Samples of rest before X that the filter is fitted to, their mean subtracted; not shared with X.
     training: usize,
+    /// Whether the training record is the `training` samples that end with X's last: a known mistake, kept
+    /// for study.
     includes_reference: bool,
+}
+
+impl Default for Whitening {
+    fn default() -> Self {
+        Self {
+            order: 2,
+            fit: Fit::LeastSquares,
+            training: 256,
+            includes_reference: false,
+        }
+    }
 }
 
 /// Why a whitening was refused.

@@ -1,0 +1,166 @@
+//! Rules that a single value cannot keep: what sections ask of each other, and the keys to blame.
+
+use super::{Calibration, Scenario};
+use crate::detect::{Baseline, Method, RegionError, Rule};
+use crate::signal::MotionError;
+use crate::whiten::{Fit, WhiteningError};
+
+/// Why sections do not fit each other.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ScenarioError {
+    #[error("motion.{0}")]
+    Motion(#[from] MotionError),
+    #[error("whitening.{0}")]
+    Whitening(#[from] WhiteningError),
+    #[error("detector: {0}")]
+    Region(#[from] RegionError),
+    #[error(
+        "whitening.fit: the known filter is that of single samples, not of means of {0} \
+         (fit the filter, or set decimation to 1)"
+    )]
+    KnownFilterDecimated(usize),
+    #[error(
+        "motion.delta_at: the shift after whitening is known for single samples, not for means of {0} \
+         (set delta_at to \"record\", or decimation to 1)"
+    )]
+    WhitenedDeltaDecimated(usize),
+    #[error(
+        "detector.rule: {0} is made for one motion, and nothing moves here \
+         (give motion.delta or impulses.nu and theta, or take the value that moves nothing out of the axis)"
+    )]
+    NothingStated(&'static str),
+    #[error(
+        "detector.calibrate: a table's entries are given (leave calibrate out, or name a rule)"
+    )]
+    TableCalibrated,
+    #[error(
+        "detector.rule: {0} has no exact law (add calibrate = {{ law = \"normal\" }} to measure its \
+         threshold, or calibrate = true)"
+    )]
+    NotCalibrated(&'static str),
+    #[error(
+        "detector.rule: clairvoyant knows the filter of single samples, not of means of {0} \
+         (set decimation to 1)"
+    )]
+    ClairvoyantDecimated(usize),
+    #[error(
+        "detector.rule: clairvoyant takes sensors of at most order {MOST_CLAIRVOYANT_ORDER}, and no longer than \
+         the rest, got order {0} (give another sensor)"
+    )]
+    ClairvoyantOrder(usize),
+    #[error("detector.rule: variance-ratio needs at least 2 samples in reference and in scale")]
+    NoVariance,
+    #[error(
+        "detector.rule: block-means needs {needed} samples of rest, 8 times shift, got {got} \
+         (raise training or reference)"
+    )]
+    RestTooShort { needed: usize, got: usize },
+}
+
+/// The clairvoyant's states are counted by 2.4 to the power of the sensor's order.
+const MOST_CLAIRVOYANT_ORDER: usize = 6;
+
+const RULE: &str = "detector.rule";
+const DECIMATION: &str = "samples.decimation";
+const SENSOR: &[&str] = &["sensor.ar", "sensor.transfer", "sensor.model"];
+
+impl ScenarioError {
+    /// The keys that may be to blame, the likeliest first.
+    pub fn keys(&self) -> &'static [&'static str] {
+        match self {
+            Self::Motion(MotionError::Duration { .. }) => &["motion.duration", "motion.offset"],
+            Self::Motion(MotionError::Rise { .. }) => &["motion.profile", "motion.duration"],
+            Self::Whitening(error) => error.keys(),
+            Self::Region(error) => blamed(error),
+            Self::KnownFilterDecimated(_) => &["whitening.fit", DECIMATION],
+            Self::WhitenedDeltaDecimated(_) => &["motion.delta_at", DECIMATION],
+            Self::TableCalibrated => &["detector.calibrate"],
+            Self::ClairvoyantDecimated(_) => &[DECIMATION],
+            Self::ClairvoyantOrder(_) => SENSOR,
+            Self::NoVariance => &["samples.reference", "samples.scale"],
+            Self::NothingStated(_) | Self::NotCalibrated(_) | Self::RestTooShort { .. } => &[RULE],
+        }
+    }
+}
+
+/// The keys to blame for a region that cannot be made.
+pub fn blamed(error: &RegionError) -> &'static [&'static str] {
+    match error {
+        RegionError::Alpha(_) | RegionError::Unreachable { .. } => &["detector.alpha", RULE],
+        RegionError::Law(_) => &["samples.shift", "samples.reference", "samples.scale"],
+        _ => &[RULE, "samples.scale"],
+    }
+}
+
+/// The keys to blame for a record that does not fit in memory.
+pub const RECORD_KEYS: &[&str] = &[
+    "whitening.training",
+    "samples.gap",
+    DECIMATION,
+    "samples.reference",
+    "samples.scale",
+    "samples.shift",
+];
+
+impl Scenario {
+    /// Checks the sections against each other.
+    pub(super) fn check(&self) -> Result<(), ScenarioError> {
+        self.check_decimation()?;
+        let detector = &self.detector;
+        let is_calibrated = detector.calibration != Calibration::None;
+        let name = detector.method.name();
+        if detector.method.states_its_alternative() && !self.moves() {
+            return Err(ScenarioError::NothingStated(name));
+        }
+        match &detector.method {
+            Method::Rule(Rule::Table(_)) if is_calibrated => Err(ScenarioError::TableCalibrated),
+            Method::Baseline(_) if !is_calibrated => Err(ScenarioError::NotCalibrated(name)),
+            Method::Baseline(baseline) => self.check_baseline(*baseline),
+            _ => Ok(()),
+        }
+    }
+
+    /// Block means of a coloured record are no longer the sensor's autoregression, so nothing that
+    /// relies on its coefficients may be asked of them.
+    fn check_decimation(&self) -> Result<(), ScenarioError> {
+        let decimation = self.samples.decimation();
+        if decimation == 1 || self.sensor.ar().is_empty() {
+            return Ok(());
+        }
+        if self.whitening.fit() == Fit::Known {
+            return Err(ScenarioError::KnownFilterDecimated(decimation));
+        }
+        if self.motion.delta_at == crate::signal::DeltaAt::Whitened {
+            return Err(ScenarioError::WhitenedDeltaDecimated(decimation));
+        }
+        Ok(())
+    }
+
+    fn check_baseline(&self, baseline: Baseline) -> Result<(), ScenarioError> {
+        let samples = &self.samples;
+        let rest = self.whitening.lead() + samples.reference();
+        match baseline {
+            Baseline::Clairvoyant if samples.decimation() > 1 => {
+                Err(ScenarioError::ClairvoyantDecimated(samples.decimation()))
+            }
+            Baseline::Clairvoyant => {
+                let order = self.sensor.ar().len();
+                if order > MOST_CLAIRVOYANT_ORDER || order > rest {
+                    return Err(ScenarioError::ClairvoyantOrder(order));
+                }
+                Ok(())
+            }
+            Baseline::VarianceRatio if samples.reference() < 2 || samples.scale() < 2 => {
+                Err(ScenarioError::NoVariance)
+            }
+            Baseline::BlockMeans => {
+                let needed = samples.shift().saturating_mul(8);
+                if rest < needed {
+                    return Err(ScenarioError::RestTooShort { needed, got: rest });
+                }
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! What one point simulates and decides: the sections of a config, every parameter resolved.
+//!
+//! The types of the sections are those of the domain, which serde reads as they stand, so a parameter is a
+//! field of one of them and a line of the table in `parameters`. Rules across sections are in `check`.
+
+mod calibration;
+mod check;
+mod parameters;
+
+pub use calibration::Calibration;
+pub use check::{Conflict, ScenarioError, blamed};
+pub use parameters::{Cell, PARAMETERS, Parameter, parameter};
+
+use crate::detect::{Alternative, Method, Rule, Samples, Ties};
+use crate::signal::{
+    DeltaAt, Digitiser, Disturbance, Impulses, Motion, Noise, Profile, Quantum, Sensor, SensorChoice,
+};
+use crate::values::{Level, Positive};
+use crate::whiten::Whitening;
+use schemars::JsonSchema;
+use serde::{Deserialize, Deserializer, Serialize};
+
+/// The sections that a file has and a curve may change.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Sections {
+    /// The accelerometer, an autoregression; exactly one key says which.
+    #[schemars(with = "SensorChoice")]
+    pub sensor: Sensor,
+    /// The white noise that drives the sensor, and the sensor's converter.
+    pub noise: NoiseSection,
+    /// What disturbs the rest.
+    pub rest: Disturbance,
+    /// The acceleration of the cage.
+    pub motion: Motion,
+    /// Impulses of a vibrating cage.
+    pub impulses: Impulses,
+    /// The whitening filter.
+    pub whitening: Whitening,
+    /// The three samples.
+    pub samples: Samples,
+    /// The decision.
+    pub detector: Detector,
+}
+
+/// The white noise that drives the sensor, and the sensor's converter.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct NoiseSection {
+    /// The law of the noise: of unit variance where it has one, else of unit scale (Cauchy, Student's t with 2
+    /// degrees of freedom or fewer).
+    #[schemars(with = "crate::signal::Law")]
+    pub law: Noise,
+    /// The converter's step, σ_ξ; left out, the record is continuous.
+    pub quantum: Option<Quantum>,
+    /// The converter's limits are ± this, σ_ξ; left out, the record has none.
+    pub range: Option<Positive>,
+}
+
+/// What a point simulates and decides.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    /// Whose noise is simulated.
+    pub sensor: Sensor,
+    /// The law of ξ.
+    pub noise: Noise,
+    /// What disturbs the rest.
+    pub disturbance: Disturbance,
+    /// The sensor's converter.
+    pub digitiser: Digitiser,
+    /// The regular component.
+    pub motion: Motion,
+    /// The vibration.
+    pub impulses: Impulses,
+    /// The filter.
+    pub whitening: Whitening,
+    /// X, Y₁ and Y₂.
+    pub samples: Samples,
+    /// The decision.
+    pub detector: Detector,
+}
+
+/// How a point decides.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Detector {
+    /// Nominal probability of a false alarm.
+    #[serde(deserialize_with = "level")]
+    #[schemars(with = "Level")]
+    pub alpha: f64,
+    /// What decides: a rule that fills a region of (W, T), or a baseline, which must be calibrated. `block-means`
+    /// compares Y₁ with all of the rest, training included.
+    #[serde(rename = "rule")]
+    pub method: Method,
+    /// The sign of Δ that is looked for.
+    pub alternative: Alternative,
+    /// What becomes of equal values.
+    pub ties: Ties,
+    /// Whether pilot runs at rest set the threshold in place of the exact law.
+    #[serde(rename = "calibrate")]
+    pub calibration: Calibration,
+    /// What moves, for a method that is made for one motion.
+    #[serde(skip)]
+    pub stated: Option<(Motion, Impulses)>,
+    /// Trials of each pilot; 0 where none is needed.
+    #[serde(skip)]
+    pub pilot: u64,
+}
+
+impl Default for Detector {
+    fn default() -> Self {
+        Self {
+            alpha: 0.01,
+            method: Method::Rule(Rule::Product),
+            alternative: Alternative::Greater,
+            ties: Ties::Random,
+            calibration: Calibration::None,
+            stated: None,
+            pilot: 0,
+        }
+    }
+}
+
+fn level<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Level::deserialize(deserializer).map(Level::get)
+}
+
+impl Sections {
+    /// The scenario that the sections make: what they leave out is filled in, and they are checked against
+    /// each other. `pilot` is the number of trials of a pilot, where one is needed.
+    ///
+    /// # Errors
+    /// Where two sections do not fit each other.
+    pub fn scenario(self, pilot: u64) -> Result<Scenario, ScenarioError> {
+        let Self { sensor, noise, mut motion, mut detector, samples, whitening, .. } = self;
+        if motion.duration == 0 {
+            motion.duration = samples.acceleration().saturating_sub(motion.offset);
+        }
+        detector.calibration = detector.calibration.completed(&sensor, noise.law);
+        if detector.method.states_its_alternative() {
+            detector.stated = Some((motion, self.impulses));
+        }
+        if detector.needs_pilot() {
+            detector.pilot = pilot;
+        }
+        let scenario = Scenario {
+            whitening: whitening.checked(sensor.ar().len())?,
+            motion: motion.checked()?,
+            digitiser: Digitiser::from((noise.quantum, noise.range)),
+            noise: noise.law,
+            disturbance: self.rest,
+            impulses: self.impulses,
+            sensor,
+            samples,
+            detector,
+        };
+        scenario.check()?;
+        Ok(scenario)
+    }
+}
+
+impl Scenario {
+    /// The same without motion: what sets the false-alarm rate.
+    pub fn at_rest(&self) -> Self {
+        Self {
+            motion: Motion {
+                delta: 0.0,
+                delta_at: DeltaAt::Record,
+                profile: Profile::Rectangular,
+                duration: self.samples.acceleration(),
+                offset: 0,
+            },
+            impulses: Impulses::none(),
+            ..self.clone()
+        }
+    }
+
+    /// Whether anything moves.
+    pub fn moves(&self) -> bool {
+        self.motion.delta != 0.0 || !self.impulses.are_absent()
+    }
+
+    /// Δ in the record.
+    pub(crate) fn record_delta(&self) -> f64 {
+        // Adding zero makes −0 the same as 0.
+        self.motion.record_delta(self.sensor.step_gain()) + 0.0
+    }
+
+    /// The acceleration in units of Δ, for each raw sample after X.
+    pub(crate) fn shape(&self) -> Vec<f64> {
+        let decimation = self.samples.decimation();
+        let raw = (self.samples.span() - self.samples.reference()) * decimation;
+        (0..raw)
+            .map(|i| self.motion.shape((i as f64 + 0.5) / decimation as f64))
+            .collect()
+    }
+}
+
+impl Detector {
+    /// Whether its region or threshold takes a pilot run.
+    pub fn needs_pilot(&self) -> bool {
+        self.calibration != Calibration::None || self.method == Method::LikelihoodRatio
+    }
+}
