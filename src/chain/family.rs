@@ -290,7 +290,8 @@ impl Source {
         let observations = self.lead as f64 + span;
         let samples = observations * decimation + self.burn_in() as f64;
         let whitening = &scenario.whitening;
-        let fit = 2.0 * whitening.training() as f64 + (whitening.order() as f64 + 3.0).powi(2);
+        let fit =
+            2.0 * whitening.training() as f64 + (whitening.highest_order() as f64 + 3.0).powi(2);
         let wide = samples + 2.0 * observations + 3.0 * span + whitening.training() as f64;
         let values =
             LANES as f64 * wide + samples + after * (LANES as f64 * decimation + 10.0) + fit;

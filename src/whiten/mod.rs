@@ -20,7 +20,9 @@ mod portmanteau;
 mod tests;
 
 pub use fit::Fitter;
-pub use order::{Chosen, OrderError, SAMPLES_PER_COEFFICIENT, coefficients};
+pub use order::{Chosen, MOST_ORDER, Order, OrderError, coefficients};
+
+use order::SAMPLES_PER_COEFFICIENT;
 pub use portmanteau::{LjungBox, PortmanteauError};
 
 use crate::simd::Value;
@@ -45,7 +47,7 @@ pub enum Fit {
 /// A whitening filter's order and where its coefficients come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Whitening {
-    order: usize,
+    order: Order,
     fit: Fit,
     training: usize,
     includes_reference: bool,
@@ -72,6 +74,23 @@ pub enum WhiteningError {
         /// What it was given.
         training: usize,
     },
+    /// The training record is too short for a choice between a coefficient and none.
+    #[error(
+        "training: order = \"auto\" needs at least {needed} samples, got {training} \
+         (raise training or give order a number)"
+    )]
+    TooShortToChoose {
+        /// What it needs.
+        needed: usize,
+        /// What it was given.
+        training: usize,
+    },
+    /// A choice among filters that are not fitted.
+    #[error(
+        "order: \"auto\" chooses among fitted filters, got fit = \"{0}\" \
+         (give order a number or fit the filter)"
+    )]
+    NothingToChoose(Fit),
     /// A known filter that cannot hold the sensor's coefficients.
     #[error(
         "order: the known filter of this sensor has order {sensor}, got {order} \
@@ -91,37 +110,19 @@ impl Whitening {
     /// A known filter of a sensor of order `sensor_order` has no training.
     ///
     /// # Errors
-    /// Where the order is zero, the training too short for the fit, or the known filter too short
-    /// for the sensor.
+    /// Where the order is zero, the training too short for the fit or the choice of an order, the known
+    /// filter too short for the sensor, or there is no fit to choose the order of.
     pub fn new(
-        order: usize,
+        order: impl Into<Order>,
         fit: Fit,
         training: usize,
         includes_reference: bool,
         sensor_order: usize,
     ) -> Result<Self, WhiteningError> {
-        if order == 0 {
-            return Err(WhiteningError::NoOrder);
-        }
-        let needed = match fit {
-            Fit::LeastSquares => 2 * order + 1,
-            Fit::YuleWalker => order + 1,
-            Fit::Burg => order + 2,
-            Fit::Known | Fit::None => 0,
-        };
-        if training < needed {
-            return Err(WhiteningError::TrainingTooShort {
-                fit,
-                order,
-                needed,
-                training,
-            });
-        }
-        if fit == Fit::Known && order < sensor_order {
-            return Err(WhiteningError::BelowSensor {
-                sensor: sensor_order,
-                order,
-            });
+        let order = order.into();
+        match order {
+            Order::Fixed(order) => check_order(order, fit, training, sensor_order)?,
+            Order::Auto => check_choice(fit, training)?,
         }
         let fitted = fit != Fit::Known;
         Ok(Self {
@@ -132,9 +133,14 @@ impl Whitening {
         })
     }
 
-    /// m.
-    pub fn order(&self) -> usize {
+    /// m, or that it is chosen.
+    pub fn order(&self) -> Order {
         self.order
+    }
+
+    /// The most coefficients that its filter can have: m where that is given.
+    pub fn highest_order(&self) -> usize {
+        self.order.highest(self.training)
     }
 
     /// Where the coefficients come from.
@@ -154,8 +160,48 @@ impl Whitening {
 
     /// How many samples a record must have before X.
     pub fn lead(&self) -> usize {
-        self.training.max(self.order)
+        self.training.max(self.highest_order())
     }
+}
+
+fn check_order(
+    order: usize,
+    fit: Fit,
+    training: usize,
+    sensor: usize,
+) -> Result<(), WhiteningError> {
+    if order == 0 {
+        return Err(WhiteningError::NoOrder);
+    }
+    let needed = match fit {
+        Fit::LeastSquares => 2 * order + 1,
+        Fit::YuleWalker => order + 1,
+        Fit::Burg => order + 2,
+        Fit::Known | Fit::None => 0,
+    };
+    if training < needed {
+        return Err(WhiteningError::TrainingTooShort {
+            fit,
+            order,
+            needed,
+            training,
+        });
+    }
+    if fit == Fit::Known && order < sensor {
+        return Err(WhiteningError::BelowSensor { sensor, order });
+    }
+    Ok(())
+}
+
+fn check_choice(fit: Fit, training: usize) -> Result<(), WhiteningError> {
+    if matches!(fit, Fit::Known | Fit::None) {
+        return Err(WhiteningError::NothingToChoose(fit));
+    }
+    let needed = SAMPLES_PER_COEFFICIENT;
+    if training < needed {
+        return Err(WhiteningError::TooShortToChoose { needed, training });
+    }
+    Ok(())
 }
 
 /// The whitened sample y_i = r_i − Σ a_p r_{i−p}, where `past` ends with r_{i−1}.
