@@ -287,10 +287,11 @@ pub(super) fn solve_normal_equations(
 
 #[cfg(test)]
 mod tests {
-    use super::super::{WhiteningError, step, whiten};
+    use super::super::{Chosen, WhiteningError, step, whiten};
     use super::*;
     use crate::rng::Stream;
     use crate::signal::{Law, Noise, Sensor};
+    use crate::simd::{LANES, Wide};
 
     fn record(ar: &[f64], length: usize, position: u64) -> Vec<f64> {
         let sensor = Sensor::from_ar(ar.to_vec()).unwrap();
@@ -441,5 +442,38 @@ mod tests {
         assert!(new(2, Fit::LeastSquares, 5).is_ok());
         assert!(new(1, Fit::Known, 0).is_err());
         assert_eq!(new(2, Fit::Known, 256).unwrap().training(), 0);
+        let auto = |fit, training| Whitening::new(Order::Auto, fit, training, false, 2);
+        assert!(auto(Fit::Burg, 4).is_err());
+        assert_eq!(auto(Fit::Burg, 5).unwrap().highest_order(), 1);
+        for fit in [Fit::Known, Fit::None] {
+            assert_eq!(auto(fit, 256), Err(WhiteningError::NothingToChoose(fit)));
+        }
+    }
+
+    /// Side by side or alone, a record gets the filter of the order chosen for it, zeros behind.
+    #[test]
+    fn each_record_gets_the_order_chosen_for_it() {
+        let records: [Vec<f64>; LANES] = std::array::from_fn(|lane| match lane {
+            0 => vec![0.1; 60],
+            1 => record(&[], 60, 10),
+            2 => record(&[0.7], 60, 11),
+            _ => record(&[-1.5365, -0.75056], 60, 9 + lane as u64),
+        });
+        let together: Vec<Wide> = (0..60)
+            .map(|i| Wide(std::array::from_fn(|lane| records[lane][i])))
+            .collect();
+        for method in FITS {
+            let auto = Whitening::new(Order::Auto, method, 60, false, 2).unwrap();
+            let mut fitter = Fitter::<Wide>::new(auto, &[]);
+            for _ in 0..2 {
+                let fitted = fitter.fit(&together);
+                for (lane, record) in records.iter().enumerate() {
+                    let mut expected = Chosen::new(record, 8, method).unwrap().coefficients;
+                    expected.resize(8, 0.0);
+                    let got: Vec<f64> = fitted.iter().map(|a| a.0[lane]).collect();
+                    assert_eq!(got, expected, "{method}, record {lane}");
+                }
+            }
+        }
     }
 }

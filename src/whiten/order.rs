@@ -308,6 +308,28 @@ mod tests {
     }
 
     #[test]
+    fn is_read_as_it_is_written() {
+        for (order, text) in [(Order::Auto, "\"auto\""), (Order::Fixed(8), "8")] {
+            assert_eq!(serde_json::to_string(&order).unwrap(), text);
+            assert_eq!(serde_json::from_str::<Order>(text).unwrap(), order);
+            assert_eq!(order.to_string(), text.trim_matches('"'));
+        }
+        assert_eq!(serde_json::from_str::<Order>("null").unwrap(), Order::Auto);
+        for wrong in ["\"Auto\"", "-1", "2.0", "true", "[2]"] {
+            let refused = serde_json::from_str::<Order>(wrong).unwrap_err();
+            let expected = "expected \"auto\" or a whole number";
+            assert!(refused.to_string().contains(expected), "{refused}");
+        }
+    }
+
+    #[test]
+    fn as_many_orders_as_the_record_allows() {
+        let highest = [4, 5, 39, 40, 1000].map(|samples| Order::Auto.highest(samples));
+        assert_eq!(highest, [0, 1, 7, 8, 8]);
+        assert_eq!(Order::Fixed(16).highest(4), 16);
+    }
+
+    #[test]
     fn degenerate_records_have_an_order() {
         let constant = Chosen::new(&[0.1; 100], 5, Fit::LeastSquares).unwrap();
         assert_eq!(constant.order(), 0);
