@@ -92,6 +92,7 @@ pub mod report;
 pub mod results;
 pub mod rng;
 pub mod run;
+pub mod scenario;
 pub mod signal;
 pub mod simd;
 pub mod stats;

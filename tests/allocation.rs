@@ -59,6 +59,10 @@ whitening = { fit = "burg", order = 4 }
 [[curve]]
 whitening = { fit = "yule-walker", order = 4 }
 [[curve]]
+whitening = { order = "auto" }
+[[curve]]
+whitening = { fit = "burg", order = "auto" }
+[[curve]]
 noise = { law = { student_t = 3.0 }, quantum = 1.0, range = 8.0 }
 samples = { gap = 2, decimation = 3 }
 [[curve]]

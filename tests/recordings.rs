@@ -11,6 +11,7 @@ use liftsim::signal::recording::{Reading, Recording, Sample};
 use liftsim::signal::{
     Digitiser, Drive, Ending, Journey, Law, Noise, Phase, Pickup, Ride as Simulation, Sensor, Trip,
 };
+use liftsim::whiten::Order;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
@@ -235,7 +236,7 @@ fn choices() -> Vec<Choice> {
         Choice {
             name: "order",
             values: (0..=8).map(f64::from).collect(),
-            set: |settings, value| settings.order = Some(value as usize),
+            set: |settings, value| settings.order = Order::Fixed(value as usize),
         },
         Choice {
             name: "training",

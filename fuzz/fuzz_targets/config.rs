@@ -5,6 +5,7 @@
 use libfuzzer_sys::fuzz_target;
 use liftsim::config::WatchConfig;
 use liftsim::monitor::{Monitor, Settings};
+use liftsim::whiten::Order;
 
 fuzz_target!(|bytes: &[u8]| {
     let Some((&choice, bytes)) = bytes.split_first() else {
@@ -36,7 +37,7 @@ fuzz_target!(|bytes: &[u8]| {
         scale: size(next(), default.scale),
         gap: size(next(), default.gap),
         training: size(next(), default.training),
-        order: next().map(|order| order as usize),
+        order: next().map_or(Order::Auto, |order| Order::Fixed(order as usize)),
         block: number(next(), default.block),
         alpha: number(next(), default.alpha),
         least_speed: number(next(), default.least_speed),

@@ -7,6 +7,7 @@ use libfuzzer_sys::fuzz_target;
 use liftsim::detection::Detection;
 use liftsim::monitor::{Knowledge, Settings};
 use liftsim::signal::recording::{Axis, Reading, Recording, TimeUnit, Unit};
+use liftsim::whiten::Order;
 
 fuzz_target!(|bytes: &[u8]| {
     let Some((&choice, bytes)) = bytes.split_first() else {
@@ -65,7 +66,7 @@ fn settings(choice: u8) -> Settings {
         scale: 4,
         alpha: 0.01,
         training: 40,
-        order: [None, Some(0), Some(8)][usize::from(choice / 64) % 3],
+        order: [Order::Auto, Order::Fixed(0), Order::Fixed(8)][usize::from(choice / 64) % 3],
         ..Settings::default()
     }
 }

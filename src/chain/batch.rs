@@ -51,7 +51,7 @@ impl<'a> Batch<'a> {
             branches: branches
                 .map(|branch| Rest {
                     fitter: Fitter::new(branch.whitening, source.sensor.ar()),
-                    coefficients: vec![0.0; branch.whitening.order() * LANES],
+                    coefficients: vec![0.0; branch.whitening.highest_order() * LANES],
                     whitened: vec![0.0; span * LANES],
                 })
                 .collect(),

@@ -2,7 +2,7 @@
 //! branches (digitiser, filter) → courses (impulses, shape of the acceleration) → stages (Δ) →
 //! places (points that decide on the same samples).
 
-use super::scenario::Scenario;
+use crate::scenario::Scenario;
 use crate::detect::{Samples, Ties};
 use crate::rng::Stream;
 use crate::signal::{Digitiser, Disturbance, During, Impulses, Noise, Sensor};
@@ -290,7 +290,8 @@ impl Source {
         let observations = self.lead as f64 + span;
         let samples = observations * decimation + self.burn_in() as f64;
         let whitening = &scenario.whitening;
-        let fit = 2.0 * whitening.training() as f64 + (whitening.order() as f64 + 3.0).powi(2);
+        let fit =
+            2.0 * whitening.training() as f64 + (whitening.highest_order() as f64 + 3.0).powi(2);
         let wide = samples + 2.0 * observations + 3.0 * span + whitening.training() as f64;
         let values =
             LANES as f64 * wide + samples + after * (LANES as f64 * decimation + 10.0) + fit;

@@ -16,7 +16,7 @@ mod batch;
 mod family;
 mod observation;
 mod replay;
-mod scenario;
+
 #[cfg(test)]
 mod tests;
 mod trial;
@@ -24,5 +24,5 @@ mod trial;
 pub use family::{Family, Purpose, RecordTooLong};
 pub use observation::{Decision, Observation, Score, View};
 pub use replay::Replay;
-pub use scenario::{Calibration, Detector, Scenario};
+pub use crate::scenario::{Calibration, Detector, Scenario};
 pub use trial::Trial;

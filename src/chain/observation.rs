@@ -1,6 +1,6 @@
 //! What one trial gives at one point, and the decision on it.
 
-use super::scenario::Scenario;
+use crate::scenario::Scenario;
 use super::trial::Keys;
 use crate::detect::{
     Alternative, Baseline, Clairvoyant, Forward, Method, Pooled, Region, Samples, Statistics, Ties,

@@ -3,10 +3,11 @@
 use super::batch::observe;
 use super::family::{Family, Purpose, RecordTooLong};
 use super::observation::{Decision, Observation};
-use super::scenario::Scenario;
+use crate::scenario::Scenario;
 use super::trial::Trial;
 use crate::detect::{Samples, Statistics, Ties};
 use crate::simd::{LANES, Wide};
+use crate::whiten::Order;
 
 /// Every stage of a trial, in the order of its computation. Raw samples run from the first of the record
 /// to the last of Y₂; observations are their block means.
@@ -86,7 +87,14 @@ impl Replay {
         let (coefficients, rest) = trial.batch.rest(0, lane);
         let mut whitened = rest[..source.samples.reference()].to_vec();
         whitened.extend_from_slice(&trial.motion.whitened);
-        let coefficients = coefficients.to_vec();
+        let chosen = match scenario.whitening.order() {
+            Order::Fixed(order) => order,
+            // What was not chosen is zero.
+            Order::Auto => {
+                (coefficients.iter().rposition(|a| *a != 0.0)).map_or(0, |last| last + 1)
+            }
+        };
+        let coefficients = coefficients[..chosen].to_vec();
         let keys = match scenario.detector.ties {
             Ties::Random => trial.keys.random(),
             Ties::ByPosition | Ties::Strict => trial.keys.positions(),

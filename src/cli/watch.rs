@@ -5,6 +5,7 @@ use anyhow::anyhow;
 use clap::Args;
 use liftsim::config::WatchConfig;
 use liftsim::monitor::{Briefing, MOST_ORDER, STRONGEST, Settings};
+use liftsim::whiten::Order;
 use std::path::PathBuf;
 
 /// How the monitor is set up. Flags go over the config, the config over the defaults.
@@ -20,9 +21,9 @@ pub struct Watch {
     /// The level of each decision [default: 0.001].
     #[arg(long, value_name = "A")]
     alpha: Option<f64>,
-    /// The order of the whitening filter, 0 to 8 [default: by BIC].
-    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u8).range(0..=MOST_ORDER as i64))]
-    order: Option<u8>,
+    /// The order of the whitening filter, 0 to 8, or `auto`: by BIC [default: auto].
+    #[arg(long, value_name = "M", value_parser = order)]
+    order: Option<Order>,
     /// Seconds that a block mean spans [default: 0.05].
     #[arg(long, value_name = "SECONDS")]
     block: Option<f64>,
@@ -49,6 +50,16 @@ pub fn check_strength(acceleration: f64) -> anyhow::Result<()> {
     }
 }
 
+fn order(text: &str) -> Result<Order, String> {
+    match text.parse() {
+        Ok(order @ 0..=MOST_ORDER) => Ok(Order::Fixed(order)),
+        _ if text == "auto" => Ok(Order::Auto),
+        _ => Err(format!(
+            "must be a whole number up to {MOST_ORDER}, or auto"
+        )),
+    }
+}
+
 impl Watch {
     /// Reads what it names.
     pub fn told(&self) -> Result<Told, Failure> {
@@ -59,7 +70,7 @@ impl Watch {
         let settings = &mut config.settings;
         *settings = Settings {
             alpha: self.alpha.unwrap_or(settings.alpha),
-            order: self.order.map(usize::from).or(settings.order),
+            order: self.order.unwrap_or(settings.order),
             block: self.block.unwrap_or(settings.block),
             least_speed: self.least_speed.unwrap_or(settings.least_speed),
             ..settings.clone()

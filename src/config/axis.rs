@@ -142,7 +142,7 @@ impl Axis {
             return Err(unknown(key, known));
         };
         let span = value.span();
-        match values(name, value.get_ref()) {
+        match values(name, value.get_ref()).and_then(|values| ordered(parameter, values)) {
             Ok(values) => Ok(Self {
                 parameter,
                 values,
@@ -168,6 +168,15 @@ impl Axis {
                 })?;
         }
         Ok(())
+    }
+}
+
+/// An axis of orders has numbers alone, since `"auto"` would stand nowhere among them.
+fn ordered(parameter: Parameter, values: Vec<AxisValue>) -> Result<Vec<AxisValue>, Problem> {
+    let is_name = |value: &&AxisValue| parameter == Parameter::Order && value.value.is_str();
+    match values.iter().find(is_name) {
+        Some(name) => Err(Problem::OrderOnAxis(name.value.to_string())),
+        None => Ok(values),
     }
 }
 

@@ -88,6 +88,12 @@ pub enum Problem {
     /// An axis without values.
     #[error("axis.{0}: no values (list some, or give from, to and step)")]
     EmptyAxis(&'static str),
+    /// An order that has no place between numbers.
+    #[error(
+        "axis.order: must be whole numbers, got {0} \
+         (sweep another parameter and give a curve whitening = {{ order = \"auto\" }})"
+    )]
+    OrderOnAxis(String),
     /// A value that the parameter cannot take.
     #[error("axis.{name}: {refusal}")]
     AxisValue {

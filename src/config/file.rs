@@ -10,6 +10,7 @@ use super::source::{ConfigError, Source};
 use super::story::{ClaimTable, Story};
 use super::trace::TraceTable;
 use super::value::{Critical, Number, Whole};
+use crate::whiten::Order;
 use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserializer, MapAccess, Visitor};
@@ -93,7 +94,7 @@ section! {
 }
 section! {
     /// `[whitening]`
-    WhiteningSection { order: Whole, training: Whole, fit: FitKind, includes_reference: bool }
+    WhiteningSection { order: Order, training: Whole, fit: FitKind, includes_reference: bool }
 }
 section! {
     /// `[samples]`

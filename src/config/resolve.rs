@@ -17,7 +17,7 @@ use crate::signal::{
     DeltaAt, Digitiser, DigitiserError, Disturbance, DisturbanceError, During, Impulses,
     ImpulsesError, Law, Motion, MotionError, Noise, Profile, Sensor, SensorError, Transfer,
 };
-use crate::whiten::{Fit, Whitening, WhiteningError};
+use crate::whiten::{Fit, Order, Whitening, WhiteningError};
 use toml::Spanned;
 
 /// A problem and the sections and keys that may be to blame, the likeliest first.
@@ -222,14 +222,18 @@ impl Sections {
             FitKind::Known => Fit::Known,
             FitKind::None => Fit::None,
         };
-        let order = get(&section.order, Whole(2)).size();
+        let order = get(&section.order, Order::Fixed(2));
         let training = get(&section.training, Whole(256)).size();
         let includes_reference = get(&section.includes_reference, false);
         let whitening = Whitening::new(order, fit, training, includes_reference, sensor.ar().len());
         whitening.map_err(|error| {
             let keys: &[_] = match error {
                 WhiteningError::NoOrder => &[("whitening", "order")],
-                WhiteningError::TrainingTooShort { .. } => &[
+                WhiteningError::NothingToChoose(_) => {
+                    &[("whitening", "order"), ("whitening", "fit")]
+                }
+                WhiteningError::TrainingTooShort { .. }
+                | WhiteningError::TooShortToChoose { .. } => &[
                     ("whitening", "training"),
                     ("whitening", "order"),
                     ("whitening", "fit"),

@@ -7,9 +7,8 @@ use super::source::{ConfigError, Source};
 use super::value::{Named, Number, Whole};
 use crate::monitor::{Settings, SettingsError};
 use crate::signal::recording::{Axis, Reading, TimeUnit, Unit, UnitError};
+use crate::whiten::Order;
 use serde::Deserialize;
-use serde::de::{Deserializer, Error, Visitor};
-use std::fmt;
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
@@ -59,7 +58,7 @@ struct SamplesTable {
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct WhiteningTable {
-    order: Option<Spanned<OrderValue>>,
+    order: Option<Spanned<Order>>,
     training: Option<Spanned<Whole>>,
 }
 
@@ -79,10 +78,6 @@ struct MonitorTable {
     longest_motion: Option<Spanned<Number>>,
     longest_slack: Option<Spanned<Number>>,
 }
-
-/// `"auto"`, or a whole number.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct OrderValue(Option<usize>);
 
 impl WatchConfig {
     /// Reads and checks a file.
@@ -133,7 +128,7 @@ impl WatchFile {
             gap: size(&samples.gap, default.gap),
             alpha: number(&self.detector.alpha, default.alpha),
             training: size(&self.whitening.training, default.training),
-            order: order.map_or(default.order, |order| order.get_ref().0),
+            order: order.map_or(default.order, |order| *order.get_ref()),
             least_speed: number(&monitor.least_speed, default.least_speed),
             least_acceleration: number(&monitor.least_acceleration, default.least_acceleration),
             most_acceleration: number(&monitor.most_acceleration, default.most_acceleration),
@@ -195,33 +190,6 @@ impl RecordingTable {
 /// Where a value stands.
 fn span<T>(value: &Option<Spanned<T>>) -> Option<Range<usize>> {
     value.as_ref().map(Spanned::span)
-}
-
-impl<'de> Deserialize<'de> for OrderValue {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct OrderVisitor;
-        impl Visitor<'_> for OrderVisitor {
-            type Value = OrderValue;
-
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("\"auto\" or a whole number")
-            }
-
-            fn visit_i64<E: Error>(self, value: i64) -> Result<OrderValue, E> {
-                usize::try_from(value)
-                    .map(|order| OrderValue(Some(order)))
-                    .map_err(|_| E::invalid_value(serde::de::Unexpected::Signed(value), &self))
-            }
-
-            fn visit_str<E: Error>(self, value: &str) -> Result<OrderValue, E> {
-                match value {
-                    "auto" => Ok(OrderValue(None)),
-                    _ => Err(E::invalid_value(serde::de::Unexpected::Str(value), &self)),
-                }
-            }
-        }
-        deserializer.deserialize_any(OrderVisitor)
-    }
 }
 
 #[cfg(test)]

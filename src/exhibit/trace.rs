@@ -140,7 +140,7 @@ impl<'a> Ride<'a> {
         let training = self.training();
         let mut fitter = Fitter::new(whitening, self.config.scenario.sensor.ar());
         let coefficients = fitter.fit(&self.record[training]);
-        let start = whitening.order().min(self.record.len());
+        let start = whitening.highest_order().min(self.record.len());
         let mut values = vec![0.0; self.record.len() - start];
         whiten(coefficients, &self.record, start, &mut values);
         for (whitened, value) in whitened[start..].iter_mut().zip(values) {

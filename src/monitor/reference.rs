@@ -1,7 +1,7 @@
 //! What a monitor knows of rest: the level, the whitening filter and the sample X.
 
-use super::settings::{Design, MOST_ORDER};
-use crate::whiten::{self, Chosen, Fit, LjungBox, SAMPLES_PER_COEFFICIENT};
+use super::settings::Design;
+use crate::whiten::{self, Chosen, Fit, LjungBox, Order};
 use serde::{Deserialize, Serialize};
 
 /// What has been learnt from a record of rest.
@@ -67,9 +67,9 @@ impl Filter {
     fn fit(stretches: &[&[f64]], design: &Design) -> Self {
         let joined = stretches.concat();
         let coefficients = match design.settings.order {
-            Some(order) => whiten::coefficients(&joined, order, Fit::Burg),
-            None => {
-                let most = MOST_ORDER.min(joined.len() / SAMPLES_PER_COEFFICIENT);
+            Order::Fixed(order) => whiten::coefficients(&joined, order, Fit::Burg),
+            Order::Auto => {
+                let most = Order::Auto.highest(joined.len());
                 let chosen = Chosen::new(&joined, most, Fit::Burg);
                 chosen.expect("as high as the record allows").coefficients
             }

@@ -9,6 +9,8 @@
 use crate::detect::{
     Alternative, NullLawError, NullLaws, Region, RegionError, Rule, Samples, SamplesError,
 };
+pub use crate::whiten::MOST_ORDER;
+use crate::whiten::Order;
 use serde::{Deserialize, Serialize};
 
 /// What a monitor is told.
@@ -29,8 +31,8 @@ pub struct Settings {
     pub alpha: f64,
     /// Blocks of rest that the whitening filter is fitted to.
     pub training: usize,
-    /// Its order; by BIC, up to [`MOST_ORDER`], where none is given.
-    pub order: Option<usize>,
+    /// Its order.
+    pub order: Order,
     /// The slowest motion there is, m/s: a pulse of acceleration changes the speed by that much.
     pub least_speed: f64,
     /// The weakest acceleration of a start or a stop, m/s².
@@ -42,9 +44,6 @@ pub struct Settings {
     /// For how long the drum may turn while the cage stands, s.
     pub longest_slack: f64,
 }
-
-/// The highest order that BIC may choose.
-pub const MOST_ORDER: usize = 8;
 
 /// Blocks that a filter needs: the choice of its order is then among few.
 pub(super) const LEAST_TRAINING: usize = 24;
@@ -143,7 +142,7 @@ impl Default for Settings {
             gap: 0,
             alpha: 0.001,
             training: 72,
-            order: None,
+            order: Order::Auto,
             least_speed: 0.2,
             least_acceleration: 0.1,
             most_acceleration: 2.5,
@@ -237,7 +236,9 @@ impl Settings {
         if most <= least {
             return Err(SettingsError::Accelerations { least, most });
         }
-        if let Some(order) = self.order.filter(|order| *order > MOST_ORDER) {
+        if let Order::Fixed(order) = self.order
+            && order > MOST_ORDER
+        {
             return Err(SettingsError::Order(order));
         }
         let needed = LEAST_TRAINING;

@@ -5,6 +5,7 @@ use crate::detect::Statistics;
 use crate::rng::Stream;
 use crate::signal::{Law, Noise, Phase};
 use crate::stats::binomial;
+use crate::whiten::Order;
 
 const RATE: f64 = 100.0;
 
@@ -140,7 +141,7 @@ fn a_ride_is_followed_phase_by_phase() {
 #[test]
 fn decisions_are_those_of_a_recount() {
     let settings = Settings {
-        order: Some(0),
+        order: Order::Fixed(0),
         ..Settings::default()
     };
     let record = Record::quiet()
@@ -202,7 +203,7 @@ fn decisions_are_those_of_a_recount() {
 #[test]
 fn a_decision_at_rest_has_its_exact_size() {
     let settings = Settings {
-        order: Some(0),
+        order: Order::Fixed(0),
         alpha: 0.01,
         ..Settings::default()
     };

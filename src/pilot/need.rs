@@ -132,7 +132,8 @@ pub(super) fn believed(scenario: &Scenario) -> Scenario {
         Calibration::None => {}
         Calibration::Promise => rest.noise = law(PROMISED_LAWS[0]),
         Calibration::Measured { sensor, noise } => {
-            (rest.sensor, rest.noise) = (sensor.clone(), *noise);
+            rest.sensor = sensor.clone().unwrap_or(rest.sensor);
+            rest.noise = noise.unwrap_or(rest.noise);
         }
     }
     rest

@@ -7,6 +7,7 @@ use crate::ledger::Key;
 use crate::plan::{Hypothesis, Point};
 use crate::signal::{Impulses, Motion};
 use crate::stats::tally::Tally;
+use crate::whiten::Order;
 use serde::{Deserialize, Serialize};
 
 /// One row of `points.csv`.
@@ -20,7 +21,7 @@ pub struct Row {
     pub nu: f64,
     pub theta: f64,
     pub noise: String,
-    pub order: usize,
+    pub order: Order,
     pub training: usize,
     pub reference: usize,
     pub shift: usize,
@@ -172,7 +173,10 @@ impl Row {
             Parameter::Swell => self.swell,
             Parameter::Footfalls => self.footfalls,
             Parameter::Training => self.training as f64,
-            Parameter::Order => self.order as f64,
+            Parameter::Order => match self.order {
+                Order::Fixed(order) => order as f64,
+                Order::Auto => return None,
+            },
             Parameter::AllSamples | Parameter::Shift => self.shift as f64,
             Parameter::ReferenceAndScale | Parameter::Reference => self.reference as f64,
             Parameter::Scale => self.scale as f64,

@@ -8,7 +8,7 @@ mod check;
 mod parameters;
 
 pub use calibration::Calibration;
-pub use check::{Conflict, ScenarioError, blamed};
+pub use check::{RECORD_KEYS, ScenarioError, blamed};
 pub use parameters::{Cell, PARAMETERS, Parameter, parameter};
 
 use crate::detect::{Alternative, Method, Rule, Samples, Ties};

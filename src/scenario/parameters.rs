@@ -5,6 +5,7 @@
 
 use super::Scenario;
 use crate::signal::{Impulses, Motion};
+use crate::whiten::Order;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -74,7 +75,7 @@ pub const PARAMETERS: &[Parameter] = &[
     row("nu", &["impulses.nu"], "ν", "ν, probability of an impulse per sample", |s| s.impulses.nu().into()),
     row("theta", &["impulses.theta"], "θ/σ_ξ", "θ/σ_ξ", |s| s.impulses.theta().into()),
     fixed("noise", &["noise.law"], |s| Cell::text(s.noise)),
-    row("order", &["whitening.order"], "m", "order m of the whitening filter", |s| s.whitening.order().into()),
+    row("order", &["whitening.order"], "m", "order m of the whitening filter", |s| Cell::order(s.whitening.order())),
     row("training", &["whitening.training"], "", "training length, samples", |s| s.whitening.training().into()),
     row("reference", &["samples.reference"], "N", "N, samples", |s| s.samples.reference().into()),
     row("shift", &["samples.shift"], "M₁", "M_1, samples", |s| s.samples.shift().into()),
@@ -159,6 +160,13 @@ fn stated((motion, impulses): (Motion, Impulses)) -> String {
 }
 
 impl Cell {
+    fn order(order: Order) -> Self {
+        match order {
+            Order::Fixed(order) => order.into(),
+            Order::Auto => Self::text(order),
+        }
+    }
+
     fn text(value: impl fmt::Display) -> Self {
         Self::Text(value.to_string())
     }

@@ -18,6 +18,12 @@ bounded_f64! {
         { "type": "number", "minimum": 1e-9, "maximum": 1e9 };
 }
 
+impl From<(Option<Quantum>, Option<Positive>)> for Digitiser {
+    fn from((quantum, range): (Option<Quantum>, Option<Positive>)) -> Self {
+        Self { quantum, range }
+    }
+}
+
 impl Digitiser {
     /// A converter with step `quantum` and limits ± `range`, either of them absent.
     ///

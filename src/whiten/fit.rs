@@ -1,6 +1,7 @@
 //! Fitting the filter's coefficients: least squares, Yule–Walker, Burg.
 
-use super::{Fit, Whitening};
+use super::order::{Schwarz, is_constant};
+use super::{Fit, Order, Whitening};
 use crate::simd::Value;
 use std::ops::Range;
 
@@ -10,6 +11,8 @@ pub struct Fitter<V: Value = f64> {
     whitening: Whitening,
     coefficients: Vec<V>,
     products: Vec<V>,
+    /// Chooses the order of each trial, where it is not given.
+    choice: Option<Schwarz>,
     solver: Solver,
 }
 
@@ -26,7 +29,7 @@ struct Solver {
 impl<V: Value> Fitter<V> {
     /// A fitter for a sensor with the autoregression `known`.
     pub fn new(whitening: Whitening, known: &[f64]) -> Self {
-        let order = whitening.order;
+        let order = whitening.highest_order();
         let mut coefficients = vec![V::default(); order];
         if whitening.fit == Fit::Known {
             for (coefficient, known) in coefficients.iter_mut().zip(known) {
@@ -37,6 +40,8 @@ impl<V: Value> Fitter<V> {
             whitening,
             coefficients,
             products: vec![V::default(); (order + 1) * (order + 1)],
+            choice: (whitening.order == Order::Auto)
+                .then(|| Schwarz::new(whitening.training, order)),
             solver: Solver {
                 coefficients: vec![0.0; order],
                 forward: vec![0.0; whitening.training],
@@ -48,7 +53,7 @@ impl<V: Value> Fitter<V> {
     }
 
     /// a_1 … a_m for this training record. A record that determines fewer than m coefficients (a
-    /// constant one, say) gets zeros for the rest.
+    /// constant one, say) gets zeros for the rest, as does one whose chosen order is lower.
     #[inline(always)]
     pub fn fit(&mut self, training: &[V]) -> &[V] {
         if matches!(self.whitening.fit, Fit::Known | Fit::None) {
@@ -57,13 +62,37 @@ impl<V: Value> Fitter<V> {
         let mut mean = sum(training);
         let length = training.len() as f64;
         mean.lanes_mut().iter_mut().for_each(|sum| *sum /= length);
-        if self.whitening.fit == Fit::LeastSquares {
-            covariances(training, mean, self.whitening.order, &mut self.products);
+        if self.whitening.fit == Fit::LeastSquares || self.choice.is_some() {
+            let order = self.coefficients.len();
+            covariances(training, mean, order, &mut self.products);
         }
         for lane in 0..mean.lanes().len() {
+            if self.choice.is_some() {
+                self.choose(training, lane);
+            }
             self.solve(training, mean, lane);
         }
         &self.coefficients
+    }
+
+    /// Makes the solver one of the order that the training record of this trial asks for.
+    fn choose(&mut self, training: &[V], lane: usize) {
+        let Some(choice) = &mut self.choice else {
+            return;
+        };
+        for (to, product) in choice.products.iter_mut().zip(&self.products) {
+            *to = product.lanes()[lane];
+        }
+        // Around the mean of equal samples there may be roundings.
+        let order = if is_constant(training.iter().map(|x| &x.lanes()[lane])) {
+            0
+        } else {
+            choice.order()
+        };
+        self.solver.coefficients.resize(order, 0.0);
+        for unused in &mut self.coefficients[order..] {
+            unused.lanes_mut()[lane] = 0.0;
+        }
     }
 
     fn solve(&mut self, training: &[V], mean: V, lane: usize) {
@@ -75,6 +104,12 @@ impl<V: Value> Fitter<V> {
             |forward: &mut [f64]| forward.iter_mut().zip(centred).for_each(|(f, x)| *f = x);
         match self.whitening.fit {
             Fit::Known | Fit::None => {}
+            Fit::LeastSquares if self.choice.is_some() => {
+                centre(&mut solver.forward);
+                let order = solver.coefficients.len();
+                covariances(&solver.forward, 0.0, order, &mut solver.normal);
+                solver.least_squares();
+            }
             Fit::LeastSquares => {
                 let products = self.products.iter().map(|product| product.lanes()[lane]);
                 (solver.normal.iter_mut().zip(products)).for_each(|(to, product)| *to = product);
@@ -252,10 +287,11 @@ pub(super) fn solve_normal_equations(
 
 #[cfg(test)]
 mod tests {
-    use super::super::{WhiteningError, step, whiten};
+    use super::super::{Chosen, WhiteningError, step, whiten};
     use super::*;
     use crate::rng::Stream;
     use crate::signal::{Law, Noise, Sensor};
+    use crate::simd::{LANES, Wide};
 
     fn record(ar: &[f64], length: usize, position: u64) -> Vec<f64> {
         let sensor = Sensor::from_ar(ar.to_vec()).unwrap();
@@ -406,5 +442,38 @@ mod tests {
         assert!(new(2, Fit::LeastSquares, 5).is_ok());
         assert!(new(1, Fit::Known, 0).is_err());
         assert_eq!(new(2, Fit::Known, 256).unwrap().training(), 0);
+        let auto = |fit, training| Whitening::new(Order::Auto, fit, training, false, 2);
+        assert!(auto(Fit::Burg, 4).is_err());
+        assert_eq!(auto(Fit::Burg, 5).unwrap().highest_order(), 1);
+        for fit in [Fit::Known, Fit::None] {
+            assert_eq!(auto(fit, 256), Err(WhiteningError::NothingToChoose(fit)));
+        }
+    }
+
+    /// Side by side or alone, a record gets the filter of the order chosen for it, zeros behind.
+    #[test]
+    fn each_record_gets_the_order_chosen_for_it() {
+        let records: [Vec<f64>; LANES] = std::array::from_fn(|lane| match lane {
+            0 => vec![0.1; 60],
+            1 => record(&[], 60, 10),
+            2 => record(&[0.7], 60, 11),
+            _ => record(&[-1.5365, -0.75056], 60, 9 + lane as u64),
+        });
+        let together: Vec<Wide> = (0..60)
+            .map(|i| Wide(std::array::from_fn(|lane| records[lane][i])))
+            .collect();
+        for method in FITS {
+            let auto = Whitening::new(Order::Auto, method, 60, false, 2).unwrap();
+            let mut fitter = Fitter::<Wide>::new(auto, &[]);
+            for _ in 0..2 {
+                let fitted = fitter.fit(&together);
+                for (lane, record) in records.iter().enumerate() {
+                    let mut expected = Chosen::new(record, 8, method).unwrap().coefficients;
+                    expected.resize(8, 0.0);
+                    let got: Vec<f64> = fitted.iter().map(|a| a.0[lane]).collect();
+                    assert_eq!(got, expected, "{method}, record {lane}");
+                }
+            }
+        }
     }
 }

@@ -20,7 +20,9 @@ mod portmanteau;
 mod tests;
 
 pub use fit::Fitter;
-pub use order::{Chosen, OrderError, SAMPLES_PER_COEFFICIENT, coefficients};
+pub use order::{Chosen, MOST_ORDER, Order, OrderError, coefficients};
+
+use order::SAMPLES_PER_COEFFICIENT;
 pub use portmanteau::{LjungBox, PortmanteauError};
 
 use crate::simd::Value;
@@ -49,8 +51,9 @@ pub enum Fit {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Whitening {
-    /// m, order of the filter.
-    order: usize,
+    /// m, order of the filter, or "auto": chosen by BIC on the training record of each trial.
+    #[schemars(with = "order::Written")]
+    order: Order,
     /// How the filter comes by its coefficients.
     fit: Fit,
     /// Samples of rest before X that the filter is fitted to, their mean subtracted; not shared with X.
@@ -63,7 +66,7 @@ pub struct Whitening {
 impl Default for Whitening {
     fn default() -> Self {
         Self {
-            order: 2,
+            order: Order::Fixed(2),
             fit: Fit::LeastSquares,
             training: 256,
             includes_reference: false,
@@ -92,6 +95,23 @@ pub enum WhiteningError {
         /// What it was given.
         training: usize,
     },
+    /// The training record is too short for a choice between a coefficient and none.
+    #[error(
+        "training: order = \"auto\" needs at least {needed} samples, got {training} \
+         (raise training or give order a number)"
+    )]
+    TooShortToChoose {
+        /// What it needs.
+        needed: usize,
+        /// What it was given.
+        training: usize,
+    },
+    /// A choice among filters that are not fitted.
+    #[error(
+        "order: \"auto\" chooses among fitted filters, got fit = \"{0}\" \
+         (give order a number or fit the filter)"
+    )]
+    NothingToChoose(Fit),
     /// A known filter that cannot hold the sensor's coefficients.
     #[error(
         "order: the known filter of this sensor has order {sensor}, got {order} \
@@ -105,43 +125,39 @@ pub enum WhiteningError {
     },
 }
 
+impl WhiteningError {
+    /// The keys that may be to blame, the likeliest first.
+    pub fn keys(&self) -> &'static [&'static str] {
+        match self {
+            Self::NoOrder => &["whitening.order"],
+            Self::NothingToChoose(_) => &["whitening.order", "whitening.fit"],
+            Self::TrainingTooShort { .. } | Self::TooShortToChoose { .. } => {
+                &["whitening.training", "whitening.order", "whitening.fit"]
+            }
+            Self::BelowSensor { .. } => &["whitening.order", "whitening.fit", "sensor.ar"],
+        }
+    }
+}
+
 impl Whitening {
     /// A filter of order `order` fitted to `training` samples of rest before X, or, with
     /// `includes_reference`, to the `training` samples that end with X's last: a known mistake.
     /// A known filter of a sensor of order `sensor_order` has no training.
     ///
     /// # Errors
-    /// Where the order is zero, the training too short for the fit, or the known filter too short
-    /// for the sensor.
+    /// Where the order is zero, the training too short for the fit or the choice of an order, the known
+    /// filter too short for the sensor, or there is no fit to choose the order of.
     pub fn new(
-        order: usize,
+        order: impl Into<Order>,
         fit: Fit,
         training: usize,
         includes_reference: bool,
         sensor_order: usize,
     ) -> Result<Self, WhiteningError> {
-        if order == 0 {
-            return Err(WhiteningError::NoOrder);
-        }
-        let needed = match fit {
-            Fit::LeastSquares => 2 * order + 1,
-            Fit::YuleWalker => order + 1,
-            Fit::Burg => order + 2,
-            Fit::Known | Fit::None => 0,
-        };
-        if training < needed {
-            return Err(WhiteningError::TrainingTooShort {
-                fit,
-                order,
-                needed,
-                training,
-            });
-        }
-        if fit == Fit::Known && order < sensor_order {
-            return Err(WhiteningError::BelowSensor {
-                sensor: sensor_order,
-                order,
-            });
+        let order = order.into();
+        match order {
+            Order::Fixed(order) => check_order(order, fit, training, sensor_order)?,
+            Order::Auto => check_choice(fit, training)?,
         }
         let fitted = fit != Fit::Known;
         Ok(Self {
@@ -152,9 +168,23 @@ impl Whitening {
         })
     }
 
-    /// m.
-    pub fn order(&self) -> usize {
+    /// The same, its parts checked against each other and against a sensor of order `sensor_order`.
+    ///
+    /// # Errors
+    /// As [`Whitening::new`].
+    pub fn checked(self, sensor_order: usize) -> Result<Self, WhiteningError> {
+        let Self { order, fit, training, includes_reference } = self;
+        Self::new(order, fit, training, includes_reference, sensor_order)
+    }
+
+    /// m, or that it is chosen.
+    pub fn order(&self) -> Order {
         self.order
+    }
+
+    /// The most coefficients that its filter can have: m where that is given.
+    pub fn highest_order(&self) -> usize {
+        self.order.highest(self.training)
     }
 
     /// Where the coefficients come from.
@@ -174,8 +204,48 @@ impl Whitening {
 
     /// How many samples a record must have before X.
     pub fn lead(&self) -> usize {
-        self.training.max(self.order)
+        self.training.max(self.highest_order())
     }
+}
+
+fn check_order(
+    order: usize,
+    fit: Fit,
+    training: usize,
+    sensor: usize,
+) -> Result<(), WhiteningError> {
+    if order == 0 {
+        return Err(WhiteningError::NoOrder);
+    }
+    let needed = match fit {
+        Fit::LeastSquares => 2 * order + 1,
+        Fit::YuleWalker => order + 1,
+        Fit::Burg => order + 2,
+        Fit::Known | Fit::None => 0,
+    };
+    if training < needed {
+        return Err(WhiteningError::TrainingTooShort {
+            fit,
+            order,
+            needed,
+            training,
+        });
+    }
+    if fit == Fit::Known && order < sensor {
+        return Err(WhiteningError::BelowSensor { sensor, order });
+    }
+    Ok(())
+}
+
+fn check_choice(fit: Fit, training: usize) -> Result<(), WhiteningError> {
+    if matches!(fit, Fit::Known | Fit::None) {
+        return Err(WhiteningError::NothingToChoose(fit));
+    }
+    let needed = SAMPLES_PER_COEFFICIENT;
+    if training < needed {
+        return Err(WhiteningError::TooShortToChoose { needed, training });
+    }
+    Ok(())
 }
 
 /// The whitened sample y_i = r_i − Σ a_p r_{i−p}, where `past` ends with r_{i−1}.

@@ -1,9 +1,11 @@
-//! The order of the filter by Schwarz's criterion [^1]: the m that makes n ln σ̂²_m + m ln n least.
+//! The order of a filter: a number, or by Schwarz's criterion [^1] the m that makes n ln σ̂²_m + m ln n least.
 //!
 //! σ̂²_m is the mean square error of the least-squares filter of order m over the samples from the highest
 //! order on, the same n for every order, so that the criteria can be compared: one matrix of products serves
 //! all, order m has its leading block. The filter of the chosen order is then fitted to the whole record as
 //! anywhere else. Order 0 is a filter without coefficients, which changes nothing.
+//!
+//! `"auto"` tries the orders from 0 to 8, and no more than one for every five samples of the record.
 //!
 //! On a record of white noise a useless coefficient is let in where its likelihood ratio, χ²₁, exceeds
 //! ln n: in 1 % of records of 1000 samples.
@@ -13,6 +15,38 @@
 use super::fit::{covariances, solve_normal_equations};
 use super::{Fit, Fitter, Whitening};
 use libm::log;
+use serde::de::{Deserializer, Error, Unexpected, Visitor};
+use serde::{Deserialize, Serialize, Serializer};
+use std::fmt;
+
+/// How many coefficients a filter has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// m.
+    Fixed(usize),
+    /// As many as each record of rest asks for.
+    Auto,
+}
+
+/// How an order is written in a file.
+#[derive(schemars::JsonSchema)]
+#[schemars(untagged)]
+#[allow(dead_code, reason = "it is the schema of an order")]
+pub(super) enum Written {
+    /// m.
+    Fixed(usize),
+    /// Chosen.
+    Auto(Auto),
+}
+
+/// The word for an order that is chosen.
+#[derive(schemars::JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+#[allow(dead_code, reason = "it is the schema of an order")]
+pub(super) enum Auto {
+    /// By BIC.
+    Auto,
+}
 
 /// The filter of the order that a record asks for.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,6 +79,19 @@ pub enum OrderError {
 /// limit law and the criterion adds coefficients as it likes.
 pub const SAMPLES_PER_COEFFICIENT: usize = 5;
 
+/// The highest order that [`Order::Auto`] tries.
+pub const MOST_ORDER: usize = 8;
+
+impl Order {
+    /// The most coefficients that a filter fitted to so many samples can have.
+    pub fn highest(self, samples: usize) -> usize {
+        match self {
+            Self::Fixed(order) => order,
+            Self::Auto => MOST_ORDER.min(samples / SAMPLES_PER_COEFFICIENT),
+        }
+    }
+}
+
 impl Chosen {
     /// The best of the orders 0 … `most` for this record of rest, its coefficients by `fit`.
     ///
@@ -59,15 +106,18 @@ impl Chosen {
                 samples: record.len(),
             });
         }
-        let criteria = criteria(record, most);
-        let least = |best, order| match criteria[order] < criteria[best] {
-            true => order,
-            false => best,
+        // The mean of equal samples may miss them by a rounding, which is no noise to whiten.
+        let mean = if is_constant(record.iter()) {
+            record[0]
+        } else {
+            record.iter().sum::<f64>() / record.len() as f64
         };
-        let order = (1..=most).fold(0, least);
+        let mut schwarz = Schwarz::new(record.len(), most);
+        covariances(record, mean, most, &mut schwarz.products);
+        let order = schwarz.order();
         Ok(Self {
             coefficients: coefficients(record, order, by),
-            criteria,
+            criteria: schwarz.criteria,
         })
     }
 
@@ -88,33 +138,133 @@ pub fn coefficients(record: &[f64], order: usize, by: Fit) -> Vec<f64> {
     Fitter::new(whitening, &[]).fit(record).to_vec()
 }
 
-fn criteria(record: &[f64], most: usize) -> Vec<f64> {
-    // The mean of equal samples may miss them by a rounding, which is no noise to whiten.
-    let mean = match record.iter().all(|x| *x == record[0]) {
-        true => record[0],
-        false => record.iter().sum::<f64>() / record.len() as f64,
-    };
-    let mut products = vec![0.0; (most + 1) * (most + 1)];
-    covariances(record, mean, most, &mut products);
-    let n = (record.len() - most) as f64;
-    let criterion = |order: usize| {
-        let variance = residual_energy(&products, most, order) / n;
-        n * log(variance) + order as f64 * log(n)
-    };
-    (0..=most).map(criterion).collect()
+/// Chooses the order of one record after the other, without allocating.
+#[derive(Clone, Debug)]
+pub(super) struct Schwarz {
+    /// c_jk for j, k = 0 … the highest order, row by row: to be filled in.
+    pub products: Vec<f64>,
+    /// Samples that every order is compared on.
+    samples: f64,
+    criteria: Vec<f64>,
+    block: Vec<f64>,
+    diagonal: Vec<f64>,
+    coefficients: Vec<f64>,
 }
 
-/// c_00 − Σ a_k c_0k of the filter of order `order`, which the leading block of the products determines.
-fn residual_energy(products: &[f64], most: usize, order: usize) -> f64 {
-    let rows = products.chunks(most + 1).take(order + 1);
-    let mut block: Vec<f64> = rows.flat_map(|row| &row[..=order]).copied().collect();
-    let mut coefficients = vec![0.0; order];
-    solve_normal_equations(&mut block, &mut vec![0.0; order + 1], &mut coefficients);
-    let explained: f64 = (coefficients.iter().zip(&products[1..]))
-        .map(|(a, c)| a * c)
-        .sum();
-    // Where nothing is left, rounding may have taken more.
-    (products[0] - explained).max(0.0)
+impl Schwarz {
+    /// For records of `length` samples and the orders 0 … `most`.
+    pub fn new(length: usize, most: usize) -> Self {
+        let size = (most + 1) * (most + 1);
+        Self {
+            products: vec![0.0; size],
+            samples: (length - most) as f64,
+            criteria: vec![0.0; most + 1],
+            block: Vec::with_capacity(size),
+            diagonal: vec![0.0; most + 1],
+            coefficients: vec![0.0; most],
+        }
+    }
+
+    /// The order that the products ask for, the lowest of equals.
+    pub fn order(&mut self) -> usize {
+        let mut best = 0;
+        for order in 0..self.criteria.len() {
+            self.criteria[order] = self.criterion(order);
+            if self.criteria[order] < self.criteria[best] {
+                best = order;
+            }
+        }
+        best
+    }
+
+    fn criterion(&mut self, order: usize) -> f64 {
+        let variance = self.residual_energy(order) / self.samples;
+        self.samples * log(variance) + order as f64 * log(self.samples)
+    }
+
+    /// c_00 − Σ a_k c_0k of the filter of order `order`, which the leading block of the products determines.
+    fn residual_energy(&mut self, order: usize) -> f64 {
+        let rows = self.products.chunks(self.criteria.len()).take(order + 1);
+        self.block.clear();
+        self.block.extend(rows.flat_map(|row| &row[..=order]));
+        let coefficients = &mut self.coefficients[..order];
+        solve_normal_equations(&mut self.block, &mut self.diagonal, coefficients);
+        let explained: f64 = (coefficients.iter().zip(&self.products[1..]))
+            .map(|(a, c)| *a * c)
+            .sum();
+        // Where nothing is left, rounding may have taken more.
+        (self.products[0] - explained).max(0.0)
+    }
+}
+
+/// Whether all values are equal.
+pub(super) fn is_constant<'a>(mut values: impl Iterator<Item = &'a f64>) -> bool {
+    let first = values.next();
+    values.all(|value| Some(value) == first)
+}
+
+impl From<usize> for Order {
+    fn from(order: usize) -> Self {
+        Self::Fixed(order)
+    }
+}
+
+impl fmt::Display for Order {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Fixed(order) => order.fmt(f),
+            Self::Auto => f.write_str("auto"),
+        }
+    }
+}
+
+impl Serialize for Order {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Fixed(order) => order.serialize(serializer),
+            Self::Auto => serializer.serialize_str("auto"),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Order {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(OrderVisitor)
+    }
+}
+
+struct OrderVisitor;
+
+impl Visitor<'_> for OrderVisitor {
+    type Value = Order;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("\"auto\" or a whole number")
+    }
+
+    fn visit_u64<E: Error>(self, value: u64) -> Result<Order, E> {
+        usize::try_from(value)
+            .map(Order::Fixed)
+            .map_err(|_| E::invalid_value(Unexpected::Unsigned(value), &self))
+    }
+
+    fn visit_i64<E: Error>(self, value: i64) -> Result<Order, E> {
+        usize::try_from(value)
+            .map(Order::Fixed)
+            .map_err(|_| E::invalid_value(Unexpected::Signed(value), &self))
+    }
+
+    fn visit_str<E: Error>(self, value: &str) -> Result<Order, E> {
+        match value {
+            "auto" => Ok(Order::Auto),
+            _ => Err(E::invalid_value(Unexpected::Str(value), &self)),
+        }
+    }
+
+    // States that were saved before `"auto"` had a name.
+    fn visit_unit<E: Error>(self) -> Result<Order, E> {
+        Ok(Order::Auto)
+    }
 }
 
 #[cfg(test)]
@@ -175,6 +325,28 @@ mod tests {
             println!("order {}: {hits}/{trials}, p = {p:.3e}", ar.len());
             assert!(p > 3e-7);
         }
+    }
+
+    #[test]
+    fn is_read_as_it_is_written() {
+        for (order, text) in [(Order::Auto, "\"auto\""), (Order::Fixed(8), "8")] {
+            assert_eq!(serde_json::to_string(&order).unwrap(), text);
+            assert_eq!(serde_json::from_str::<Order>(text).unwrap(), order);
+            assert_eq!(order.to_string(), text.trim_matches('"'));
+        }
+        assert_eq!(serde_json::from_str::<Order>("null").unwrap(), Order::Auto);
+        for wrong in ["\"Auto\"", "-1", "2.0", "true", "[2]"] {
+            let refused = serde_json::from_str::<Order>(wrong).unwrap_err();
+            let expected = "expected \"auto\" or a whole number";
+            assert!(refused.to_string().contains(expected), "{refused}");
+        }
+    }
+
+    #[test]
+    fn as_many_orders_as_the_record_allows() {
+        let highest = [4, 5, 39, 40, 1000].map(|samples| Order::Auto.highest(samples));
+        assert_eq!(highest, [0, 1, 7, 8, 8]);
+        assert_eq!(Order::Fixed(16).highest(4), 16);
     }
 
     #[test]

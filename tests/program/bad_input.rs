@@ -77,6 +77,26 @@ const CONFIGS: &[(&str, &str)] = &[
     ),
     ("order of 0", "[axis]\norder = [0, 2]\n"),
     (
+        "an order that is none",
+        "[axis]\ndelta = [1.0]\n[whitening]\norder = \"many\"\n",
+    ),
+    (
+        "a negative order in a curve",
+        "[axis]\ndelta = [1.0]\n[[curve]]\nwhitening = { order = -1 }\n",
+    ),
+    (
+        "an order chosen from too little",
+        "[axis]\ndelta = [1.0]\n[whitening]\norder = \"auto\"\ntraining = 4\n",
+    ),
+    (
+        "an order chosen for a known filter",
+        "[axis]\ndelta = [1.0]\n[[curve]]\nwhitening = { order = \"auto\", fit = \"known\" }\n",
+    ),
+    (
+        "an order chosen on an axis",
+        "[axis]\norder = [1, 2, \"auto\"]\n",
+    ),
+    (
         "known filter below the sensor",
         "[axis]\ndelta = [1.0]\n[whitening]\norder = 1\nfit = \"known\"\n",
     ),

@@ -5,6 +5,7 @@ mod commands;
 mod exhibits;
 mod figures;
 mod gate;
+mod order;
 mod record;
 mod recordings;
 mod replay;

@@ -4,6 +4,7 @@
 use super::Measure;
 use crate::config::file::{AxisTable, section};
 use crate::config::value::{Number, Whole};
+use crate::whiten::Order;
 use serde::Deserialize;
 use std::ops::Range;
 use toml::Spanned;
@@ -83,7 +84,7 @@ keys! {
     gap: Whole,
     alpha: Number,
     training: Whole,
-    order: Whole,
+    order: Order,
     least_speed: Number,
     least_acceleration: Number,
     most_acceleration: Number,

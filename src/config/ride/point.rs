@@ -199,7 +199,7 @@ impl RideKeys {
             gap: whole(&self.gap, usual.gap),
             alpha: number(&self.alpha, usual.alpha),
             training: whole(&self.training, usual.training),
-            order: self.order.as_ref().map(|order| order.get_ref().size()),
+            order: (self.order.as_ref()).map_or(usual.order, |order| *order.get_ref()),
             least_speed: number(&self.least_speed, usual.least_speed),
             least_acceleration: number(&self.least_acceleration, usual.least_acceleration),
             most_acceleration: number(&self.most_acceleration, usual.most_acceleration),

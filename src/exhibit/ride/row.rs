@@ -3,6 +3,7 @@
 use super::estimate::Estimate;
 use crate::config::{ExhibitConfig, RidePoint, RideStudy};
 use crate::results::eight_digits;
+use crate::whiten::Order;
 use serde::{Deserialize, Serialize};
 
 /// An outcome at a point, and every parameter of the point.
@@ -121,7 +122,10 @@ impl Row {
             scale: settings.scale,
             gap: settings.gap,
             training: settings.training,
-            order: settings.order,
+            order: match settings.order {
+                Order::Fixed(order) => Some(order),
+                Order::Auto => None,
+            },
             least_speed: settings.least_speed,
             least_acceleration: settings.least_acceleration,
             most_acceleration: settings.most_acceleration,
