@@ -1,276 +1,159 @@
-//! The x axis: one parameter and the values it takes.
+//! The x axis: one key and the values it takes, as a list or as `{ from, to, step }`.
 
-use super::drawing::Refused;
-use super::error::{Problem, Refusal, nearest};
-use super::file::{AxisTable, Sections};
-use super::value::Number;
+use super::read::Refusal;
+use super::source::Conflict;
+use super::tree::{Node, Value};
+use crate::suggest::among;
 use serde::Deserialize;
 use std::fmt;
 use std::ops::Range;
-use toml::{Spanned, Value};
 
-/// The parameters, each with its name in a config and the keys it stands for.
-macro_rules! parameters {
-    ($($(#[$doc:meta])* $variant:ident: $name:literal = $($section:ident.$key:ident),+;)*) => {
-        /// A parameter that an axis can sweep.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub enum Parameter {
-            $($(#[$doc])* $variant,)*
-        }
-
-        impl Parameter {
-            /// All of them, by the name they have in a config and, where they have a column, in results.
-            pub(super) const ALL: &[(&'static str, Self)] = &[$(($name, Self::$variant)),*];
-
-            /// Its name.
-            pub fn name(self) -> &'static str {
-                match self {
-                    $(Self::$variant => $name,)*
-                }
-            }
-
-            /// The sections and keys it stands for.
-            pub(super) fn keys(self) -> &'static [(&'static str, &'static str)] {
-                match self {
-                    $(Self::$variant => &[$((stringify!($section), stringify!($key))),+],)*
-                }
-            }
-        }
-    };
-}
-
-parameters! {
-    /// Δ/σ_ξ.
-    Delta: "delta" = motion.delta;
-    /// Length of the acceleration.
-    Duration: "duration" = motion.duration;
-    /// Start of the acceleration after X.
-    Offset: "offset" = motion.offset;
-    /// ν.
-    Nu: "nu" = impulses.nu;
-    /// θ/σ_ξ.
-    Theta: "theta" = impulses.theta;
-    /// Step of the sensor.
-    Quantum: "quantum" = noise.quantum;
-    /// Limit of the sensor.
-    Range: "range" = noise.range;
-    /// Drift of the rest.
-    Drift: "drift" = rest.drift;
-    /// Factor of the noise after X.
-    Swell: "swell" = rest.swell;
-    /// Probability of a footfall.
-    Footfalls: "footfalls" = rest.footfalls;
-    /// Training samples.
-    Training: "training" = whitening.training;
-    /// m.
-    Order: "order" = whitening.order;
-    /// N, M₁ and M₂ together.
-    AllSamples: "all_samples" = samples.reference, samples.shift, samples.scale;
-    /// N and M₂ together.
-    ReferenceAndScale: "reference_and_scale" = samples.reference, samples.scale;
-    /// N.
-    Reference: "reference" = samples.reference;
-    /// M₁.
-    Shift: "shift" = samples.shift;
-    /// M₂.
-    Scale: "scale" = samples.scale;
-    /// Samples skipped between X, Y₁ and Y₂.
-    Gap: "gap" = samples.gap;
-    /// Observations in a block mean.
-    Decimation: "decimation" = samples.decimation;
-    /// α.
-    Alpha: "alpha" = detector.alpha;
-    /// The decision rule.
-    Rule: "rule" = detector.rule;
-}
-
-/// One value of an axis.
+/// A key and its values, each with its place.
 #[derive(Clone, Debug, PartialEq)]
-pub struct AxisValue {
-    value: Value,
-}
-
-/// A parameter and its values.
-#[derive(Clone, Debug)]
 pub struct Axis {
     /// What is swept.
-    pub parameter: Parameter,
+    pub name: String,
     /// At least one.
     pub values: Vec<AxisValue>,
-    span: Range<usize>,
+    /// Where all of them stand.
+    pub span: Range<usize>,
+}
+
+/// One value of an axis, as the file has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AxisValue(pub Node);
+
+/// `{ from, to, step }`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Steps {
+    from: f64,
+    to: f64,
+    step: f64,
+}
+
+/// Why an axis was refused.
+#[derive(Debug, thiserror::Error)]
+enum AxisError {
+    #[error(
+        "axis: exactly one key says what is swept, got {0} (for instance delta = [0.0, 1.0])"
+    )]
+    Keys(usize),
+    #[error("axis: unknown parameter {0}")]
+    Unknown(String),
+    #[error("axis.{0}: no values (list some, or give from, to and step)")]
+    Empty(String),
+    #[error("axis.{name}: step must be positive, got {step}")]
+    Step { name: String, step: f64 },
+    #[error("axis.{name}: from = {from} lies above to = {to} (exchange them)")]
+    Reversed { name: String, from: f64, to: f64 },
+    #[error("axis.{name}: {points:.0} points, more than {MOST_POINTS} (raise step)")]
+    TooMany { name: String, points: f64 },
+    #[error("axis.{name}: {refusal}")]
+    Value { name: String, refusal: Refusal },
 }
 
 /// More points than this on one axis are a mistake.
 const MOST_POINTS: usize = 10_000;
 
-impl AxisValue {
-    /// As the file has it.
-    pub(super) fn written(&self) -> &Value {
-        &self.value
+impl Axis {
+    /// Reads an axis table, whose one key must be `known`.
+    ///
+    /// # Errors
+    /// Where there is not one key, an unknown one, or no values.
+    pub fn read<'a>(
+        table: &Node,
+        known: impl IntoIterator<Item = &'a str> + Clone,
+    ) -> Result<Self, Conflict> {
+        let entries = table.table().into_iter().flatten();
+        let mut entries: Vec<_> = entries.collect();
+        entries.sort_by_key(|(_, (key_span, _))| key_span.start);
+        let [(name, (key_span, node))] = &entries[..] else {
+            // The second key is the one too many.
+            let span = entries.get(1).map_or(&table.span, |(_, (span, _))| span);
+            return Err(Conflict::at(span, AxisError::Keys(entries.len())));
+        };
+        if !known.clone().into_iter().any(|known| known == *name) {
+            let error = AxisError::Unknown(among(&crate::format::shortened(name), known));
+            return Err(Conflict::at(key_span, error));
+        }
+        let values = values(name, node).map_err(|error| Conflict::at(&node.span, error))?;
+        Ok(Self {
+            name: (*name).clone(),
+            values: values.into_iter().map(AxisValue).collect(),
+            span: node.span.clone(),
+        })
     }
+}
 
+impl AxisValue {
     /// The number, where it is one.
     pub fn number(&self) -> Option<f64> {
-        match self.value {
-            Value::Float(number) => Some(number),
-            Value::Integer(number) => Some(number as f64),
-            _ => None,
-        }
+        self.0.number()
     }
 }
 
 /// A number in the fewest digits, a name as it is, a table by its name.
 impl fmt::Display for AxisValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (&self.value, self.number()) {
-            (_, Some(number)) => write!(f, "{number}"),
-            (Value::String(name), _) => f.write_str(name),
-            (Value::Table(table), _) => f.write_str(table.keys().next().map_or("", |key| key)),
-            (other, _) => write!(f, "{other}"),
+        match &self.0.value {
+            Value::Text(name) | Value::Date(name) => f.write_str(name),
+            Value::Integer(number) => write!(f, "{number}"),
+            Value::Float(number) => write!(f, "{number}"),
+            Value::Bool(flag) => write!(f, "{flag}"),
+            Value::Table(table) => f.write_str(table.keys().next().map_or("", |key| key)),
+            Value::List(_) => f.write_str("a list"),
         }
     }
-}
-
-impl Axis {
-    pub(super) fn new(table: &AxisTable) -> Result<Self, Refused> {
-        let (key, value) = only(table)?;
-        let known = Parameter::ALL.iter().map(|(name, _)| *name);
-        let Some(&(name, parameter)) = Parameter::ALL
-            .iter()
-            .find(|(name, _)| name == key.get_ref())
-        else {
-            return Err(unknown(key, known));
-        };
-        let span = value.span();
-        match values(name, value.get_ref()).and_then(|values| ordered(parameter, values)) {
-            Ok(values) => Ok(Self {
-                parameter,
-                values,
-                span,
-            }),
-            Err(problem) => Err((Some(span), problem)),
-        }
-    }
-
-    /// Where the values stand in the file.
-    pub(super) fn span(&self) -> Range<usize> {
-        self.span.clone()
-    }
-
-    /// Puts `value` in the place of what the sections say.
-    pub(super) fn set(&self, value: &AxisValue, sections: &mut Sections) -> Result<(), Problem> {
-        for &place in self.parameter.keys() {
-            sections
-                .set(place, &value.value, self.span())
-                .map_err(|error| Problem::AxisValue {
-                    name: self.parameter.name(),
-                    refusal: Refusal::new("", error),
-                })?;
-        }
-        Ok(())
-    }
-}
-
-/// An axis of orders has numbers alone, since `"auto"` would stand nowhere among them.
-fn ordered(parameter: Parameter, values: Vec<AxisValue>) -> Result<Vec<AxisValue>, Problem> {
-    let is_name = |value: &&AxisValue| parameter == Parameter::Order && value.value.is_str();
-    match values.iter().find(is_name) {
-        Some(name) => Err(Problem::OrderOnAxis(name.value.to_string())),
-        None => Ok(values),
-    }
-}
-
-/// The one key of an axis and what stands there.
-pub(super) fn only(table: &AxisTable) -> Result<(&Spanned<String>, &Spanned<Value>), Refused> {
-    let entries = table.get_ref();
-    match entries.iter().next() {
-        Some(entry) if entries.len() == 1 => Ok(entry),
-        _ => {
-            // The second key is the one too many.
-            let span = entries.keys().nth(1).map_or(table.span(), Spanned::span);
-            Err((Some(span), Problem::AxisKeys(entries.len())))
-        }
-    }
-}
-
-/// An axis that is none of the `known` names.
-pub(super) fn unknown(
-    key: &Spanned<String>,
-    known: impl Iterator<Item = &'static str> + Clone,
-) -> Refused {
-    let problem = Problem::UnknownParameter {
-        got: key.get_ref().clone(),
-        hint: nearest(key.get_ref(), known.clone()),
-        known: known.collect::<Vec<_>>().join(", "),
-    };
-    (Some(key.span()), problem)
-}
-
-/// `{ from, to, step }`.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Steps {
-    from: Number,
-    to: Number,
-    step: Number,
 }
 
 /// The values of a list, or of a range.
-pub(super) fn values(name: &'static str, value: &Value) -> Result<Vec<AxisValue>, Problem> {
-    let values: Vec<Value> = match value {
-        Value::Array(list) => list.clone(),
-        Value::Table(_) => {
-            let steps = value.clone().try_into().map_err(|error| {
-                let refusal = Refusal::new("", error);
-                Problem::AxisValue { name, refusal }
-            })?;
-            range(name, &steps)?
+fn values(name: &str, node: &Node) -> Result<Vec<Node>, AxisError> {
+    let values = match &node.value {
+        Value::List(list) if list.len() > MOST_POINTS => {
+            let (name, points) = (name.to_owned(), list.len() as f64);
+            return Err(AxisError::TooMany { name, points });
         }
-        single => vec![single.clone()],
+        Value::List(list) => list.clone(),
+        Value::Table(_) => {
+            let steps = Steps::deserialize(node).map_err(|refusal| {
+                let name = name.to_owned();
+                AxisError::Value { name, refusal }
+            })?;
+            let place = |value| Node { span: node.span.clone(), value };
+            range(name, &steps)?.into_iter().map(place).collect()
+        }
+        _ => vec![node.clone()],
     };
-    match values.is_empty() {
-        true => Err(Problem::EmptyAxis(name)),
-        false => Ok(values
-            .into_iter()
-            .map(|value| AxisValue { value })
-            .collect()),
+    if values.is_empty() {
+        return Err(AxisError::Empty(name.to_owned()));
     }
+    Ok(values)
 }
 
 /// from, from + step, …, to; whole numbers stay whole.
-fn range(name: &'static str, steps: &Steps) -> Result<Vec<Value>, Problem> {
-    let (from, to, step) = (steps.from.0, steps.to.0, steps.step.0);
+fn range(name: &str, &Steps { from, to, step }: &Steps) -> Result<Vec<Value>, AxisError> {
+    let name = name.to_owned();
     if step <= 0.0 {
-        return Err(Problem::Step { name, step });
+        return Err(AxisError::Step { name, step });
     }
     if from > to {
-        return Err(Problem::Reversed { name, from, to });
+        return Err(AxisError::Reversed { name, from, to });
     }
     // A billionth of a step forgives the rounding of (to − from)/step.
     let points = ((to - from) / step + 1e-9).floor() + 1.0;
     if points > MOST_POINTS as f64 {
-        let limit = MOST_POINTS;
-        return Err(Problem::TooManyPoints {
-            name,
-            points,
-            limit,
-        });
+        return Err(AxisError::TooMany { name, points });
     }
+    let is_whole = from.fract() == 0.0 && step.fract() == 0.0;
     let value = |i: usize| {
         let value = from + i as f64 * step;
         // What rounding leaves of a zero is a zero.
-        let value = if value.abs() < 1e-9 * step {
-            0.0
+        let value = if value.abs() < 1e-9 * step { 0.0 } else { twelve_digits(value) };
+        if is_whole && value.fract() == 0.0 && value.abs() < 1e15 {
+            Value::Integer(value as i64)
         } else {
-            twelve_digits(value)
-        };
-        match value.fract() == 0.0
-            && value.abs() < 1e15
-            && from.fract() == 0.0
-            && step.fract() == 0.0
-        {
-            true => Value::Integer(value as i64),
-            false => Value::Float(value),
+            Value::Float(value)
         }
     };
     Ok((0..points as usize).map(value).collect())
@@ -286,9 +169,9 @@ mod tests {
     use super::*;
 
     fn numbers(value: &str) -> Vec<f64> {
-        let table: toml::Table = format!("x = {value}").parse().unwrap();
-        let values = values("delta", &table["x"]).unwrap();
-        values.iter().map(|value| value.number().unwrap()).collect()
+        let root = Node::parse(&format!("x = {value}")).unwrap();
+        let axis = Axis::read(&root, ["x"]).unwrap();
+        axis.values.iter().map(|value| value.number().unwrap()).collect()
     }
 
     #[test]

@@ -21,6 +21,72 @@ struct Report {
     error: Box<dyn Error + Send + Sync>,
 }
 
+/// What a check of values against each other refuses: the error, and where it stands or what is to blame.
+#[derive(Debug)]
+pub struct Conflict {
+    /// Where it stands, if that is known.
+    pub span: Option<Range<usize>>,
+    /// Paths that may be to blame, the likeliest first.
+    pub keys: Vec<String>,
+    /// What is wrong.
+    pub error: Box<dyn Error + Send + Sync>,
+}
+
+/// A value that does not fit the others of its table.
+#[derive(Debug, thiserror::Error)]
+#[error("{path}: must {rule}, got {got}{remedy}")]
+pub struct Unfit {
+    /// Of the value, such as `impulse_law.nu[1]`.
+    pub path: String,
+    /// What it must do.
+    pub rule: String,
+    /// What stands there.
+    pub got: String,
+    /// What to do, in brackets after a space; or nothing.
+    pub remedy: &'static str,
+}
+
+impl Unfit {
+    /// A value at `path` that must keep `rule`, and what was got instead.
+    pub fn new(path: impl Into<String>, rule: impl Into<String>, got: impl fmt::Display) -> Self {
+        Self {
+            path: path.into(),
+            rule: rule.into(),
+            got: crate::format::shortened(&got.to_string()).into_owned(),
+            remedy: "",
+        }
+    }
+}
+
+impl From<Unfit> for Conflict {
+    fn from(unfit: Unfit) -> Self {
+        Self::of([unfit.path.clone()], unfit)
+    }
+}
+
+impl Conflict {
+    /// An error at a place.
+    pub fn at(span: &Range<usize>, error: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
+        Self {
+            span: Some(span.clone()),
+            keys: Vec::new(),
+            error: error.into(),
+        }
+    }
+
+    /// An error that the values at some paths may be to blame for.
+    pub fn of(
+        keys: impl IntoIterator<Item = impl Into<String>>,
+        error: impl Into<Box<dyn Error + Send + Sync>>,
+    ) -> Self {
+        Self {
+            span: None,
+            keys: keys.into_iter().map(Into::into).collect(),
+            error: error.into(),
+        }
+    }
+}
+
 /// A line of the file with the offending part underlined.
 #[derive(Clone, Debug)]
 struct Place {
@@ -111,6 +177,13 @@ impl Source {
             place: span.map(|span| self.place(span)),
             error: error.into(),
         }))
+    }
+
+    /// A conflict of values of `tree`; `otherwise` is where it stands if nothing to blame is written there.
+    pub fn conflict(&self, tree: &Node, conflict: Conflict, otherwise: &Range<usize>) -> ConfigError {
+        let blamed = conflict.keys.iter().find_map(|path| tree.get(path));
+        let span = conflict.span.or(blamed.map(|node| node.span.clone()));
+        self.at(Some(span.unwrap_or(otherwise.clone())), conflict.error)
     }
 
     fn place(&self, span: Range<usize>) -> Place {

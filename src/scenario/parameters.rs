@@ -6,11 +6,12 @@
 use super::Scenario;
 use crate::signal::{Impulses, Motion};
 use crate::whiten::Order;
+use serde::de::{Deserializer, Error, Visitor};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// The value of a parameter at a point, as a cell of a table.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Cell {
     /// Absent.
@@ -25,6 +26,10 @@ pub enum Cell {
     Text(String),
 }
 
+/// The values of all parameters that have a column, by name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Values(Vec<Cell>);
+
 /// A parameter of a scenario.
 pub struct Parameter {
     /// Its name on an axis, and the header of its column.
@@ -37,85 +42,243 @@ pub struct Parameter {
     pub axis_label: &'static str,
     /// Its value at a point; none for what has no column of its own.
     pub cell: Option<fn(&Scenario) -> Cell>,
+    /// What a caption says of it.
+    pub caption: Option<Caption>,
 }
 
-/// A parameter with its own column, which an axis may sweep.
-const fn row(
-    name: &'static str,
-    paths: &'static [&'static str],
-    symbol: &'static str,
-    axis_label: &'static str,
-    cell: fn(&Scenario) -> Cell,
-) -> Parameter {
-    Parameter { name, paths, symbol, axis_label, cell: Some(cell) }
+/// What a caption says of a parameter.
+pub struct Caption {
+    /// Where among the others: smaller comes first.
+    pub place: u8,
+    /// The words.
+    pub words: Words,
+    /// When it may be left out.
+    pub usual: Usual,
 }
 
-/// A parameter with its own column, which no axis sweeps.
-const fn fixed(
+/// What is said of a value.
+pub enum Words {
+    /// The value stands for `{}`.
+    Template(&'static str),
+    /// Depends on other values too.
+    Of(fn(&Values) -> String),
+}
+
+/// When nobody needs to be told a value.
+pub enum Usual {
+    /// It is always said.
+    Never,
+    /// When it is this.
+    Is(&'static str),
+    /// At rest.
+    AtRest,
+    /// At rest, and when it is this.
+    AtRestOr(&'static str),
+    /// At rest, and when this holds.
+    AtRestOrIf(fn(&Values) -> bool),
+}
+
+use Usual::{AtRest, AtRestOr, AtRestOrIf, Is, Never};
+use Words::{Of, Template};
+
+/// A parameter with its own column.
+const fn column(
     name: &'static str,
     paths: &'static [&'static str],
     cell: fn(&Scenario) -> Cell,
 ) -> Parameter {
-    Parameter { name, paths, symbol: "", axis_label: "", cell: Some(cell) }
+    Parameter { name, paths, symbol: "", axis_label: "", cell: Some(cell), caption: None }
 }
 
 /// Parameters that an axis sweeps together.
-const fn together(
-    name: &'static str,
-    paths: &'static [&'static str],
-    symbol: &'static str,
-    axis_label: &'static str,
-) -> Parameter {
-    Parameter { name, paths, symbol, axis_label, cell: None }
+const fn together(name: &'static str, paths: &'static [&'static str]) -> Parameter {
+    Parameter { name, paths, symbol: "", axis_label: "", cell: None, caption: None }
+}
+
+impl Parameter {
+    /// The same, which an axis may sweep.
+    const fn axis(mut self, symbol: &'static str, label: &'static str) -> Self {
+        self.symbol = symbol;
+        self.axis_label = label;
+        self
+    }
+
+    /// The same, which a caption names.
+    const fn said(mut self, place: u8, words: Words, usual: Usual) -> Self {
+        self.caption = Some(Caption { place, words, usual });
+        self
+    }
 }
 
 /// In the order of the columns.
+#[rustfmt::skip]
 pub const PARAMETERS: &[Parameter] = &[
-    row("delta", &["motion.delta"], "Δ/σ_ξ", "Δ/σ_ξ", |s| s.motion.delta.into()),
-    row("nu", &["impulses.nu"], "ν", "ν, probability of an impulse per sample", |s| s.impulses.nu().into()),
-    row("theta", &["impulses.theta"], "θ/σ_ξ", "θ/σ_ξ", |s| s.impulses.theta().into()),
-    fixed("noise", &["noise.law"], |s| Cell::text(s.noise)),
-    row("order", &["whitening.order"], "m", "order m of the whitening filter", |s| Cell::order(s.whitening.order())),
-    row("training", &["whitening.training"], "", "training length, samples", |s| s.whitening.training().into()),
-    row("reference", &["samples.reference"], "N", "N, samples", |s| s.samples.reference().into()),
-    row("shift", &["samples.shift"], "M₁", "M_1, samples", |s| s.samples.shift().into()),
-    row("scale", &["samples.scale"], "M₂", "M_2, samples", |s| s.samples.scale().into()),
-    row("rule", &["detector.rule"], "", "decision rule", |s| Cell::text(&s.detector.method)),
-    row("alpha", &["detector.alpha"], "α", "α", |s| s.detector.alpha.into()),
-    fixed("alternative", &["detector.alternative"], |s| Cell::text(s.detector.alternative)),
-    fixed("sensor", &["sensor.model", "sensor.ar", "sensor.transfer"], |s| Cell::text(&s.sensor)),
-    row("quantum", &["noise.quantum"], "", "quantisation step, σ_ξ", |s| s.digitiser.quantum().into()),
-    row("range", &["noise.range"], "", "range of the sensor, σ_ξ", |s| s.digitiser.range().into()),
-    fixed("fit", &["whitening.fit"], |s| Cell::text(s.whitening.fit())),
-    fixed("includes_reference", &["whitening.includes_reference"], |s| Cell::Flag(s.whitening.includes_reference())),
-    row("gap", &["samples.gap"], "", "gap, samples", |s| s.samples.gap().into()),
-    row("decimation", &["samples.decimation"], "", "decimation, raw observations per sample", |s| s.samples.decimation().into()),
-    fixed("delta_at", &["motion.delta_at"], |s| Cell::text(s.motion.delta_at)),
-    fixed("profile", &["motion.profile"], |s| Cell::text(s.motion.profile)),
-    row("duration", &["motion.duration"], "", "duration of the acceleration, samples", |s| s.motion.duration.into()),
-    row("offset", &["motion.offset"], "", "start of the acceleration after X, samples", |s| s.motion.offset.into()),
-    fixed("during", &["impulses.during"], |s| Cell::text(s.impulses.during())),
-    row("drift", &["rest.drift"], "", "drift, σ_ξ per raw sample", |s| s.disturbance.drift().into()),
-    row("swell", &["rest.swell"], "", "deviation of the noise after X, relative to that before", |s| s.disturbance.swell().into()),
-    row("footfalls", &["rest.footfalls"], "", "probability of a footfall per raw sample", |s| s.disturbance.footfalls().into()),
-    fixed("jolt", &["rest.jolt"], |s| s.disturbance.jolt().into()),
-    fixed("ties", &["detector.ties"], |s| Cell::text(s.detector.ties)),
-    fixed("calibrate", &["detector.calibrate"], |s| Cell::text(&s.detector.calibration)),
-    fixed("stated", &[], |s| Cell::Text(s.detector.stated.map(stated).unwrap_or_default())),
-    fixed("pilot", &[], |s| Cell::Whole(s.detector.pilot)),
-    together(
-        "all_samples",
-        &["samples.reference", "samples.shift", "samples.scale"],
-        "N = M₁ = M₂",
-        "N = M_1 = M_2, samples",
-    ),
-    together(
-        "reference_and_scale",
-        &["samples.reference", "samples.scale"],
-        "N = M₂",
-        "N = M_2, samples",
-    ),
+    column("delta", &["motion.delta"], |s| s.motion.delta.into())
+        .axis("Δ/σ_ξ", "Δ/σ_ξ").said(9, Of(delta), AtRest),
+    column("nu", &["impulses.nu"], |s| s.impulses.nu().into())
+        .axis("ν", "ν, probability of an impulse per sample").said(13, Template("ν = {}"), AtRest),
+    column("theta", &["impulses.theta"], |s| s.impulses.theta().into())
+        .axis("θ/σ_ξ", "θ/σ_ξ").said(14, Template("θ/σ_ξ = {}"), AtRestOrIf(|v| v.number("nu") == 0.0)),
+    column("noise", &["noise.law"], |s| Cell::text(s.noise)).said(16, Template("{} noise"), Never),
+    column("order", &["whitening.order"], |s| Cell::order(s.whitening.order()))
+        .axis("m", "order m of the whitening filter").said(26, Template("order {}"), Never),
+    column("training", &["whitening.training"], |s| s.whitening.training().into())
+        .axis("", "training length, samples").said(27, Template("training {}"), Is("0")),
+    column("reference", &["samples.reference"], |s| s.samples.reference().into())
+        .axis("N", "N, samples").said(4, Template("N = {}"), Never),
+    column("shift", &["samples.shift"], |s| s.samples.shift().into())
+        .axis("M₁", "M_1, samples").said(5, Template("M_1 = {}"), Never),
+    column("scale", &["samples.scale"], |s| s.samples.scale().into())
+        .axis("M₂", "M_2, samples").said(6, Template("M_2 = {}"), Never),
+    column("rule", &["detector.rule"], |s| Cell::text(&s.detector.method))
+        .axis("", "decision rule").said(2, Of(|v| format!("rule {}", v.rule_name())), Never),
+    column("alpha", &["detector.alpha"], |s| s.detector.alpha.into())
+        .axis("α", "α").said(1, Template("α = {}"), Never),
+    // The counts stand here; what has come since stands behind them.
+    column("alternative", &["detector.alternative"], |s| Cell::text(s.detector.alternative))
+        .said(3, Template("alternative {}"), Is("greater")),
+    column("sensor", &["sensor.model", "sensor.ar", "sensor.transfer"], |s| Cell::text(&s.sensor))
+        .said(17, Template("{}"), Is(ADXL105)),
+    column("quantum", &["noise.quantum"], |s| s.digitiser.quantum().into())
+        .axis("", "quantisation step, σ_ξ").said(18, Template("step {} σ_ξ"), Is("")),
+    column("range", &["noise.range"], |s| s.digitiser.range().into())
+        .axis("", "range of the sensor, σ_ξ").said(19, Template("range {} σ_ξ"), Is("")),
+    column("fit", &["whitening.fit"], |s| Cell::text(s.whitening.fit())).said(25, Of(fit), Never),
+    column("includes_reference", &["whitening.includes_reference"], |s| Cell::Flag(s.whitening.includes_reference()))
+        .said(28, Template("X inside the training record"), Is("false")),
+    column("gap", &["samples.gap"], |s| s.samples.gap().into())
+        .axis("", "gap, samples").said(7, Template("gap {}"), Is("0")),
+    column("decimation", &["samples.decimation"], |s| s.samples.decimation().into())
+        .axis("", "decimation, raw observations per sample").said(8, Template("means of {}"), Is("1")),
+    column("delta_at", &["motion.delta_at"], |s| Cell::text(s.motion.delta_at)),
+    column("profile", &["motion.profile"], |s| Cell::text(s.motion.profile))
+        .said(10, Template("{}"), AtRestOr("rectangular")),
+    column("duration", &["motion.duration"], |s| s.motion.duration.into())
+        .axis("", "duration of the acceleration, samples").said(11, Template("duration {}"), AtRestOrIf(Values::acts_through_shift)),
+    column("offset", &["motion.offset"], |s| s.motion.offset.into())
+        .axis("", "start of the acceleration after X, samples").said(12, Template("offset {}"), AtRestOr("0")),
+    column("during", &["impulses.during"], |s| Cell::text(s.impulses.during()))
+        .said(15, Template("impulses in Y_2 alone"), AtRestOr("motion")),
+    column("drift", &["rest.drift"], |s| s.disturbance.drift().into())
+        .axis("", "drift, σ_ξ per raw sample").said(20, Template("drift {} σ_ξ per sample"), Is("0")),
+    column("swell", &["rest.swell"], |s| s.disturbance.swell().into())
+        .axis("", "deviation of the noise after X, relative to that before")
+        .said(21, Template("noise {} times as strong after X"), Is("1")),
+    column("footfalls", &["rest.footfalls"], |s| s.disturbance.footfalls().into())
+        .axis("", "probability of a footfall per raw sample").said(22, Of(footfalls), Is("0")),
+    column("jolt", &["rest.jolt"], |s| s.disturbance.jolt().into()),
+    column("ties", &["detector.ties"], |s| Cell::text(s.detector.ties)).said(23, Template("ties {}"), Is("random")),
+    column("calibrate", &["detector.calibrate"], |s| Cell::text(&s.detector.calibration))
+        .said(24, Of(calibration), Is("no")),
+    column("stated", &[], |s| s.detector.stated.map_or(Cell::None, stated)),
+    column("pilot", &[], |s| Cell::Whole(s.detector.pilot)),
+    together("all_samples", &["samples.reference", "samples.shift", "samples.scale"])
+        .axis("N = M₁ = M₂", "N = M_1 = M_2, samples"),
+    together("reference_and_scale", &["samples.reference", "samples.scale"])
+        .axis("N = M₂", "N = M_2, samples"),
 ];
+
+/// The sensor of a file that says nothing of one.
+const ADXL105: &str = "ar(-1.5365 -0.75056)";
+
+fn delta(values: &Values) -> String {
+    let delta = values.text("delta");
+    match values.text("delta_at").as_str() {
+        "whitened" => format!("Δ(1 − β)/σ_ξ = {delta}"),
+        _ => format!("Δ/σ_ξ = {delta}"),
+    }
+}
+
+fn fit(values: &Values) -> String {
+    match values.text("fit").as_str() {
+        "none" => "no whitening".to_owned(),
+        fit => format!("{fit} filter"),
+    }
+}
+
+fn footfalls(values: &Values) -> String {
+    let (footfalls, jolt) = (values.text("footfalls"), values.text("jolt"));
+    format!("footfalls {footfalls} per sample, of {jolt} σ_ξ")
+}
+
+fn calibration(values: &Values) -> String {
+    match values.text("calibrate").as_str() {
+        "promise" => "calibrated to keep α".to_owned(),
+        _ => "threshold set by measured false alarms".to_owned(),
+    }
+}
+
+impl Values {
+    /// Of a scenario.
+    pub fn of(scenario: &Scenario) -> Self {
+        Self(columns().filter_map(|parameter| parameter.cell).map(|cell| cell(scenario)).collect())
+    }
+
+    /// None of them known.
+    pub fn unknown() -> Self {
+        Self(columns().map(|_| Cell::None).collect())
+    }
+
+    /// Puts a value in its place, unless no column has this name.
+    pub fn set(&mut self, name: &str, cell: Cell) -> bool {
+        let place = columns().position(|parameter| parameter.name == name);
+        if let Some(place) = place {
+            self.0[place] = cell;
+        }
+        place.is_some()
+    }
+
+    /// A value; absent for a name without a column.
+    pub fn cell(&self, name: &str) -> &Cell {
+        let mut all = self.iter();
+        all.find(|(known, _)| *known == name).map_or(&Cell::None, |(_, cell)| cell)
+    }
+
+    /// A value that is a number; NaN for any other.
+    pub fn number(&self, name: &str) -> f64 {
+        self.cell(name).number().unwrap_or(f64::NAN)
+    }
+
+    /// A value in words.
+    pub fn text(&self, name: &str) -> String {
+        self.cell(name).to_string()
+    }
+
+    /// The rule without its entries.
+    pub fn rule_name(&self) -> String {
+        let rule = self.text("rule");
+        rule.split('(').next().unwrap_or_default().to_owned()
+    }
+
+    /// All of them, in the order of the columns.
+    pub fn iter(&self) -> impl Iterator<Item = (&'static str, &Cell)> {
+        columns().map(|parameter| parameter.name).zip(&self.0)
+    }
+
+    /// Whether Δ acts to the last of Y₁, as it does where no duration is given.
+    fn acts_through_shift(&self) -> bool {
+        let end = self.number("shift") + self.number("gap");
+        self.number("duration") == (end - self.number("offset")).max(0.0)
+    }
+}
+
+/// The parameters that have a column.
+pub fn columns() -> impl Iterator<Item = &'static Parameter> {
+    PARAMETERS.iter().filter(|parameter| parameter.cell.is_some())
+}
+
+impl Usual {
+    /// Whether a value is usual.
+    pub fn holds(&self, value: &str, values: &Values, is_at_rest: bool) -> bool {
+        match self {
+            Self::Never => false,
+            Self::Is(usual) => value == *usual,
+            Self::AtRest => is_at_rest,
+            Self::AtRestOr(usual) => is_at_rest || value == *usual,
+            Self::AtRestOrIf(holds) => is_at_rest || holds(values),
+        }
+    }
+}
 
 /// The parameter of a name.
 pub fn parameter(name: &str) -> Option<&'static Parameter> {
@@ -126,6 +289,11 @@ impl Parameter {
     /// Whether an axis may sweep it.
     pub fn is_swept(&self) -> bool {
         !self.axis_label.is_empty()
+    }
+
+    /// Whether an axis that sweeps `other` says the same.
+    pub fn is_said_by(&self, other: &Self) -> bool {
+        self.paths.iter().any(|path| other.paths.contains(path))
     }
 
     /// The column that has its value: its own, or that of the first of several swept together.
@@ -150,13 +318,13 @@ impl PartialEq for Parameter {
 }
 
 /// A motion that a method is made for, in words.
-fn stated((motion, impulses): (Motion, Impulses)) -> String {
+fn stated((motion, impulses): (Motion, Impulses)) -> Cell {
     let (delta, duration, offset) = (motion.delta, motion.duration, motion.offset);
     let (nu, theta, during) = (impulses.nu(), impulses.theta(), impulses.during());
-    format!(
+    Cell::text(format_args!(
         "delta {delta} {} {} duration {duration} offset {offset} nu {nu} theta {theta} {during}",
         motion.delta_at, motion.profile
-    )
+    ))
 }
 
 impl Cell {
@@ -196,6 +364,47 @@ impl From<usize> for Cell {
 impl From<Option<f64>> for Cell {
     fn from(number: Option<f64>) -> Self {
         number.map_or(Self::None, Self::Number)
+    }
+}
+
+/// As a table has it.
+impl<'de> Deserialize<'de> for Cell {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(CellVisitor)
+    }
+}
+
+struct CellVisitor;
+
+impl Visitor<'_> for CellVisitor {
+    type Value = Cell;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a cell")
+    }
+
+    fn visit_bool<E: Error>(self, flag: bool) -> Result<Cell, E> {
+        Ok(Cell::Flag(flag))
+    }
+
+    fn visit_u64<E: Error>(self, number: u64) -> Result<Cell, E> {
+        Ok(Cell::Whole(number))
+    }
+
+    fn visit_i64<E: Error>(self, number: i64) -> Result<Cell, E> {
+        Ok(Cell::Number(number as f64))
+    }
+
+    fn visit_f64<E: Error>(self, number: f64) -> Result<Cell, E> {
+        Ok(Cell::Number(number))
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<Cell, E> {
+        Ok(if text.is_empty() { Cell::None } else { Cell::text(text) })
+    }
+
+    fn visit_unit<E: Error>(self) -> Result<Cell, E> {
+        Ok(Cell::None)
     }
 }
 

@@ -1,0 +1,114 @@
+//! What every experiment says of itself.
+
+use crate::config::{Conflict, Unfit};
+use crate::stats::tally::{MOST_TRIALS, trials_for_half_width};
+use crate::values::{Level, bounded_f64};
+use schemars::JsonSchema;
+use serde::de::{Deserializer, Error};
+use serde::{Deserialize, Serialize};
+
+/// The keys at the top of a config.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Header {
+    /// What the experiment is for, one sentence.
+    pub question: String,
+    /// Where every draw starts from.
+    pub seed: u64,
+    /// Trials per point.
+    #[serde(default, deserialize_with = "trials")]
+    trials: Option<u64>,
+    /// Half of the widest interval; fixes the number of trials before the run.
+    #[serde(default)]
+    half_width: Option<HalfWidth>,
+    /// Of the intervals.
+    #[serde(default = "usual_confidence")]
+    pub confidence: Level,
+    /// Whether one noise realisation serves every point that can share it.
+    #[serde(default = "shared")]
+    pub common_random_numbers: bool,
+    /// Trials of each pilot run.
+    #[serde(default = "usual_pilot", deserialize_with = "pilot")]
+    pub pilot: u64,
+    /// Whether only the points at rest are run.
+    #[serde(default)]
+    pub at_rest: bool,
+}
+
+bounded_f64! {
+    /// Half of the widest interval.
+    HalfWidth: "lie in [0.00001, 0.5)", |x| (1e-5..0.5).contains(&x),
+        { "type": "number", "minimum": 1e-5, "exclusiveMaximum": 0.5 };
+}
+
+/// Trials per point where the file says nothing.
+const DEFAULT_TRIALS: u64 = 200_000;
+
+/// Trials of a pilot run where neither the file nor the command line says anything.
+pub const DEFAULT_PILOT_TRIALS: u64 = 200_000;
+
+/// A pilot keeps what it has seen in memory.
+pub const MOST_PILOT_TRIALS: u64 = 10_000_000;
+
+fn usual_confidence() -> Level {
+    Level::new(0.95).expect("it is in its range")
+}
+
+fn shared() -> bool {
+    true
+}
+
+fn usual_pilot() -> u64 {
+    DEFAULT_PILOT_TRIALS
+}
+
+fn trials<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u64>, D::Error> {
+    match u64::deserialize(deserializer)? {
+        0 => Err(D::Error::custom("must be at least 1, got 0")),
+        trials if trials > MOST_TRIALS => {
+            let message = format!("must be at most {MOST_TRIALS}, got {trials}");
+            Err(D::Error::custom(message))
+        }
+        trials => Ok(Some(trials)),
+    }
+}
+
+fn pilot<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u64, D::Error> {
+    match u64::deserialize(deserializer)? {
+        trials @ 1..=MOST_PILOT_TRIALS => Ok(trials),
+        trials => Err(D::Error::custom(format_args!(
+            "must lie between 1 and {MOST_PILOT_TRIALS} trials, got {trials}"
+        ))),
+    }
+}
+
+impl Header {
+    /// Its keys.
+    pub const KEYS: &[&'static str] = &[
+        "question",
+        "seed",
+        "trials",
+        "half_width",
+        "confidence",
+        "common_random_numbers",
+        "pilot",
+        "at_rest",
+    ];
+
+    /// Trials per point.
+    pub(super) fn trials(&self) -> Result<u64, Conflict> {
+        match (self.trials, self.half_width) {
+            (Some(_), Some(half_width)) => {
+                let rule = "be left out where trials is given";
+                let remedy = " (both fix the number of trials: leave one of them out)";
+                let unfit = Unfit::new("half_width", rule, half_width.get());
+                Err(Unfit { remedy, ..unfit }.into())
+            }
+            (Some(trials), None) => Ok(trials),
+            (None, Some(half_width)) => {
+                Ok(trials_for_half_width(half_width.get(), self.confidence.get()))
+            }
+            (None, None) => Ok(DEFAULT_TRIALS),
+        }
+    }
+}

@@ -1,0 +1,192 @@
+//! The reference of every table and key, written from the types that read them: a JSON Schema for editors, and
+//! the same in words.
+
+use super::header::Header;
+use super::sweep::CurveHeader;
+use super::tables;
+use crate::claim::Narrative;
+use crate::scenario::{PARAMETERS, Sections};
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, SchemaGenerator};
+use serde_json::{Map, Value, json};
+use std::fmt::Write;
+
+/// What a config may say, as a JSON Schema.
+pub fn schema() -> Value {
+    let mut generator = SchemaSettings::draft07()
+        .with(|settings| settings.inline_subschemas = true)
+        .into_generator();
+    let sections = properties::<Sections>(&mut generator);
+    let mut all = properties::<Header>(&mut generator);
+    all.extend(properties::<Narrative>(&mut generator));
+    all.insert("axis".to_owned(), axis(PARAMETERS.iter().filter(|p| p.is_swept()).map(|p| p.name)));
+    let mut curve = properties::<CurveHeader>(&mut generator);
+    curve.extend(sections.clone());
+    let description = "One curve of a sweep; each may change any of the sections.";
+    let curve = json!({
+        "type": "object",
+        "properties": curve,
+        "additionalProperties": false,
+    });
+    all.insert(
+        "curve".to_owned(),
+        json!({ "description": description, "type": "array", "items": curve }),
+    );
+    let studies = tables::schemas(&mut generator);
+    let names: Vec<&str> = ["axis"].into_iter().chain(studies.iter().map(|(name, _)| *name)).collect();
+    let one_thing: Vec<Value> = names.iter().map(|name| json!({ "required": [name] })).collect();
+    all.extend(studies.into_iter().map(|(name, schema)| (name.to_owned(), schema)));
+    all.extend(sections);
+    json!({
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "A liftsim config",
+        "type": "object",
+        "properties": all,
+        "required": ["question", "seed"],
+        "oneOf": one_thing,
+        "additionalProperties": false,
+    })
+}
+
+/// The keys of a type, each with its schema.
+fn properties<T: JsonSchema>(generator: &mut SchemaGenerator) -> Map<String, Value> {
+    let schema = T::json_schema(generator).to_value();
+    match schema.get("properties") {
+        Some(Value::Object(properties)) => properties.clone(),
+        _ => Map::new(),
+    }
+}
+
+/// An axis of one of these keys.
+pub(super) fn axis<'a>(names: impl Iterator<Item = &'a str>) -> Value {
+    let values = json!({ "anyOf": [
+        { "type": "array", "minItems": 1 },
+        {
+            "type": "object",
+            "properties": {
+                "from": { "type": "number" },
+                "to": { "type": "number" },
+                "step": { "type": "number", "exclusiveMinimum": 0 },
+            },
+            "required": ["from", "to", "step"],
+            "additionalProperties": false,
+        },
+        { "type": "number" },
+        { "type": "string" },
+    ] });
+    let keys: Map<String, Value> = names.map(|name| (name.to_owned(), values.clone())).collect();
+    json!({
+        "description": "What the x axis sweeps, exactly one key: a list of values, or { from, to, step }.",
+        "type": "object",
+        "properties": keys,
+        "minProperties": 1,
+        "maxProperties": 1,
+        "additionalProperties": false,
+    })
+}
+
+/// The same in words.
+pub fn markdown() -> String {
+    let schema = schema();
+    let empty = Map::new();
+    let all = schema["properties"].as_object().unwrap_or(&empty);
+    let is_table = |schema: &Value| schema["type"] == "object" || schema["items"]["type"] == "object";
+    let mut text = HEAD.to_owned();
+    let plain: Vec<_> = all.iter().filter(|(_, schema)| !is_table(schema)).collect();
+    text += &keys("the top of the file", "", plain.into_iter());
+    for (name, schema) in all.iter().filter(|(_, schema)| is_table(schema)) {
+        let table = if schema["items"]["type"] == "object" { &schema["items"] } else { schema };
+        let title = if std::ptr::eq(table, schema) { format!("[{name}]") } else { format!("[[{name}]]") };
+        let description = schema["description"].as_str().unwrap_or_default();
+        let own = table["properties"].as_object().unwrap_or(&empty);
+        // A curve's sections are those of the file.
+        let entries = own.iter().filter(|(key, _)| name != "curve" || !all.contains_key(*key));
+        text += &keys(&title, description, entries);
+    }
+    text
+}
+
+const HEAD: &str = "# Keys of a config\n\n\
+    Written by `liftsim keys` from the types that read a config; `schema.json` beside this file says the same to an \
+    editor. A config does one thing: `[axis]` and `[[curve]]` sweep a parameter, any other table of a study takes \
+    their place. An unknown key is refused. Units are those of the whitened noise, σ_ξ, unless a key says otherwise.\n\n";
+
+fn keys<'a>(
+    title: &str,
+    description: &str,
+    entries: impl Iterator<Item = (&'a String, &'a Value)>,
+) -> String {
+    let mut text = format!("## {title}\n\n");
+    if !description.is_empty() {
+        text += &format!("{}\n\n", one_line(description));
+    }
+    text += "| key | type | default | meaning |\n|---|---|---|---|\n";
+    for (key, schema) in entries {
+        let meaning = one_line(schema["description"].as_str().unwrap_or_default());
+        let default = match &schema["default"] {
+            Value::Null => String::new(),
+            Value::Object(_) => String::new(),
+            value => format!("`{value}`"),
+        };
+        let kind = kind(schema).replace('|', "\\|");
+        writeln!(text, "| `{key}` | {kind} | {default} | {meaning} |").expect("a string takes every line");
+    }
+    text + "\n"
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|")
+}
+
+/// What a value looks like, in words.
+fn kind(schema: &Value) -> String {
+    for key in ["anyOf", "oneOf"] {
+        if let Some(choices) = schema[key].as_array() {
+            let choices: Vec<String> = choices.iter().map(kind).filter(|kind| kind != "null").collect();
+            return choices.join(", ");
+        }
+    }
+    if let Some(value) = schema.get("const") {
+        return format!("`{value}`");
+    }
+    if let Some(names) = schema["enum"].as_array() {
+        let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+        return names.join(", ");
+    }
+    let name = match &schema["type"] {
+        Value::Array(types) => types.iter().find(|kind| *kind != "null"),
+        name => Some(name),
+    };
+    match name.and_then(Value::as_str) {
+        Some("array") => match schema["items"].is_null() {
+            true => "list".to_owned(),
+            false => format!("list of: {}", kind(&schema["items"])),
+        },
+        Some("object") => {
+            let keys = schema["properties"].as_object();
+            let keys: Vec<&str> = keys.into_iter().flat_map(Map::keys).map(String::as_str).collect();
+            format!("`{{ {} }}`", keys.join(", "))
+        }
+        Some("integer") => format!("whole number{}", bounds(schema)),
+        Some(name) => format!("{name}{}", bounds(schema)),
+        None => "any value".to_owned(),
+    }
+}
+
+fn bounds(schema: &Value) -> String {
+    let bound = |key: &str, sign: &str| match &schema[key] {
+        Value::Number(number) => Some(format!("{sign} {number}")),
+        _ => None,
+    };
+    let bounds = [
+        bound("minimum", "≥"),
+        bound("exclusiveMinimum", ">"),
+        bound("maximum", "≤"),
+        bound("exclusiveMaximum", "<"),
+    ];
+    let bounds: Vec<String> = bounds.into_iter().flatten().collect();
+    match bounds.is_empty() {
+        true => String::new(),
+        false => format!(" {}", bounds.join(", ")),
+    }
+}
