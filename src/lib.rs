@@ -88,6 +88,7 @@ pub mod ledger;
 pub mod monitor;
 pub mod pilot;
 pub mod plan;
+pub mod plot;
 pub mod report;
 pub mod results;
 pub mod rng;

@@ -143,7 +143,12 @@ impl Detect {
 
     fn write(&self, to: &Outputs, found: &Found, briefing: &Briefing) -> Result<(), Failure> {
         // What cannot be drawn leaves no other file behind.
-        let draw = |_: &Output| figure::detection(found.detection, &found.name());
+        let version = env!("CARGO_PKG_VERSION");
+        let provenance = format!("liftsim {version}, recording {}", found.name());
+        let draw = |_: &Output| {
+            let plot = figure::detection::plot(found.detection, &found.name())?;
+            figure::render(&plot, &provenance)
+        };
         let drawing = to.figure.as_ref().map(draw).transpose();
         let drawing = drawing.map_err(|error| match error {
             FigureError::Short => self.refused(error.into()),

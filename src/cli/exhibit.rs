@@ -1,10 +1,10 @@
 //! Experiments that are no sweep: computed and written, or drawn again from what was written.
 
 use super::store::{Written, manifest, write_all};
-use super::{Failure, Outcome, print, table};
+use super::{Failure, Outcome, picture, print, table};
 use liftsim::config::ExhibitConfig;
 use liftsim::exhibit::{self, Exhibit, Rows, independence};
-use liftsim::figure::{self, Drawing};
+use liftsim::figure::Drawing;
 use liftsim::report::Section;
 use liftsim::results::{self, Directory, Manifest, Origin, file_name};
 use std::process::ExitCode;
@@ -61,7 +61,7 @@ pub fn write(
     seconds: f64,
 ) -> Result<Written, Failure> {
     let manifest = manifest(&Origin::from(config), seconds);
-    let drawing = figure::exhibit(config, &made.rows, &manifest).map_err(Failure::run)?;
+    let drawing = picture::exhibit(config, &made.rows, &manifest)?;
     let mut files = vec![("points.csv", made.rows.csv())];
     if !made.quantities.is_empty() {
         files.push(("quantities.csv", results::csv_bytes(&made.quantities)));
@@ -79,7 +79,7 @@ pub fn redraw(
     let points = directory.points(manifest).map_err(Failure::input)?;
     let rows = Rows::from_csv(&config.kind, &points)
         .map_err(|error| Failure::input(directory.damaged_points(error)))?;
-    figure::exhibit(config, &rows, manifest).map_err(Failure::run)
+    picture::exhibit(config, &rows, manifest)
 }
 
 /// What an enumeration found, as a table; nothing of other exhibits.

@@ -11,6 +11,7 @@ mod man;
 mod merge;
 mod monitor;
 mod output;
+mod picture;
 mod plan;
 mod plot;
 mod progress;

@@ -1,10 +1,9 @@
 //! `liftsim plot DIR`: draws the figure again from the stored rows.
 
 use super::store::{line, store};
-use super::{Failure, Outcome, exhibit, print};
+use super::{Failure, Outcome, exhibit, picture, print};
 use clap::Args;
 use liftsim::config::Experiment;
-use liftsim::figure;
 use liftsim::results::Directory;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -28,7 +27,7 @@ impl Plot {
         let drawing = match experiment {
             Experiment::Sweep(config) => {
                 let rows = directory.rows(&manifest).map_err(Failure::input)?;
-                figure::sweep(&config, &rows, &manifest).map_err(Failure::run)?
+                picture::sweep(&config, &rows, &manifest)?
             }
             Experiment::Exhibit(config) => exhibit::redraw(&config, &directory, &manifest)?,
         };

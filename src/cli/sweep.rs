@@ -2,12 +2,11 @@
 
 use super::progress::{self, Progress, Reporter};
 use super::store::{Written, line, manifest, write_all};
-use super::{Failure, Outcome, Simulation, exhibit, print};
+use super::{Failure, Outcome, Simulation, exhibit, picture, print};
 use clap::Args;
 use liftsim::campaign::{Campaign, Counts, Terms};
 use liftsim::claim::{self, Evidence};
 use liftsim::config::{Config, Experiment};
-use liftsim::figure;
 use liftsim::plan::Plan;
 use liftsim::report::Section;
 use liftsim::results::{self, Directory, Manifest, Origin, Quantity, Shard, file_name};
@@ -177,7 +176,7 @@ pub(super) fn write(
         },
         None => now,
     };
-    let drawing = figure::sweep(config, &counts.rows, &manifest).map_err(Failure::run)?;
+    let drawing = picture::sweep(config, &counts.rows, &manifest)?;
     let mut files = vec![("points.csv", results::csv_bytes(&counts.rows))];
     if !counts.pairs.is_empty() {
         let comparisons = results::csv_bytes(&counts.comparisons(config));

@@ -4,6 +4,8 @@ use super::output::Output;
 use super::{Failure, Outcome, print, table};
 use clap::{Args, ValueEnum};
 use liftsim::detect::{Alternative, NullLaws, Region, Rule, Samples};
+use liftsim::exhibit::region::boundary;
+use liftsim::figure::{region, render};
 use serde_json::json;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -88,9 +90,11 @@ impl Threshold {
             false => self.as_table(&laws, &region, &rule, alternative),
         };
         if let Some(figure) = figure {
-            let title = liftsim::figure::region_title(&samples, alternative, self.alpha);
-            let drawing = liftsim::figure::region(&laws, &rule, &region, title);
-            figure.draw(&drawing.map_err(Failure::run)?)?;
+            let title = region::title(&samples, alternative, self.alpha);
+            let plot = region::plot(&laws, &boundary(&rule, &region), &title);
+            let version = env!("CARGO_PKG_VERSION");
+            let provenance = format!("liftsim {version}, rule {rule}, {}", title.join("; "));
+            figure.draw(&render(&plot, &provenance).map_err(Failure::run)?)?;
         }
         print(&text)?;
         Ok(ExitCode::SUCCESS)

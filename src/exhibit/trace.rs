@@ -11,7 +11,9 @@
 //!
 //! [^1]: see [`crate::signal`].
 
-use crate::config::{ExhibitConfig, Part, Trace};
+pub use crate::config::Trace;
+
+use crate::config::{ExhibitConfig, Part};
 use crate::results::{Quantity, eight_digits};
 use crate::rng::Stream;
 use crate::signal::{During, ImpulseMemory, Law, Motion, Noise, Phase};

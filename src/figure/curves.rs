@@ -2,311 +2,277 @@
 //! false-alarm rate; in one panel, or in as many as the curves name.
 
 use super::FigureError;
-use super::frame::{CAPTION_LEFT, CAPTION_STEP, Frame, NORMAL, Scale, WIDTH, draw_caption};
-use super::legend::{Entry, Key, Legend};
-use super::look::Look;
-use super::panel::{Bound, Curve, Manner, Panel, Point, rate_scale};
-use super::ruler::{LONG_RANGE, Ruler};
-use super::sheet::{Picture, Sheet};
-use super::text::{Align, Style};
-use super::words::{axis_label, caption, common_facts, is_held_against_alpha, legend};
-use crate::config::{Config, Parameter};
-use crate::results::{Manifest, Row};
-use plotters::prelude::DrawingBackend;
+use super::labels::{self, Parameter, axis_label, common_facts, is_held_against_alpha};
+use super::rates::{Curve, Limit, Rate, add_bands, add_bars, rates};
+use super::x_axis::XAxis;
+use crate::plot::{
+    Axis, Entry, Key, LONG_RANGE, Legend, Margins, Mark, Panel, Place, Plot, Style, ends,
+};
+use crate::results::Row;
 
-/// One panel without legend above and caption below.
-const HEIGHT: f64 = 262.0;
-/// One of several, with its title.
-const SMALL_HEIGHT: f64 = 150.0;
-const LEFT: f64 = 54.0;
-const RIGHT: f64 = WIDTH - 16.0;
-/// For tick labels and the axis label under the lowest panel.
-const BELOW: f64 = 40.0;
-/// Between panels.
-const APART: f64 = 22.0;
+/// One panel, without its legend above.
+const HEIGHT: f64 = 212.0;
+/// One of several.
+const SMALL_HEIGHT: f64 = 114.0;
+
+/// What is swept.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    pub axis: Parameter,
+    /// Of the axis, where they are numbers.
+    pub values: Vec<f64>,
+    pub curves: Vec<SweepCurve>,
+}
+
+/// How a curve is shown.
+#[derive(Clone, Debug)]
+pub struct SweepCurve {
+    /// The panel it is drawn in.
+    pub panel: Option<String>,
+    /// Its name in the legend, where curves of several panels share it.
+    pub series: Option<String>,
+    /// 1 − β: what a unit of Δ in the record becomes after whitening.
+    pub step_gain: Option<f64>,
+}
+
+/// Curves that share a panel.
+struct Group {
+    title: String,
+    curves: Vec<Curve>,
+}
 
 /// The picture of a sweep.
-pub(super) struct Curves {
-    panels: Vec<Panel>,
-    legend: Legend,
-    manner: Manner,
-    axis: Parameter,
-    x: Scale,
-    y: Scale,
-    is_whitened: bool,
-    /// What a unit of Δ in the record becomes after whitening, where every curve agrees.
-    whitened_unit: Option<f64>,
-    is_false_alarm: bool,
-    caption: Vec<String>,
+///
+/// # Errors
+/// Where no row lies on the axis.
+pub fn plot(sweep: &Sweep, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
+    let drawn: Vec<Vec<&Row>> = (1..=sweep.curves.len())
+        .map(|curve| rows_of(rows, curve))
+        .collect();
+    let all: Vec<&Row> = drawn.iter().flatten().copied().collect();
+    if all.is_empty() {
+        return Err(FigureError::Empty(sweep.axis.name()));
+    }
+    let x = XAxis::new(sweep, &all);
+    let common = common_facts(&all);
+    let (entries, mut groups) = grouped(sweep, &drawn, &x, &common);
+    let is_false_alarm = all.iter().all(|row| row.is_at_rest());
+    let is_logarithmic = is_false_alarm && spans_far(&groups);
+    for rate in rates_of(&mut groups) {
+        match is_logarithmic {
+            true => rate.take_logarithms(),
+            false => rate.limit = None,
+        }
+    }
+    let mut plot = panels(
+        &x,
+        &y_axis(&groups, &all, is_false_alarm, is_logarithmic),
+        sweep,
+        &groups,
+        &all,
+    );
+    for (panel, group) in groups.iter().enumerate() {
+        plot.add(panel, Mark::Grid);
+        if let Some(y) = nominal(&all, is_logarithmic) {
+            plot.add(panel, Mark::Level { y, dash: &[] });
+        }
+        match x.is_named() {
+            true => add_bars(&mut plot, panel, &group.curves),
+            false => add_bands(&mut plot, panel, &group.curves, true),
+        }
+        plot.add(panel, Mark::Axes);
+    }
+    plot.add(0, Mark::Legend);
+    // One curve without a name of its own needs no legend.
+    plot.legend =
+        (entries.len() > 1 || entries[0].text != "1").then(|| Legend::new(entries, Place::Free));
+    plot.set_caption(&labels::caption(&all, common, sweep.axis, seed));
+    if rates_of(&mut groups).any(|rate| rate.limit.is_some()) {
+        plot.caption
+            .push("arrows: upper limits where no trial gave a false alarm".to_owned());
+    }
+    Ok(plot)
 }
 
-impl Curves {
-    pub fn new(config: &Config, rows: &[Row], manifest: &Manifest) -> Result<Self, FigureError> {
-        let axis = config.axis.parameter;
-        let drawn: Vec<Vec<&Row>> = (1..=config.curves.len())
-            .map(|index| rows_of(rows, index))
-            .collect();
-        let all: Vec<&Row> = drawn.iter().flatten().copied().collect();
-        if all.is_empty() {
-            return Err(FigureError::Empty(axis.name()));
+/// The legend, and the curves in the panels that they name.
+fn grouped(
+    sweep: &Sweep,
+    drawn: &[Vec<&Row>],
+    x: &XAxis,
+    common: &[Option<labels::Fact>],
+) -> (Vec<Entry>, Vec<Group>) {
+    let key = if x.is_named() {
+        Key::Marker
+    } else {
+        Key::MarkedLine
+    };
+    let mut entries: Vec<Entry> = Vec::new();
+    let mut groups: Vec<Group> = Vec::new();
+    for (curve, rows) in sweep.curves.iter().zip(drawn) {
+        if rows.is_empty() {
+            continue;
         }
-        let common = common_facts(&all);
-        let ruler = Ruler::new(config, &all);
-        let key = match ruler.is_named() {
-            true => Key::Marker,
-            false => Key::MarkedLine,
-        };
-        let mut entries: Vec<Entry> = Vec::new();
-        let mut panels: Vec<Panel> = Vec::new();
-        for (curve, rows) in config.curves.iter().zip(&drawn) {
-            if rows.is_empty() {
-                continue;
-            }
-            let words = match &curve.series {
-                Some(series) => series.clone(),
-                None => legend(rows, &common, axis),
-            };
-            let known = entries.iter().find(|entry| entry.text == words);
-            let look = known.map_or(Look::of(entries.len()), |entry| entry.look);
-            if known.is_none() {
-                entries.push(Entry {
-                    text: words,
-                    look,
-                    key,
-                });
-            }
-            let mut points: Vec<Point> = (0..rows.len())
-                .map(|i| point(ruler.place(rows, i), rows[i]))
-                .collect();
-            points.sort_by(|a, b| a.x.total_cmp(&b.x));
-            let title = curve.panel.clone().unwrap_or_default();
-            let known = panels.iter().position(|panel| panel.title == title);
-            let panel = known.unwrap_or_else(|| {
-                panels.push(Panel {
-                    title,
-                    curves: Vec::new(),
-                });
-                panels.len() - 1
-            });
-            panels[panel].curves.push(Curve { look, points });
+        let series = curve.series.clone();
+        let text = series.unwrap_or_else(|| labels::legend(rows, common, sweep.axis));
+        let known = entries.iter().find(|entry| entry.text == text);
+        let style = known.map_or(Style::of(entries.len()), |entry| entry.style);
+        if known.is_none() {
+            entries.push(Entry::new(text, style, key));
         }
-        let is_false_alarm = all.iter().all(|row| row.is_at_rest());
-        let is_logarithmic = is_false_alarm && spans_far(&panels);
-        if is_logarithmic {
-            points_of(&mut panels).for_each(Point::take_logarithms);
-        }
-        let nominal = is_held_against_alpha(&all).then_some(all[0].alpha);
-        let manner = Manner {
-            is_named: ruler.is_named(),
-            is_logarithmic,
-            joins_bounds: true,
-            nominal: nominal.map(|alpha| match is_logarithmic {
-                true => libm::log10(alpha),
-                false => alpha,
+        let places = (0..rows.len()).map(|index| rate(x.place(rows, index), rows[index]));
+        let mut points: Vec<Rate> = places.collect();
+        points.sort_by(|a, b| a.x.total_cmp(&b.x));
+        let title = curve.panel.clone().unwrap_or_default();
+        let curve = Curve { style, points };
+        match groups.iter_mut().find(|group| group.title == title) {
+            Some(group) => group.curves.push(curve),
+            None => groups.push(Group {
+                title,
+                curves: vec![curve],
             }),
+        }
+    }
+    (entries, groups)
+}
+
+/// The panels: one, or two in a row, with words at the left and along the lowest.
+fn panels(x: &XAxis, y: &Axis, sweep: &Sweep, groups: &[Group], rows: &[&Row]) -> Plot {
+    let is_whitened = rows.iter().all(|row| row.delta_at == "whitened");
+    let label = axis_label(sweep.axis, is_whitened);
+    let (x_axis, y) = (
+        x.axis(
+            groups
+                .iter()
+                .flat_map(|group| rates(&group.curves).map(|rate| rate.x)),
+        ),
+        y.clone(),
+    );
+    let bottom = 40.0;
+    if let [group] = groups {
+        let unit =
+            whitened_unit(sweep, rows).filter(|_| !x.is_logarithmic() && group.title.is_empty());
+        let top = unit.map(|unit| {
+            let axis = Axis::linear(x_axis.from * unit, x_axis.to * unit, 8);
+            axis.labelled(axis_label(Parameter::Delta, true))
+        });
+        let above = match (&top, group.title.is_empty()) {
+            (Some(_), _) => 32.0,
+            (None, true) => 10.0,
+            (None, false) => 22.0,
         };
-        let mut caption = caption(&all, common, axis, manifest, WIDTH - 2.0 * CAPTION_LEFT);
-        if is_logarithmic && points_of(&mut panels).any(|point| point.bound.is_some()) {
-            caption.push("arrows: upper limits where no trial gave a false alarm".to_owned());
-        }
-        let places: Vec<f64> = points_of(&mut panels).map(|point| point.x).collect();
-        Ok(Self {
-            x: ruler.scale(&places),
-            y: rate_scale(&panels, is_false_alarm, manner),
-            is_whitened: all.iter().all(|row| row.delta_at == "whitened"),
-            whitened_unit: whitened_unit(config, &all)
-                .filter(|_| panels.len() == 1 && !ruler.is_logarithmic()),
-            legend: Legend::new(entries),
-            is_false_alarm,
-            manner,
-            caption,
-            panels,
-            axis,
-        }
-        .with_legend_in_place())
-    }
-
-    /// Where there is no better place for it, the legend lies above the panels, as low as it can be.
-    fn with_legend_in_place(self) -> Self {
-        match self.place() {
-            Some(_) => self,
-            None => Self {
-                legend: self.legend.spread(RIGHT - LEFT),
-                ..self
-            },
-        }
-    }
-
-    /// Several panels stand two in a row.
-    fn grid_rows(&self) -> usize {
-        self.panels.len().div_ceil(2)
-    }
-
-    /// The frame of a panel, with `above` points left free over all of them.
-    fn frame(&self, index: usize, above: f64) -> Frame {
-        let (x, y) = (self.x.clone(), self.y.clone());
-        if self.panels.len() == 1 {
-            let over = if self.whitened_unit.is_some() {
-                32.0
-            } else {
-                10.0
-            };
-            return Frame {
-                left: LEFT,
-                right: RIGHT,
-                top: above + over,
-                bottom: above + HEIGHT - BELOW,
-                x,
-                y,
-            };
-        }
-        let width = (RIGHT - LEFT - APART) / 2.0;
-        let left = LEFT + (index % 2) as f64 * (width + APART);
-        let top = above + 22.0 + (index / 2) as f64 * SMALL_HEIGHT;
-        Frame {
-            left,
-            right: left + width,
+        let margins = Margins {
+            top: above,
+            bottom,
+            ..Margins::default()
+        };
+        let height = HEIGHT + 10.0 - above;
+        let panel = Panel {
+            title: group.title.clone(),
             top,
-            bottom: top + SMALL_HEIGHT - 36.0,
-            x: Scale {
-                ticks: self.x.sparse_ticks(width),
-                ..x
-            },
-            y,
-        }
-    }
-
-    /// Where the legend goes: a corner of the one panel, the free place of the grid, or above.
-    fn place(&self) -> Option<(f64, f64)> {
-        if self.panels.len() == 1 {
-            let frame = self.frame(0, 0.0);
-            let covered = self.panels[0].covered(&frame, self.manner);
-            return self.legend.free_corner(&frame, &covered);
-        }
-        let free = self.frame(self.panels.len(), 0.0);
-        let is_free = self.panels.len() % 2 == 1 && self.legend.width() < free.right - free.left;
-        is_free.then_some((free.left, free.top))
-    }
-
-    /// One curve without a name of its own needs no legend.
-    fn has_legend(&self) -> bool {
-        !(self.legend.entries.len() == 1 && self.legend.entries[0].text == "1")
-    }
-
-    /// What the legend takes above the panels, where there is no better place.
-    fn above(&self) -> f64 {
-        match self.has_legend() && self.place().is_none() {
-            true => self.legend.height() + 8.0,
-            false => 0.0,
-        }
-    }
-
-    /// The lower end of the panels and what stands under them.
-    fn bottom(&self) -> f64 {
-        match self.panels.len() {
-            1 => self.above() + HEIGHT,
-            _ => self.above() + 26.0 + self.grid_rows() as f64 * SMALL_HEIGHT,
-        }
-    }
-
-    fn draw_panel<B: DrawingBackend>(
-        &self,
-        sheet: &Sheet<B>,
-        index: usize,
-    ) -> Result<(), FigureError> {
-        let mut frame = self.frame(index, self.above());
-        let panel = &self.panels[index];
-        panel.draw(sheet, &frame, self.manner)?;
-        let is_left = self.panels.len() == 1 || index.is_multiple_of(2);
-        let is_lowest = index + 2 >= self.panels.len();
-        let y_label = match (is_left, self.is_false_alarm) {
-            (false, _) => "",
-            (true, true) => "false-alarm rate",
-            (true, false) => "D, probability of detection",
+            ..Panel::new(height, x_axis.labelled(label), y)
         };
-        if !is_left {
-            frame.y = frame.y.unlabelled();
-        }
-        let x_label = match is_lowest {
-            true => axis_label(self.axis, self.is_whitened),
-            false => "",
+        return Plot {
+            margins,
+            ..Plot::of(vec![panel], 1)
         };
-        frame.draw_axes(sheet, x_label, y_label)?;
-        let title = (f64::midpoint(frame.left, frame.right), frame.top - 5.0);
-        sheet.text(&panel.title, title, Style::plain(NORMAL, Align::Centre))
+    }
+    let panel = |(index, group): (usize, &Group)| {
+        let is_lowest = index + 2 >= groups.len();
+        let x = x_axis.clone().labelled(if is_lowest { label } else { "" });
+        let y = if index.is_multiple_of(2) {
+            y.clone()
+        } else {
+            y.unlabelled()
+        };
+        Panel {
+            title: group.title.clone(),
+            ..Panel::new(SMALL_HEIGHT, x, y)
+        }
+    };
+    let margins = Margins {
+        top: 22.0,
+        bottom,
+        ..Margins::default()
+    };
+    Plot {
+        margins,
+        ..Plot::of(groups.iter().enumerate().map(panel).collect(), 2)
     }
 }
 
-impl Picture for Curves {
-    fn size(&self) -> (f64, f64) {
-        let caption = CAPTION_STEP * self.caption.len() as f64;
-        (WIDTH, self.bottom() + caption)
+/// From 0 to 1 for a power; for false-alarm rates around what there is of them.
+fn y_axis(groups: &[Group], rows: &[&Row], is_false_alarm: bool, is_logarithmic: bool) -> Axis {
+    if !is_false_alarm {
+        let axis = Axis::linear(0.0, 1.0, 5).within(0.0, 1.03);
+        return axis.labelled("D, probability of detection");
     }
-
-    fn draw<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
-        sheet.clear(self.size())?;
-        for index in 0..self.panels.len() {
-            self.draw_panel(sheet, index)?;
+    let all = || groups.iter().flat_map(|group| rates(&group.curves));
+    let nominal = nominal(rows, is_logarithmic);
+    let axis = match is_logarithmic {
+        true => {
+            let (bottom, top) = ends(all().map(|rate| rate.rate).chain(nominal));
+            Axis::decades(bottom - 0.25, (top + 0.15).min(0.08))
         }
-        if let Some(unit) = self.whitened_unit {
-            let frame = self.frame(0, self.above());
-            let scale = Scale::linear(frame.x.from * unit, frame.x.to * unit, 8);
-            frame.draw_top(sheet, &scale, axis_label(Parameter::Delta, true))?;
+        false => {
+            let (bottom, top) = ends(all().flat_map(|rate| [rate.low, rate.high]).chain(nominal));
+            let room = (top - bottom).max(1e-9);
+            // Room above for the legend.
+            Axis::linear((bottom - 0.1 * room).max(0.0), top + 0.8 * room, 6)
         }
-        if self.has_legend() {
-            self.legend
-                .draw(sheet, self.place().unwrap_or((LEFT, 4.0)))?;
-        }
-        draw_caption(sheet, &self.caption, self.bottom() + 1.0)
-    }
+    };
+    axis.labelled("false-alarm rate")
 }
 
-fn points_of(panels: &mut [Panel]) -> impl Iterator<Item = &mut Point> {
-    let curves = panels.iter_mut().flat_map(|panel| &mut panel.curves);
+/// Where the level stands that false-alarm rates are compared with.
+fn nominal(rows: &[&Row], is_logarithmic: bool) -> Option<f64> {
+    let alpha = is_held_against_alpha(rows).then_some(rows[0].alpha)?;
+    Some(if is_logarithmic {
+        libm::log10(alpha)
+    } else {
+        alpha
+    })
+}
+
+fn rates_of(groups: &mut [Group]) -> impl Iterator<Item = &mut Rate> {
+    let curves = groups.iter_mut().flat_map(|group| &mut group.curves);
     curves.flat_map(|curve| &mut curve.points)
 }
 
 /// Whether the largest rate is so many times the smallest that a linear scale would hide it.
-fn spans_far(panels: &[Panel]) -> bool {
-    let curves = || panels.iter().flat_map(|panel| &panel.curves);
-    let rates = || {
-        let points = curves().flat_map(|curve| &curve.points);
-        points.map(Point::shown)
-    };
-    let smallest = rates().fold(f64::INFINITY, f64::min);
-    rates().fold(0.0, f64::max) >= LONG_RANGE * smallest
+fn spans_far(groups: &[Group]) -> bool {
+    let all = groups.iter().flat_map(|group| rates(&group.curves));
+    let (smallest, largest) = ends(all.map(Rate::shown));
+    largest >= LONG_RANGE * smallest
 }
 
 /// A row's rate and interval, from its counts.
-fn point(x: f64, row: &Row) -> Point {
+fn rate(x: f64, row: &Row) -> Rate {
     let (low, high) = row.tally().interval(row.confidence);
-    Point {
+    Rate {
         x,
         rate: row.tally().rate(),
         low,
         high,
-        bound: (row.detections == 0).then_some(Bound::Upper),
+        limit: (row.detections == 0).then_some(Limit::Upper),
     }
 }
 
 /// The rows a curve is drawn from: those in motion, or at rest where nothing ever moves.
 fn rows_of(rows: &[Row], curve: usize) -> Vec<&Row> {
-    let of_curve = || rows.iter().filter(|row| row.curve == curve);
-    let in_motion: Vec<&Row> = of_curve().filter(|row| !row.is_at_rest()).collect();
-    match in_motion.is_empty() {
-        true => of_curve().collect(),
-        false => in_motion,
+    let (at_rest, in_motion): (Vec<&Row>, Vec<&Row>) =
+        (rows.iter().filter(|row| row.curve == curve)).partition(|row| row.is_at_rest());
+    if in_motion.is_empty() {
+        at_rest
+    } else {
+        in_motion
     }
 }
 
 /// 1 − β, where the axis is Δ in the record and every curve has the same sensor, undecimated.
-fn whitened_unit(config: &Config, rows: &[&Row]) -> Option<f64> {
-    let first = rows.first()?;
+fn whitened_unit(sweep: &Sweep, rows: &[&Row]) -> Option<f64> {
+    let first = rows[0];
     let agrees =
         |row: &&Row| row.delta_at == "record" && row.sensor == first.sensor && row.decimation == 1;
-    let scenario = config
-        .scenario(first.curve - 1, config.axis.values.first()?)
-        .ok()?;
-    let is_delta = config.axis.parameter == Parameter::Delta;
-    (is_delta && rows.iter().all(agrees)).then(|| scenario.sensor.step_gain())
+    let is_one = sweep.axis == Parameter::Delta && rows.iter().all(agrees);
+    sweep.curves[first.curve - 1].step_gain.filter(|_| is_one)
 }

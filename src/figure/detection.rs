@@ -2,258 +2,172 @@
 //! X, Y₁ and Y₂ of each decision lay, and when it was made.
 
 use super::FigureError;
-use super::frame::{CAPTION_LEFT, Frame, SMALL, Scale, WIDTH};
-use super::legend::{Entry, Key, Legend};
-use super::look::Look;
-use super::phases::{draw_dense, draw_limit, phase_colour, phase_words};
-use super::sheet::{Picture, Sheet};
-use super::text::{Align, Style, literal, text_width};
-use super::words::wrap;
+use super::phases::{add_phases, phase_colour, phase_words};
 use crate::detection::{Column, Detection};
 use crate::monitor::{Decision, Kind, State};
-use crate::signal::Phase;
-use plotters::prelude::{BLACK, DrawingBackend, RGBColor};
+use crate::plot::{
+    Axis, Colour, Entry, Key, Legend, Margins, Mark, Place, Plot, Style, ends, literal,
+};
 
 const PANEL: f64 = 140.0;
-/// Room for the names of the states.
-const NAMES: f64 = 16.0;
 /// Room for the bars of the samples, as a share of the lower panel.
 const BARS: f64 = 0.34;
+/// Of X, Y₁ and Y₂.
+const SAMPLES: [&str; 3] = ["X", "Y_1", "Y_2"];
 
-/// The picture of a detection.
-pub(super) struct Found<'a> {
-    detection: &'a Detection,
-    frames: [Frame; 2],
-    states: Vec<Stretch>,
-    decisions: Vec<(f64, Decision)>,
-    legend: Legend,
-    caption: Vec<String>,
-}
-
-/// A state and from when to when it lasted, s.
-struct Stretch {
-    state: State,
-    from: f64,
-    to: f64,
-}
-
-impl<'a> Found<'a> {
-    pub fn new(detection: &'a Detection, name: &str) -> Result<Self, FigureError> {
-        let columns = detection.trace.columns();
-        let (Some(first), Some(last)) = (columns.first(), columns.last()) else {
-            return Err(FigureError::Short);
-        };
-        let (from, to) = (first.times.0, last.times.1);
-        let states = states(detection, from, to);
-        let x = Scale::linear(from, to, 10);
-        let is_known = |column: &&Column| is_known(&states, column);
-        let record = scale(columns, is_known, 0.08, |column| column.record);
-        let whitened = scale(columns, is_known, BARS, |column| column.whitened);
-        let legend = legend();
-        let frames = Frame::stack(
-            NAMES + legend.height() + 4.0,
-            [(PANEL, record), (PANEL, whitened)],
-            &x,
-        );
-        Ok(Self {
-            frames,
-            decisions: decisions(detection),
-            caption: caption(detection, name),
-            legend,
-            states,
-            detection,
-        })
-    }
-
-    fn draw_states<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
-        let upper = &self.frames[0];
-        let mut taken = 0.0;
-        for Stretch { state, from, to } in &self.states {
-            let colour = state_colour(*state);
-            for frame in &self.frames {
-                frame.draw_band(sheet, (*from, *to), colour)?;
-            }
-            let (left, right) = (upper.at(*from, 0.0).0, upper.at(*to, 0.0).0);
-            let words = state_words(*state);
-            let (middle, half) = (f64::midpoint(left, right), text_width(words, SMALL) / 2.0);
-            // Of names that would run into each other the first is kept.
-            if middle - half > taken && middle + half < WIDTH {
-                let at = (middle, upper.top - 5.0);
-                sheet.text(words, at, Style::plain(SMALL, Align::Centre))?;
-                taken = middle + half + 4.0;
-            }
+/// The picture of a recording, whose name is `name`, and what was found in it.
+///
+/// # Errors
+/// Where the recording has not even one block.
+pub fn plot(detection: &Detection, name: &str) -> Result<Plot, FigureError> {
+    let columns = detection.trace.columns();
+    let (Some(first), Some(last)) = (columns.first(), columns.last()) else {
+        return Err(FigureError::Short);
+    };
+    let (from, to) = (first.times.0, last.times.1);
+    let states = states(detection, from, to);
+    let x = Axis::linear(from, to, 10).labelled("time, s");
+    let record = y_axis(columns, &states, 0.08, |column| column.record).labelled("record, m/s²");
+    let whitened =
+        y_axis(columns, &states, BARS, |column| column.whitened).labelled("whitened, m/s²");
+    let margins = Margins {
+        top: 16.0,
+        legend: (4.0, 4.0),
+        ..Margins::default()
+    };
+    let mut plot = Plot {
+        margins,
+        ..Plot::stack(&x, [(PANEL, record), (PANEL, whitened)])
+    };
+    add_phases(&mut plot, &states, 5.0);
+    plot.add(1, Mark::Level { y: 0.0, dash: &[] });
+    plot.add(0, values(columns, |column| column.record));
+    plot.add(1, values(columns, |column| column.whitened));
+    for event in &detection.events {
+        if let Kind::Change {
+            decision: Some(decision),
+            ..
+        } = event.kind
+        {
+            add_decision(&mut plot, &decision, event.reported);
         }
-        Ok(())
     }
-
-    fn draw_values<B: DrawingBackend>(
-        &self,
-        sheet: &Sheet<B>,
-        frame: &Frame,
-        value: impl Fn(&Column) -> (f64, f64),
-    ) -> Result<(), FigureError> {
-        let line: Vec<_> = (self.detection.trace.columns().iter())
-            .flat_map(|column| {
-                let (low, high) = value(column);
-                [(column.times.0, low), (column.times.1, high)]
-            })
-            .map(|(x, y)| frame.at_within(x, y))
-            .collect();
-        draw_dense(sheet, &line, Look::of(0).colour)
-    }
-
-    /// A bar for each of X, Y₁ and Y₂, and a dashed line where the decision was made.
-    fn draw_decisions<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
-        let [upper, lower] = &self.frames;
-        for (reported, decision) in &self.decisions {
-            let placed = decision.samples.iter().enumerate();
-            for (index, (from, to)) in placed.filter_map(|(index, span)| Some((index, (*span)?))) {
-                let y = lower.top + 6.0 + 5.0 * index as f64;
-                let ends = [lower.at_within(from, 0.0).0, lower.at_within(to, 0.0).0];
-                sheet.line(&ends.map(|x| (x, y)), 2.4, sample_colour(index).into())?;
-            }
-            let x = lower.at_within(*reported, 0.0).0;
-            draw_limit(sheet, x, [upper.top, lower.bottom])?;
-        }
-        Ok(())
-    }
+    plot.add(0, Mark::Axes);
+    plot.add(1, Mark::Axes);
+    plot.add(0, Mark::Legend);
+    plot.legend = Some(Legend::new(entries(), Place::Across));
+    plot.set_caption(&caption(detection, name));
+    Ok(plot)
 }
 
-impl Picture for Found<'_> {
-    fn size(&self) -> (f64, f64) {
-        self.frames[1].sheet_size(&self.caption)
-    }
-
-    fn draw<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
-        sheet.clear(self.size())?;
-        self.draw_states(sheet)?;
-        let [upper, lower] = &self.frames;
-        lower.draw_level(sheet, 0.0, &[])?;
-        self.draw_values(sheet, upper, |column| column.record)?;
-        self.draw_values(sheet, lower, |column| column.whitened)?;
-        self.draw_decisions(sheet)?;
-        upper.draw_axes(sheet, "", "record, m/s²")?;
-        lower.draw_axes(sheet, "time, s", "whitened, m/s²")?;
-        self.legend.draw(sheet, (CAPTION_LEFT, 4.0))?;
-        lower.draw_caption(sheet, &self.caption)
-    }
-}
-
-fn states(detection: &Detection, from: f64, to: f64) -> Vec<Stretch> {
-    let mut states = vec![Stretch {
-        state: State::Unknown,
-        from,
-        to,
-    }];
+/// From when to when each state lasted, s, and its name.
+fn states(detection: &Detection, from: f64, to: f64) -> Vec<(f64, f64, &'static str)> {
+    let mut states = vec![(from, to, "unknown")];
     for event in &detection.events {
         if let Kind::Change { state, .. } = event.kind {
             if let Some(last) = states.last_mut() {
-                last.to = event.time;
+                last.1 = event.time;
             }
-            states.push(Stretch {
-                state,
-                from: event.time,
-                to,
-            });
+            let name = match state {
+                State::Unknown => "unknown",
+                State::Known(phase) => phase.name(),
+            };
+            states.push((event.time, to, name));
         }
     }
-    states.retain(|stretch| stretch.from < stretch.to);
+    states.retain(|(from, to, _)| from < to);
     states
-}
-
-fn decisions(detection: &Detection) -> Vec<(f64, Decision)> {
-    let decided = detection
-        .events
-        .iter()
-        .filter_map(|event| match event.kind {
-            Kind::Change { decision, .. } => Some((event.reported, decision?)),
-            Kind::Alarm(_) => None,
-        });
-    decided.collect()
-}
-
-fn is_known(states: &[Stretch], column: &Column) -> bool {
-    let mut known = states
-        .iter()
-        .filter(|stretch| stretch.state != State::Unknown);
-    known.any(|stretch| stretch.from <= column.times.0 && column.times.1 <= stretch.to)
 }
 
 /// A scale for what was recorded while something was known of the cage: somebody who picks the sensor up
 /// would flatten everything else.
-fn scale(
+fn y_axis(
     columns: &[Column],
-    is_known: impl Fn(&&Column) -> bool,
+    states: &[(f64, f64, &str)],
     above: f64,
-    value: impl Fn(&Column) -> (f64, f64),
-) -> Scale {
-    let known: Vec<_> = columns.iter().filter(&is_known).map(&value).collect();
+    value: fn(&Column) -> (f64, f64),
+) -> Axis {
+    let is_known = |column: &&Column| {
+        let mut known = states.iter().filter(|(_, _, name)| *name != "unknown");
+        known.any(|(from, to, _)| *from <= column.times.0 && column.times.1 <= *to)
+    };
+    let known: Vec<_> = columns.iter().filter(is_known).map(value).collect();
     let shown = match known.is_empty() {
         true => columns.iter().map(value).collect(),
         false => known,
     };
-    let low = shown
-        .iter()
-        .map(|pair| pair.0)
-        .fold(f64::INFINITY, f64::min);
-    let high = shown
-        .iter()
-        .map(|pair| pair.1)
-        .fold(f64::NEG_INFINITY, f64::max);
+    let (low, high) = ends(shown.into_iter().flat_map(|(low, high)| [low, high]));
     let room = (high - low).max(1e-9);
-    Scale::linear(low - 0.08 * room, high + above * room, 5)
+    Axis::linear(low - 0.08 * room, high + above * room, 5)
 }
 
-fn state_colour(state: State) -> RGBColor {
-    match state {
-        State::Unknown => RGBColor(232, 232, 232),
-        State::Known(phase) => phase_colour(phase.name()),
+fn values(columns: &[Column], value: fn(&Column) -> (f64, f64)) -> Mark {
+    let points = columns.iter().flat_map(|column| {
+        let ((from, to), (low, high)) = (column.times, value(column));
+        [(from, low), (to, high)]
+    });
+    Mark::Dense {
+        points: points.collect(),
+        colour: Style::of(0).colour,
     }
 }
 
-fn state_words(state: State) -> &'static str {
-    match state {
-        State::Unknown => "unknown",
-        State::Known(phase) => phase_words(phase.name()),
+/// A bar for each of X, Y₁ and Y₂, and a dashed line where the decision was made.
+fn add_decision(plot: &mut Plot, decision: &Decision, reported: f64) {
+    for (index, span) in decision.samples.iter().enumerate() {
+        if let Some((from, to)) = *span {
+            let (below, colour) = (6.0 + 5.0 * index as f64, sample_colour(index));
+            plot.add(
+                1,
+                Mark::Bar {
+                    from,
+                    to,
+                    below,
+                    colour,
+                },
+            );
+        }
     }
+    plot.add(1, Mark::Limit { x: reported });
 }
 
-fn sample_colour(index: usize) -> RGBColor {
-    [BLACK, Look::of(1).colour, Look::of(2).colour][index]
+fn sample_colour(index: usize) -> Colour {
+    [Colour::BLACK, Style::of(1).colour, Style::of(2).colour][index]
 }
 
-fn legend() -> Legend {
-    let entry = |text: &str, colour: RGBColor, dash: &'static [f64], key: Key| Entry {
-        text: text.to_owned(),
-        look: Look {
-            dash,
-            colour,
-            ..Look::of(0)
-        },
-        key,
+/// Phases above samples, in columns of two.
+fn entries() -> Vec<Entry> {
+    let entry = |text: &str, colour: Colour, dash: &'static [f64], key: Key| {
+        Entry::new(
+            text,
+            Style {
+                colour,
+                dash,
+                ..Style::of(0)
+            },
+            key,
+        )
     };
-    let shade = |phase: Phase| {
-        let state = State::Known(phase);
-        entry(state_words(state), state_colour(state), &[], Key::Shade)
-    };
-    let sample = |index: usize, name: &str| entry(name, sample_colour(index), &[], Key::Line);
-    let entries = vec![
-        shade(Phase::Accelerating),
-        sample(0, "X"),
-        shade(Phase::Inertial),
-        sample(1, "Y_1"),
-        shade(Phase::Braking),
-        sample(2, "Y_2"),
-        entry("unknown", state_colour(State::Unknown), &[], Key::Shade),
-        entry("decision made", BLACK, &[2.0, 2.0], Key::Line),
-    ];
-    Legend::new(entries).spread(WIDTH - 2.0 * CAPTION_LEFT)
+    let shade = |name: &str| entry(phase_words(name), phase_colour(name), &[], Key::Shade);
+    let phases = ["acceleration", "inertial", "braking"]
+        .into_iter()
+        .enumerate();
+    phases
+        .flat_map(|(index, name)| {
+            [
+                shade(name),
+                entry(SAMPLES[index], sample_colour(index), &[], Key::Line),
+            ]
+        })
+        .chain([
+            shade("unknown"),
+            entry("decision made", Colour::BLACK, &[2.0, 2.0], Key::Line),
+        ])
+        .collect()
 }
 
 fn caption(detection: &Detection, name: &str) -> Vec<String> {
-    let Detection {
-        design, knowledge, ..
-    } = detection;
+    let design = &detection.design;
     let mut parts = vec![
         literal(name),
         format!("{:.1} Hz", design.rate),
@@ -261,8 +175,8 @@ fn caption(detection: &Detection, name: &str) -> Vec<String> {
         format!("N/M_1/M_2 = {}", design.samples),
         format!("α = {}", design.settings.alpha),
     ];
-    if let Some(reference) = &knowledge.reference {
+    if let Some(reference) = &detection.knowledge.reference {
         parts.push(format!("filter of order {}", reference.coefficients.len()));
     }
-    wrap(&parts, WIDTH - 2.0 * CAPTION_LEFT)
+    parts
 }

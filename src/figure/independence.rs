@@ -1,91 +1,53 @@
 //! P(W, T) against P(W)·P(T), for every W, T and sizes: on the diagonal where W and T are independent.
 
-use super::FigureError;
-use super::frame::{CAPTION_LEFT, Frame, Scale, WIDTH};
-use super::legend::{Entry, Key, Legend};
-use super::look::Look;
-use super::sheet::{Picture, Sheet};
-use super::words::wrap;
 use crate::exhibit::independence::{Row, findings};
 use crate::format::thousands;
-use plotters::prelude::{BLACK, Color, DrawingBackend};
+use crate::plot::{Axis, Colour, Entry, Key, Legend, Mark, Place, Plot, Point, Style};
 
-const HEIGHT: f64 = 280.0;
-const MARKER: f64 = 1.8;
 /// Sizes that a legend can name.
 const NAMED: usize = 18;
 
 /// The picture of an enumeration.
-pub(super) struct Diagonal<'a> {
-    sizes: Vec<&'a [Row]>,
-    frame: Frame,
-    caption: Vec<String>,
-}
-
-impl<'a> Diagonal<'a> {
-    pub fn new(rows: &'a [Row]) -> Self {
-        let sizes: Vec<&[Row]> = rows.chunk_by(|a, b| sizes_of(a) == sizes_of(b)).collect();
-        let logarithms = rows.iter().flat_map(places).filter(|x| x.is_finite());
-        let lowest = logarithms.fold(-1.0, f64::min).floor();
-        let scale = Scale::powers_of_ten(lowest - 0.2, 0.2, 8);
-        Self {
-            frame: Frame {
-                left: 54.0,
-                right: WIDTH - 16.0,
-                top: 10.0,
-                bottom: HEIGHT,
-                x: scale.clone(),
-                y: scale,
+pub fn plot(rows: &[Row]) -> Plot {
+    let sizes: Vec<&[Row]> = rows.chunk_by(|a, b| sizes_of(a) == sizes_of(b)).collect();
+    let logarithms = rows.iter().flat_map(places).filter(|x| x.is_finite());
+    let lowest = logarithms.fold(-1.0, f64::min).floor();
+    let axis = Axis::powers_of_ten(lowest - 0.2, 0.2, 8);
+    let (from, to) = (axis.from, axis.to);
+    let (x, y) = (axis.clone().labelled("P(W)·P(T)"), axis.labelled("P(W, T)"));
+    let mut plot = Plot::stack(&x, [(270.0, y)]);
+    plot.add(0, Mark::Grid);
+    let diagonal = Style {
+        colour: Colour::BLACK.faded(0.6),
+        ..Style::of(0).solid()
+    };
+    plot.add(0, Mark::line([(from, from), (to, to)], 0.8, diagonal));
+    for (index, rows) in sizes.iter().enumerate() {
+        // A cell that never occurs lies on the lower edge.
+        let points = rows
+            .iter()
+            .map(places)
+            .map(|[x, y]| Point::at(x, y.max(from)));
+        let style = Style::of(index);
+        plot.add(
+            0,
+            Mark::Points {
+                points: points.collect(),
+                size: 1.8,
+                width: 0.0,
+                style,
             },
-            caption: caption(rows),
-            sizes,
-        }
+        );
     }
-
-    /// On the sheet; a cell that never occurs lies on the lower edge.
-    fn place(&self, row: &Row) -> (f64, f64) {
-        let [x, y] = places(row);
-        self.frame.at(x, y.max(self.frame.y.from))
-    }
-
-    fn legend(&self) -> Legend {
-        let entry = |(index, rows): (usize, &&[Row])| Entry {
-            text: sizes_of(&rows[0]).map(|size| size.to_string()).join("/"),
-            look: Look::of(index),
-            key: Key::Marker,
-        };
-        let entries = self.sizes.iter().enumerate().take(NAMED).map(entry);
-        Legend::new(entries.collect())
-    }
-}
-
-impl Picture for Diagonal<'_> {
-    fn size(&self) -> (f64, f64) {
-        self.frame.sheet_size(&self.caption)
-    }
-
-    fn draw<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
-        let frame = &self.frame;
-        sheet.clear(self.size())?;
-        frame.draw_grid(sheet)?;
-        let (from, to) = (frame.x.from, frame.x.to);
-        let diagonal = [frame.at(from, from), frame.at(to, to)];
-        sheet.line(&diagonal, 0.8, BLACK.mix(0.6))?;
-        for (index, rows) in self.sizes.iter().enumerate() {
-            let look = Look::of(index);
-            for row in rows.iter() {
-                sheet.marker(look.marker, self.place(row), MARKER, look.colour)?;
-            }
-        }
-        frame.draw_axes(sheet, "P(W)·P(T)", "P(W, T)")?;
-        let covered: Vec<_> = (self.sizes.iter().copied().flatten())
-            .map(|row| self.place(row))
-            .collect();
-        let legend = self.legend();
-        let corner = legend.free_corner(frame, &covered);
-        legend.draw(sheet, corner.unwrap_or((frame.left + 6.0, frame.top + 6.0)))?;
-        frame.draw_caption(sheet, &self.caption)
-    }
+    plot.add(0, Mark::Axes);
+    plot.add(0, Mark::Legend);
+    let entries = sizes.iter().take(NAMED).enumerate().map(|(index, rows)| {
+        let text = sizes_of(&rows[0]).map(|size| size.to_string()).join("/");
+        Entry::new(text, Style::of(index), Key::Marker)
+    });
+    plot.legend = Some(Legend::new(entries.collect(), Place::Free));
+    plot.set_caption(&caption(rows));
+    plot
 }
 
 fn sizes_of(row: &Row) -> [usize; 3] {
@@ -97,11 +59,11 @@ fn places(row: &Row) -> [f64; 2] {
     [row.product, row.joint].map(libm::log10)
 }
 
-fn caption(rows: &[Row]) -> Vec<String> {
+fn caption(rows: &[Row]) -> [String; 4] {
     let findings = findings(rows);
     let assignments: u64 = findings.iter().map(|finding| finding.assignments).sum();
     let largest = findings.iter().map(|finding| finding.largest_difference);
-    let parts = [
+    [
         "N/M_1/M_2 as in the legend".to_owned(),
         format!(
             "all {} assignments of ranks enumerated",
@@ -112,6 +74,5 @@ fn caption(rows: &[Row]) -> Vec<String> {
             "largest |n(W, T)·n − n(W)·n(T)| in whole numbers: {}",
             largest.max().unwrap_or(0)
         ),
-    ];
-    wrap(&parts, WIDTH - 2.0 * CAPTION_LEFT)
+    ]
 }

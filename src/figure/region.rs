@@ -1,35 +1,75 @@
 //! The plane of W and T: the null probability of every cell on a logarithmic scale, and the boundary
 //! C_W(T) of each region as a line of its own colour, dash and width.
 
-use super::FigureError;
-use super::frame::{CAPTION_LEFT, Frame, SMALL, Scale, WIDTH, power_of_ten};
-use super::legend::{Entry, Key, Legend};
-use super::look::Look;
-use super::sheet::{Picture, Sheet};
-use super::text::{Align, Style};
-use super::words::wrap;
 use crate::detect::{Alternative, NullLaws, Samples};
 use crate::exhibit::region::Row;
-use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor};
+use crate::plot::{
+    Axis, Cell, Colour, Entry, Key, Legend, Margins, Mark, Place, Plot, Style, power_of_ten,
+};
 
 const HEIGHT: f64 = 238.0;
 /// Cells less probable than this are as pale as it.
 const FAINTEST: f64 = 1e-12;
 /// Columns of the picture; a wide law is drawn by the largest probability in each.
-const COLUMNS: usize = 160;
+const COLUMNS: u64 = 160;
 /// The width of the last line; those before are wider, so that lines that coincide are all seen.
 const LINE: f64 = 1.2;
+/// Dark colours first: lines lie on blue.
+const STYLES: [usize; 6] = [1, 2, 3, 4, 0, 5];
 
-/// The picture of one or more regions.
-pub(super) struct Plane<'a> {
-    laws: &'a NullLaws,
-    /// The rows of each rule.
-    regions: Vec<&'a [Row]>,
-    caption: Vec<String>,
+/// The picture of one or more regions; `title` is in parts, between which a line may break.
+pub fn plot(laws: &NullLaws, rows: &[Row], title: &[String]) -> Plot {
+    let regions: Vec<&[Row]> = rows.chunk_by(|a, b| a.rule == b.rule).collect();
+    let (low, high) = visible(laws);
+    let x = Axis::linear(low as f64 - 0.5, high as f64 + 0.5, 7).labelled("W, rank sum of Y_1");
+    let top = laws.exceedances().last() as f64 + 0.5;
+    let y = Axis::linear(-0.5, top, 8).labelled("T, exceedances of Y_2");
+    let (from, to) = (x.from, x.to);
+    let margins = Margins {
+        left: 48.0,
+        right: 76.0,
+        top: 4.0,
+        ..Margins::default()
+    };
+    let mut plot = Plot {
+        margins,
+        ..Plot::stack(&x, [(HEIGHT, y)])
+    };
+    plot.add(0, Mark::Cells(cells(laws)));
+    let shades = (2..=12).step_by(2).map(|exponent| {
+        (
+            shade(libm::pow(10.0, -f64::from(exponent))),
+            power_of_ten(-exponent),
+        )
+    });
+    plot.add(
+        0,
+        Mark::Shades {
+            title: "P(W, T | H_0)".to_owned(),
+            shades: shades.collect(),
+        },
+    );
+    let style = |index: usize| Style::of(STYLES[index % STYLES.len()]);
+    for (index, rows) in regions.iter().enumerate() {
+        let wider = 0.5 * (regions.len() - 1 - index) as f64;
+        for line in boundaries(rows, from, to) {
+            plot.add(0, Mark::line(line, LINE + wider, style(index)));
+        }
+    }
+    plot.add(0, Mark::Axes);
+    plot.add(0, Mark::Legend);
+    let entries = regions.iter().enumerate().map(|(index, rows)| {
+        let rule = rows[0].rule.split('(').next().unwrap_or_default();
+        let text = format!("{rule}, exact size {:.6}", rows[0].size);
+        Entry::new(text, style(index), Key::Line)
+    });
+    plot.legend = Some(Legend::new(entries.collect(), Place::Above));
+    plot.set_caption(title);
+    plot
 }
 
 /// What the regions share, and where they lie, in the parts of a caption.
-pub(super) fn title(samples: &Samples, alternative: Alternative, alpha: f64) -> Vec<String> {
+pub fn title(samples: &Samples, alternative: Alternative, alpha: f64) -> Vec<String> {
     let side = match alternative {
         Alternative::Greater => {
             "a rule decides H_1* to the right of its line, and above it where it runs level"
@@ -51,152 +91,63 @@ pub(super) fn title(samples: &Samples, alternative: Alternative, alpha: f64) -> 
     ]
 }
 
-impl<'a> Plane<'a> {
-    pub fn new(laws: &'a NullLaws, rows: &'a [Row], title: Vec<String>) -> Self {
-        Self {
-            laws,
-            regions: rows.chunk_by(|a, b| a.rule == b.rule).collect(),
-            caption: wrap(&title, WIDTH - 2.0 * CAPTION_LEFT),
-        }
-    }
-
-    /// The rank sums worth showing: between them lies all but a 1e-12th of either tail.
-    fn visible(&self) -> (u64, u64) {
-        let law = self.laws.rank_sum();
-        let high = law.critical(FAINTEST).min(law.last());
-        (law.first() + law.last() - high, high)
-    }
-
-    fn legend(&self) -> Legend {
-        let entry = |(index, rows): (usize, &&[Row])| Entry {
-            text: format!(
-                "{}, exact size {:.6}",
-                rows[0].rule.split('(').next().unwrap_or_default(),
-                rows[0].size
-            ),
-            look: Look::of(LOOKS[index % LOOKS.len()]),
-            key: Key::Line,
-        };
-        Legend::new(self.regions.iter().enumerate().map(entry).collect())
-    }
-
-    fn frame(&self) -> Frame {
-        let (low, high) = self.visible();
-        let top = self.legend().height() + 12.0;
-        Frame {
-            left: 48.0,
-            right: WIDTH - 76.0,
-            top,
-            bottom: top + HEIGHT,
-            x: Scale::linear(low as f64 - 0.5, high as f64 + 0.5, 7),
-            y: Scale::linear(-0.5, self.laws.exceedances().last() as f64 + 0.5, 8),
-        }
-    }
+/// The rank sums worth showing: between them lies all but a 1e-12th of either tail.
+fn visible(laws: &NullLaws) -> (u64, u64) {
+    let law = laws.rank_sum();
+    let high = law.critical(FAINTEST).min(law.last());
+    (law.first() + law.last() - high, high)
 }
 
-/// Dark colours first: lines lie on blue.
-const LOOKS: [usize; 6] = [1, 2, 3, 4, 0, 5];
-
-impl Picture for Plane<'_> {
-    fn size(&self) -> (f64, f64) {
-        self.frame().sheet_size(&self.caption)
-    }
-
-    fn draw<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
-        let frame = self.frame();
-        sheet.clear(self.size())?;
-        self.draw_cells(sheet, &frame)?;
-        self.draw_key(sheet, &frame)?;
-        for (index, rows) in self.regions.iter().enumerate() {
-            let wider = 0.5 * (self.regions.len() - 1 - index) as f64;
-            let look = Look::of(LOOKS[index % LOOKS.len()]);
-            for line in boundaries(rows, &frame) {
-                sheet.dashed(&line, LINE + wider, look.colour.to_rgba(), look.dash)?;
-            }
-        }
-        frame.draw_axes(sheet, "W, rank sum of Y_1", "T, exceedances of Y_2")?;
-        self.legend().draw(sheet, (frame.left, 4.0))?;
-        frame.draw_caption(sheet, &self.caption)
-    }
+fn cells(laws: &NullLaws) -> Vec<Cell> {
+    let (low, high) = visible(laws);
+    let width = (high - low + 1).div_ceil(COLUMNS);
+    let columns: Vec<(u64, u64, f64)> = (low..=high)
+        .step_by(width as usize)
+        .map(|from| (from, (from + width - 1).min(high)))
+        .map(|(from, to)| {
+            let masses = (from..=to).map(|w| laws.rank_sum().mass(w));
+            (from, to, masses.fold(0.0, f64::max))
+        })
+        .collect();
+    let rows = (0..=laws.exceedances().last()).map(|t| (t as f64, laws.exceedances().mass(t)));
+    let cell = |(t, mass): (f64, f64), &(from, to, largest): &(u64, u64, f64)| Cell {
+        corner: (from as f64 - 0.5, t + 0.5),
+        opposite: (to as f64 + 0.5, t - 0.5),
+        colour: shade(largest * mass),
+    };
+    rows.flat_map(|row| columns.iter().map(move |column| cell(row, column)))
+        .collect()
 }
 
-impl Plane<'_> {
-    fn draw_cells<B: DrawingBackend>(
-        &self,
-        sheet: &Sheet<B>,
-        frame: &Frame,
-    ) -> Result<(), FigureError> {
-        let (low, high) = self.visible();
-        let width = (high - low + 1).div_ceil(COLUMNS as u64);
-        let rank_sum: Vec<f64> = (low..=high).map(|w| self.laws.rank_sum().mass(w)).collect();
-        for t in 0..=self.laws.exceedances().last() {
-            let mass = self.laws.exceedances().mass(t);
-            for from in (low..=high).step_by(width as usize) {
-                let to = (from + width - 1).min(high);
-                let of_column = &rank_sum[(from - low) as usize..=(to - low) as usize];
-                let probability = of_column.iter().copied().fold(0.0, f64::max) * mass;
-                let corner = frame.at(from as f64 - 0.5, t as f64 + 0.5);
-                let opposite = frame.at(to as f64 + 0.5, t as f64 - 0.5);
-                sheet.rectangle(corner, opposite, shade(probability).to_rgba())?;
-            }
-        }
-        Ok(())
-    }
-
-    fn draw_key<B: DrawingBackend>(
-        &self,
-        sheet: &Sheet<B>,
-        frame: &Frame,
-    ) -> Result<(), FigureError> {
-        let (left, top) = (frame.right + 12.0, frame.top + 16.0);
-        let style = Style::plain(SMALL, Align::Left);
-        sheet.text("P(W, T | H_0)", (left, top - 8.0), style)?;
-        for (row, exponent) in (2..=12).step_by(2).enumerate() {
-            let y = top + 14.0 * row as f64;
-            let probability = libm::pow(10.0, -f64::from(exponent));
-            let (corner, opposite) = ((left, y), (left + 14.0, y + 10.0));
-            sheet.rectangle(corner, opposite, shade(probability).to_rgba())?;
-            sheet.outline(corner, opposite, 0.4, BLACK.mix(0.5))?;
-            let label = power_of_ten(-exponent);
-            sheet.text(&label, (left + 20.0, y + 8.0), style)?;
-        }
-        Ok(())
-    }
-}
-
-/// The lines around a region, on the sheet: for large W, and for small W where there are such. A part
-/// that lies outside the frame is left out.
-fn boundaries(rows: &[Row], frame: &Frame) -> Vec<Vec<(f64, f64)>> {
+/// The lines around a region: for large W, and for small W where there are such. A part that lies outside
+/// `from` to `to` is left out.
+fn boundaries(rows: &[Row], from: f64, to: f64) -> Vec<Vec<(f64, f64)>> {
     let upper = |row: &Row| row.upper.map_or(f64::INFINITY, |w| w as f64 - 0.5);
     let lower = |row: &Row| row.lower.map_or(f64::NEG_INFINITY, |w| w as f64 + 0.5);
-    let mut lines = steps(rows, frame, upper);
-    lines.extend(steps(rows, frame, lower));
+    let mut lines = steps(rows, from, to, upper);
+    lines.extend(steps(rows, from, to, lower));
     lines
 }
 
-fn steps(rows: &[Row], frame: &Frame, at: impl Fn(&Row) -> f64) -> Vec<Vec<(f64, f64)>> {
-    let (from, to) = (frame.x.from, frame.x.to);
-    let corners: Vec<(f64, f64)> = rows
-        .iter()
-        .flat_map(|row| {
-            let (w, t) = (at(row).clamp(from, to), row.exceedances as f64);
-            [(w, t - 0.5), (w, t + 0.5)]
-        })
-        .collect();
+fn steps(rows: &[Row], from: f64, to: f64, at: impl Fn(&Row) -> f64) -> Vec<Vec<(f64, f64)>> {
+    let corners = rows.iter().flat_map(|row| {
+        let (w, t) = (at(row).clamp(from, to), row.exceedances as f64);
+        [(w, t - 0.5), (w, t + 0.5)]
+    });
+    let corners: Vec<(f64, f64)> = corners.collect();
     let is_on_edge = |w: f64| w <= from || w >= to;
     let mut lines: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
     for (index, pair) in corners.windows(2).enumerate() {
-        let (a, b) = (pair[0], pair[1]);
         let is_upright = index % 2 == 0;
-        if is_upright && (is_on_edge(a.0) || decides_always(&rows[index / 2])) {
+        if is_upright && (is_on_edge(pair[0].0) || decides_always(&rows[index / 2])) {
             lines.push(Vec::new());
             continue;
         }
         let last = lines.last_mut().expect("there is a line");
         if last.is_empty() {
-            last.push(frame.at(a.0, a.1));
+            last.push(pair[0]);
         }
-        last.push(frame.at(b.0, b.1));
+        last.push(pair[1]);
     }
     lines.retain(|line| line.len() > 1);
     lines
@@ -208,9 +159,9 @@ fn decides_always(row: &Row) -> bool {
 }
 
 /// Darker where likelier.
-fn shade(probability: f64) -> RGBColor {
+fn shade(probability: f64) -> Colour {
     let depth =
         (1.0 - libm::log10(probability.max(FAINTEST)) / libm::log10(FAINTEST)).clamp(0.0, 1.0);
     let mix = |channel: f64| (255.0 + (channel - 255.0) * (0.04 + 0.8 * depth)) as u8;
-    RGBColor(mix(60.0), mix(90.0), mix(130.0))
+    Colour::new(mix(60.0), mix(90.0), mix(130.0))
 }

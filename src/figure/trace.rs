@@ -1,18 +1,12 @@
 //! A ride in time: the record, and below it the same whitened; phases shaded and named, samples
 //! bracketed.
 
-use super::FigureError;
-use super::frame::{CAPTION_LEFT, Frame, SMALL, Scale, WIDTH};
-use super::legend::{Entry, Key, Legend};
-use super::look::Look;
-use super::phases::{draw_dense, draw_limit, phase_colour, phase_words};
-use super::sheet::{Picture, Sheet};
-use super::text::{Align, Style, literal, text_width};
-use super::words::wrap;
-use crate::config::{ExhibitConfig, Trace};
-use crate::exhibit::trace::Row;
-use crate::results::Manifest;
-use plotters::prelude::{BLACK, Color, DrawingBackend};
+use super::phases::add_phases;
+use crate::chain::Scenario;
+use crate::exhibit::trace::{Row, Trace};
+use crate::plot::{
+    Axis, Entry, Key, Legend, Margins, Mark, Place, Plot, Point, Style, ends, literal,
+};
 
 const SINGLE: f64 = 190.0;
 const PANEL: f64 = 128.0;
@@ -24,239 +18,181 @@ const BRACKETS: f64 = 18.0;
 const FEW: usize = 250;
 
 /// The picture of a ride.
-pub(super) struct Ride<'a> {
-    trace: &'a Trace,
-    /// Those in the picture.
-    rows: &'a [Row],
-    frames: Vec<Frame>,
-    /// Seconds in a unit of the time axis.
-    unit: f64,
-    caption: Vec<String>,
+pub fn plot(rows: &[Row], trace: &Trace, scenario: &Scenario, seed: u64) -> Plot {
+    let rows = &rows[trace.drawn_from.min(rows.len() - 1)..];
+    let time = Time::new(trace, rows);
+    let unit = unit_words(&trace.unit);
+    let record = values(rows, 0.34, |row| Some(row.record)).labelled(format!("record, {unit}"));
+    let (mut plot, brackets) = match trace.whitened {
+        false => (Plot::stack(&time.axis(rows), [(SINGLE, record)]), 0.0),
+        true => {
+            let whitened =
+                values(rows, 0.06, |row| row.whitened).labelled(format!("whitened, {unit}"));
+            let panels = [(PANEL, record), (PANEL, whitened)];
+            (Plot::stack(&time.axis(rows), panels), BRACKETS)
+        }
+    };
+    plot.margins = Margins {
+        top: NAMES + brackets,
+        ..Margins::default()
+    };
+    add_phases(
+        &mut plot,
+        &time.stretches(rows, |row| row.phase.as_str()),
+        5.0 + brackets,
+    );
+    add_samples(
+        &mut plot,
+        &time.stretches(rows, |row| row.sample.as_deref().unwrap_or("")),
+    );
+    for panel in 0..plot.panels.len() {
+        plot.add(panel, Mark::Level { y: 0.0, dash: &[] });
+    }
+    add_values(
+        &mut plot,
+        0,
+        rows.iter().map(|row| (time.of(row), row.record)).collect(),
+    );
+    let steps = time.stretches(rows, |row| row.acceleration);
+    let line = steps.iter().flat_map(|&(from, to, y)| [(from, y), (to, y)]);
+    plot.add(0, Mark::line(line, 1.3, Style::of(1).solid()));
+    if trace.whitened {
+        let whitened = rows
+            .iter()
+            .filter_map(|row| Some((time.of(row), row.whitened?)));
+        add_values(&mut plot, 1, whitened.collect());
+    }
+    for panel in 0..plot.panels.len() {
+        plot.add(panel, Mark::Axes);
+    }
+    plot.add(0, Mark::Legend);
+    let entry = |index, text| Entry::new(text, Style::of(index).solid(), Key::Line);
+    let entries = vec![entry(0, "record"), entry(1, "acceleration in it")];
+    plot.legend = Some(Legend::new(entries, Place::Free));
+    plot.set_caption(&caption(scenario, trace, seed));
+    plot
 }
 
-impl<'a> Ride<'a> {
-    pub fn new(
-        config: &ExhibitConfig,
-        trace: &'a Trace,
-        rows: &'a [Row],
-        manifest: &Manifest,
-    ) -> Self {
-        let rows = &rows[trace.drawn_from.min(rows.len() - 1)..];
-        let last = &rows[rows.len() - 1];
-        let unit = match trace.rate > 1.0 && last.time < 1.0 {
-            true => 1e-3,
-            false => 1.0,
+/// Where samples stand in time.
+struct Time {
+    /// Half the time between two samples, s.
+    half: f64,
+    /// Seconds in a unit of the axis.
+    unit: f64,
+    label: &'static str,
+}
+
+impl Time {
+    fn new(trace: &Trace, rows: &[Row]) -> Self {
+        let (unit, label) = if trace.rate == 1.0 {
+            (1.0, "time, samples")
+        } else if trace.rate > 1.0 && rows[rows.len() - 1].time < 1.0 {
+            (1e-3, "time, ms")
+        } else {
+            (1.0, "time, s")
         };
         let half = 0.5 / trace.rate;
-        let (from, to) = (
-            (rows[0].time - half) / unit,
-            (last.time + 2.0 * half) / unit,
-        );
-        let x = Scale::linear(from, to, 8);
-        let record = values(rows, 0.34, |row| Some(row.record));
-        let frames = match trace.whitened {
-            false => Frame::stack(NAMES, [(SINGLE, record)], &x).into(),
-            true => {
-                let whitened = values(rows, 0.06, |row| row.whitened);
-                let panels = [(PANEL, record), (PANEL, whitened)];
-                Frame::stack(NAMES + BRACKETS, panels, &x).into()
-            }
-        };
-        Self {
-            frames,
-            caption: caption(config, trace, manifest),
-            trace,
-            rows,
-            unit,
-        }
+        Self { half, unit, label }
     }
 
-    fn x(&self, row: &Row) -> f64 {
+    fn of(&self, row: &Row) -> f64 {
         row.time / self.unit
     }
 
-    /// The stretches in which `of` says the same, each with its ends on the axis.
-    fn stretches(&self, of: fn(&Row) -> &str) -> Vec<(&str, (f64, f64))> {
-        let half = 0.5 / self.trace.rate / self.unit;
-        (self.rows.chunk_by(|a, b| of(a) == of(b)))
-            .map(|stretch| {
-                let ends = [&stretch[0], &stretch[stretch.len() - 1]].map(|row| self.x(row));
-                (of(&stretch[0]), (ends[0] - half, ends[1] + half))
-            })
+    fn axis(&self, rows: &[Row]) -> Axis {
+        let from = rows[0].time - self.half;
+        let to = rows[rows.len() - 1].time + 2.0 * self.half;
+        Axis::linear(from / self.unit, to / self.unit, 8).labelled(self.label)
+    }
+
+    /// The stretches in which `of` says the same, each with its ends.
+    fn stretches<'r, T: Copy + PartialEq>(
+        &self,
+        rows: &'r [Row],
+        of: impl Fn(&'r Row) -> T,
+    ) -> Vec<(f64, f64, T)> {
+        let half = self.half / self.unit;
+        let places: Vec<(f64, T)> = rows.iter().map(|row| (self.of(row), of(row))).collect();
+        (places.chunk_by(|a, b| a.1 == b.1))
+            .map(|stretch| (stretch[0], stretch[stretch.len() - 1]))
+            .map(|((first, said), (last, _))| (first - half, last + half, said))
             .collect()
     }
+}
 
-    fn draw_phases<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
-        let upper = &self.frames[0];
-        let mut taken = 0.0;
-        for (name, (from, to)) in self.stretches(|row| &row.phase) {
-            for frame in &self.frames {
-                frame.draw_band(sheet, (from, to), phase_colour(name))?;
-            }
-            let (left, right) = (upper.at(from, 0.0).0, upper.at(to, 0.0).0);
-            let words = phase_words(name);
-            let (middle, half) = (f64::midpoint(left, right), text_width(words, SMALL) / 2.0);
-            // Of names that would run into each other the first is kept.
-            if middle - half > taken && middle + half < WIDTH {
-                let at = (middle, NAMES - 5.0);
-                sheet.text(words, at, Style::plain(SMALL, Align::Centre))?;
-                taken = middle + half + 4.0;
-            }
-        }
-        Ok(())
-    }
-
-    /// A bracket over each sample, its name on top, and its limits through the panels.
-    fn draw_samples<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
-        let upper = &self.frames[0];
-        let bottom = self.frames[self.frames.len() - 1].bottom;
-        let y = upper.top - 5.0;
-        for (name, (from, to)) in self.stretches(|row| row.sample.as_deref().unwrap_or("")) {
-            let Some(words) = sample_words(name) else {
-                continue;
-            };
-            let (left, right) = (upper.at(from, 0.0).0 + 0.7, upper.at(to, 0.0).0 - 0.7);
-            let bracket = [(left, y + 4.0), (left, y), (right, y), (right, y + 4.0)];
-            sheet.line(&bracket, 0.8, BLACK.to_rgba())?;
-            let at = (f64::midpoint(left, right), y - 3.0);
-            sheet.text(words, at, Style::plain(SMALL, Align::Centre))?;
-            if name == "training" {
-                continue;
-            }
-            for x in [left - 0.7, right + 0.7] {
-                draw_limit(sheet, x, [upper.top, bottom])?;
-            }
-        }
-        Ok(())
-    }
-
-    fn draw_values<B: DrawingBackend>(
-        &self,
-        sheet: &Sheet<B>,
-        frame: &Frame,
-        value: impl Fn(&Row) -> Option<f64>,
-    ) -> Result<(), FigureError> {
-        let colour = Look::of(0).colour;
-        let line: Vec<_> = (self.rows.iter())
-            .filter_map(|row| Some(frame.at(self.x(row), value(row)?)))
-            .collect();
-        if line.len() >= FEW {
-            return draw_dense(sheet, &line, colour);
-        }
-        if line.len() > 1 {
-            sheet.line(&line, 0.7, colour.to_rgba())?;
-        }
-        for &place in &line {
-            sheet.marker(Look::of(0).marker, place, 1.4, colour)?;
-        }
-        Ok(())
-    }
-
-    /// The acceleration itself, over the record in which it hides.
-    fn draw_acceleration<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
-        let frame = &self.frames[0];
-        let half = 0.5 / self.trace.rate / self.unit;
-        let of_equal = |a: &Row, b: &Row| a.acceleration == b.acceleration;
-        let line: Vec<_> = (self.rows.chunk_by(of_equal))
-            .flat_map(|stretch| {
-                let (first, last) = (&stretch[0], &stretch[stretch.len() - 1]);
-                let ends = [self.x(first) - half, self.x(last) + half];
-                ends.map(|x| frame.at(x, first.acceleration))
-            })
-            .collect();
-        sheet.line(&line, 1.3, Look::of(1).colour.to_rgba())
-    }
-
-    fn draw_legend<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
-        let frame = &self.frames[0];
-        let entry = |index, text: &str| Entry {
-            text: text.to_owned(),
-            look: Look {
-                dash: &[],
-                ..Look::of(index)
+/// A bracket over each sample, and its limits through the panels.
+fn add_samples(plot: &mut Plot, samples: &[(f64, f64, &str)]) {
+    for &(from, to, name) in samples {
+        let words = match name {
+            "training" => "training",
+            "reference" => "X",
+            "shift" => "Y_1",
+            "scale" => "Y_2",
+            _ => continue,
+        };
+        plot.add(
+            0,
+            Mark::Bracket {
+                from,
+                to,
+                name: words.to_owned(),
             },
-            key: Key::Line,
-        };
-        let legend = Legend::new(vec![entry(0, "record"), entry(1, "acceleration in it")]);
-        let covered: Vec<_> = (self.rows.iter())
-            .map(|row| frame.at(self.x(row), row.record))
-            .collect();
-        match legend.free_corner(frame, &covered) {
-            Some(corner) => legend.draw(sheet, corner),
-            None => Ok(()),
+        );
+        for x in [from, to].into_iter().filter(|_| name != "training") {
+            plot.add(0, Mark::Limit { x });
         }
     }
 }
 
-impl Picture for Ride<'_> {
-    fn size(&self) -> (f64, f64) {
-        self.frames[self.frames.len() - 1].sheet_size(&self.caption)
+fn add_values(plot: &mut Plot, panel: usize, line: Vec<(f64, f64)>) {
+    let style = Style::of(0);
+    if line.len() >= FEW {
+        return plot.add(
+            panel,
+            Mark::Dense {
+                points: line,
+                colour: style.colour,
+            },
+        );
     }
-
-    fn draw<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
-        sheet.clear(self.size())?;
-        self.draw_phases(sheet)?;
-        self.draw_samples(sheet)?;
-        for frame in &self.frames {
-            frame.draw_level(sheet, 0.0, &[])?;
-        }
-        self.draw_values(sheet, &self.frames[0], |row| Some(row.record))?;
-        self.draw_acceleration(sheet)?;
-        let time = match (self.trace.rate == 1.0, self.unit < 1.0) {
-            (true, _) => "time, samples",
-            (false, true) => "time, ms",
-            (false, false) => "time, s",
-        };
-        let unit = unit_words(&self.trace.unit);
-        let record = format!("record, {unit}");
-        match &self.frames[..] {
-            [upper, lower] => {
-                self.draw_values(sheet, lower, |row| row.whitened)?;
-                upper.draw_axes(sheet, "", &record)?;
-                lower.draw_axes(sheet, time, &format!("whitened, {unit}"))?;
-            }
-            frames => frames[0].draw_axes(sheet, time, &record)?,
-        }
-        self.draw_legend(sheet)?;
-        self.frames[self.frames.len() - 1].draw_caption(sheet, &self.caption)
+    if line.len() > 1 {
+        plot.add(panel, Mark::line(line.iter().copied(), 0.7, style));
     }
+    let points = line.into_iter().map(|(x, y)| Point::at(x, y));
+    plot.add(
+        panel,
+        Mark::Points {
+            points: points.collect(),
+            size: 1.4,
+            width: 0.0,
+            style,
+        },
+    );
 }
 
-/// A scale that holds every value and zero, with a share `above` of their range left free on top.
-fn values(rows: &[Row], above: f64, value: impl Fn(&Row) -> Option<f64>) -> Scale {
-    let all = || rows.iter().filter_map(&value).chain([0.0]);
-    let low = all().fold(f64::INFINITY, f64::min);
-    let high = all().fold(f64::NEG_INFINITY, f64::max);
+/// An axis that holds every value and zero, with a share `above` of their range left free on top.
+fn values(rows: &[Row], above: f64, value: fn(&Row) -> Option<f64>) -> Axis {
+    let (low, high) = ends(rows.iter().filter_map(value).chain([0.0]));
     let room = (high - low).max(1e-9);
-    Scale::linear(low - 0.06 * room, high + above * room, 5)
-}
-
-fn sample_words(name: &str) -> Option<&'static str> {
-    match name {
-        "training" => Some("training"),
-        "reference" => Some("X"),
-        "shift" => Some("Y_1"),
-        "scale" => Some("Y_2"),
-        _ => None,
-    }
+    Axis::linear(low - 0.06 * room, high + above * room, 5)
 }
 
 /// The unit as its author wrote it; σ_ξ keeps its index.
 fn unit_words(unit: &str) -> String {
-    match unit {
-        "σ_ξ" => unit.to_owned(),
-        _ => literal(unit),
+    if unit == "σ_ξ" {
+        unit.to_owned()
+    } else {
+        literal(unit)
     }
 }
 
-fn caption(config: &ExhibitConfig, trace: &Trace, manifest: &Manifest) -> Vec<String> {
-    let scenario = &config.scenario;
+fn caption(scenario: &Scenario, trace: &Trace, seed: u64) -> Vec<String> {
     let unit = unit_words(&trace.unit);
-    let delta = scenario.motion.record_delta(scenario.sensor.step_gain());
     let measured = |name: &str, value: f64| {
         let value = (value * trace.sigma * 1e6).round() / 1e6;
         format!("{name} = {value} {unit}")
     };
+    let delta = scenario.motion.record_delta(scenario.sensor.step_gain());
     let mut parts = vec!["simulated".to_owned(), measured("Δ", delta)];
     if trace.unit != "σ_ξ" {
         parts.push(measured("σ_ξ", 1.0));
@@ -270,19 +206,25 @@ fn caption(config: &ExhibitConfig, trace: &Trace, manifest: &Manifest) -> Vec<St
     }
     parts.push(format!("{} noise", literal(&scenario.noise.to_string())));
     parts.push(literal(&scenario.sensor.to_string()).replace('-', "−"));
-    if let Some(quantum) = scenario.digitiser.quantum() {
-        parts.push(measured("step", quantum));
-    }
-    if let Some(range) = scenario.digitiser.range() {
-        parts.push(measured("range", range));
-    }
+    parts.extend(
+        scenario
+            .digitiser
+            .quantum()
+            .map(|quantum| measured("step", quantum)),
+    );
+    parts.extend(
+        scenario
+            .digitiser
+            .range()
+            .map(|range| measured("range", range)),
+    );
     if trace.whitened {
-        let (samples, whitening) = (&scenario.samples, &scenario.whitening);
+        let whitening = &scenario.whitening;
         parts.push(format!("{} filter", whitening.fit()));
         parts.push(format!("order {}", whitening.order()));
         parts.push(format!("training {}", whitening.training()));
-        parts.push(format!("N/M_1/M_2 = {samples}"));
+        parts.push(format!("N/M_1/M_2 = {}", scenario.samples));
     }
-    parts.push(format!("seed {}", manifest.seed));
-    wrap(&parts, WIDTH - 2.0 * CAPTION_LEFT)
+    parts.push(format!("seed {seed}"));
+    parts
 }

@@ -28,6 +28,7 @@ mod row;
 mod tests;
 mod watch;
 
+pub use crate::config::Measure;
 pub use row::Row;
 
 use crate::config::{ExhibitConfig, RideStudy};

@@ -3,11 +3,10 @@
 //! Every parameter is a [`Fact`] in words. What all points share stands in the caption, unless it is
 //! a default nobody needs to be told; what tells curves apart stands in the legend.
 
-use super::frame::CAPTION;
-use super::text::{literal, text_width};
-use crate::config::Parameter;
+pub use crate::config::Parameter;
 use crate::format::thousands;
-use crate::results::{Manifest, Row};
+use crate::plot::literal;
+use crate::results::Row;
 
 /// One parameter in words.
 #[derive(Clone)]
@@ -185,13 +184,12 @@ pub(super) fn legend(rows: &[&Row], common: &[Option<Fact>], axis: Parameter) ->
     }
 }
 
-/// What most points share, and what the bands are, in lines of at most `width` points.
+/// What most points share, and what the bands are, in the parts of a caption.
 pub(super) fn caption(
     rows: &[&Row],
     common: Vec<Option<Fact>>,
     axis: Parameter,
-    manifest: &Manifest,
-    width: f64,
+    seed: u64,
 ) -> Vec<String> {
     let row = rows[0];
     let common = common.into_iter().flatten();
@@ -209,7 +207,7 @@ pub(super) fn caption(
         "bands"
     };
     parts.push(format!("{} trials per point", thousands(row.trials)));
-    parts.push(format!("seed {}", manifest.seed));
+    parts.push(format!("seed {seed}"));
     parts.push(format!(
         "{band}: pointwise exact {} % intervals, at times narrower than a line",
         100.0 * row.confidence
@@ -217,26 +215,13 @@ pub(super) fn caption(
     if is_held_against_alpha(rows) {
         parts.push("line: the nominal level".to_owned());
     }
-    wrap(&parts, width)
+    parts
 }
 
 /// Whether these are false-alarm rates of one level.
 pub(super) fn is_held_against_alpha(rows: &[&Row]) -> bool {
     rows.iter()
         .all(|row| row.is_at_rest() && row.alpha == rows[0].alpha)
-}
-
-/// The parts in lines of at most `width` points, broken between parts.
-pub(super) fn wrap(parts: &[String], width: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for part in parts {
-        let longer = lines.last().map(|line| format!("{line}; {part}"));
-        match longer.filter(|line| text_width(line, CAPTION) <= width) {
-            Some(line) => *lines.last_mut().expect("there is a line") = line,
-            None => lines.push(part.clone()),
-        }
-    }
-    lines
 }
 
 /// The axis in words.

@@ -1,0 +1,334 @@
+//! Rides before the monitor: outcomes against the axis, one panel under the other; of a trade-off, the time
+//! between false motions against the delay.
+
+use super::rates::{Curve, Limit, Rate, add_bands, rates};
+use crate::exhibit::ride::{Measure, Row};
+use crate::format::thousands;
+use crate::plot::{Axis, Entry, Key, Legend, Mark, Place, Plot, Style, ends, is_long, literal};
+
+/// What was asked of rides along an axis.
+#[derive(Clone, Copy, Debug)]
+pub struct Rides<'a> {
+    pub measure: Measure,
+    /// The key that is swept.
+    pub axis: &'a str,
+    /// Of the curves, in their order.
+    pub labels: &'a [String],
+    pub seed: u64,
+}
+
+/// What a panel shows.
+struct Shown {
+    outcome: &'static str,
+    /// Along its axis.
+    label: &'static str,
+    kind: Kind,
+    height: f64,
+}
+
+/// How it is drawn.
+#[derive(Clone, Copy)]
+enum Kind {
+    /// A probability with its interval.
+    Share,
+    /// The median of a delay, from its 5 % to its 95 % quantile.
+    Delay,
+    /// A positive number on a logarithmic scale, with the limit that stands for it where nothing was
+    /// counted.
+    Positive(Limit),
+}
+
+/// The picture of a study.
+pub fn plot(rows: &[Row], rides: &Rides) -> Plot {
+    let shown = shown(rides.measure);
+    let values: Vec<f64> = rows.iter().map(|row| row.x).collect();
+    let places = Places {
+        rows,
+        is_tradeoff: rides.measure == Measure::Tradeoff,
+        is_logarithmic: rides.measure != Measure::Tradeoff && is_long(&values),
+    };
+    let curves = |shown: &Shown| -> Vec<Curve> {
+        let curve = |index| Curve {
+            style: Style::of(index),
+            points: places.rates(shown, index),
+        };
+        (0..rides.labels.len()).map(curve).collect()
+    };
+    let panels: Vec<Vec<Curve>> = shown.iter().map(curves).collect();
+    let x = places.axis(&panels).labelled(axis_label(rides));
+    let y = |index: usize| {
+        let Shown {
+            kind,
+            label,
+            height,
+            ..
+        } = &shown[index];
+        (*height, y_axis(*kind, &panels[index]).labelled(*label))
+    };
+    let mut plot = match shown.len() {
+        1 => Plot::stack(&x, [y(0)]),
+        _ => Plot::stack(&x, [y(0), y(1)]),
+    };
+    plot.margins.legend = (6.0, 6.0);
+    for (panel, curves) in panels.iter().enumerate() {
+        plot.add(panel, Mark::Grid);
+        add_bands(&mut plot, panel, curves, false);
+        plot.add(panel, Mark::Axes);
+    }
+    plot.add(0, Mark::Legend);
+    let entries = rides
+        .labels
+        .iter()
+        .enumerate()
+        .map(|(index, label)| Entry::new(literal(label), Style::of(index), Key::MarkedLine));
+    // One curve without a name of its own needs no legend.
+    let is_plain = rides.labels.len() == 1 && rides.labels[0] == "1";
+    plot.legend = (!is_plain).then(|| Legend::new(entries.collect(), Place::Free));
+    plot.set_caption(&caption(rows, rides));
+    plot
+}
+
+/// The panels of a measurement, from the top.
+fn shown(measure: Measure) -> Vec<Shown> {
+    let panel = |outcome, label, kind, height| Shown {
+        outcome,
+        label,
+        kind,
+        height,
+    };
+    let share = |outcome, label, height| panel(outcome, label, Kind::Share, height);
+    let delay = |outcome, label| panel(outcome, label, Kind::Delay, 105.0);
+    let positive = |outcome, label, limit| panel(outcome, label, Kind::Positive(limit), 210.0);
+    match measure {
+        Measure::Rides => vec![
+            share("found", "P(every trip is found)", 130.0),
+            delay("start_delay", "start to H_1*, s"),
+        ],
+        Measure::Rest => vec![positive(
+            "false_motions",
+            "false motions per hour of rest",
+            Limit::Upper,
+        )],
+        Measure::Tradeoff => {
+            vec![positive(
+                "hours_between",
+                "hours of rest between false motions",
+                Limit::Lower,
+            )]
+        }
+        Measure::Jam => vec![
+            share("alarmed", "P(a jam alarms)", 130.0),
+            delay("alarm_delay", "jam to alarm, s"),
+        ],
+        Measure::SwitchedOn => vec![
+            share("misled", "P(says rest in motion)", 115.0),
+            share("knew", "P(knows it stands at last)", 115.0),
+        ],
+    }
+}
+
+/// Where rows stand in their panel.
+struct Places<'a> {
+    rows: &'a [Row],
+    is_tradeoff: bool,
+    is_logarithmic: bool,
+}
+
+impl<'a> Places<'a> {
+    /// The rows of an outcome, in the order of the axis.
+    fn of(&self, curve: usize, outcome: &str) -> Vec<&'a Row> {
+        let here = |row: &&Row| row.curve == curve + 1 && row.outcome == outcome;
+        self.rows.iter().filter(here).collect()
+    }
+
+    /// Those of a curve that lie on the paper.
+    fn rates(&self, shown: &Shown, curve: usize) -> Vec<Rate> {
+        let mut rates = match shown.kind {
+            Kind::Delay => self.delays(shown.outcome, curve),
+            kind => {
+                let rows = self.of(curve, shown.outcome);
+                let delays = self.of(curve, "start_delay_50");
+                let x = |index: usize| match self.is_tradeoff {
+                    true => delays.get(index).map(|row| row.estimate),
+                    false => Some(self.x(rows[index])),
+                };
+                let rates = rows
+                    .iter()
+                    .enumerate()
+                    .filter_map(|(i, row)| Some(rate(row, x(i)?, kind)));
+                rates.collect()
+            }
+        };
+        rates.retain(|rate| rate.x.is_finite() && rate.rate.is_finite());
+        rates
+    }
+
+    /// Medians, and bands to the quantiles on either side where both are finite.
+    fn delays(&self, outcome: &str, curve: usize) -> Vec<Rate> {
+        let [low, middle, high] =
+            ["05", "50", "95"].map(|name| self.of(curve, &format!("{outcome}_{name}")));
+        let quantiles = middle.into_iter().zip(low.into_iter().zip(high));
+        let rates = quantiles.map(|(row, (low, high))| {
+            let middle = row.estimate;
+            let (low, high) = match high.estimate.is_finite() {
+                true => (low.estimate, high.estimate),
+                false => (middle, middle),
+            };
+            Rate {
+                x: self.x(row),
+                rate: middle,
+                low,
+                high,
+                limit: None,
+            }
+        });
+        rates.collect()
+    }
+
+    fn x(&self, row: &Row) -> f64 {
+        if self.is_logarithmic {
+            libm::log10(row.x)
+        } else {
+            row.x
+        }
+    }
+
+    /// From the first of all rates to the last.
+    fn axis(&self, panels: &[Vec<Curve>]) -> Axis {
+        let mut drawn = panels
+            .iter()
+            .flat_map(|curves| rates(curves))
+            .map(|rate| rate.x)
+            .peekable();
+        match drawn.peek() {
+            None => Axis::single(0.0),
+            Some(_) => Axis::around(drawn, self.is_logarithmic),
+        }
+    }
+}
+
+/// A rate and its interval; on a logarithmic scale, where nothing was counted, an arrow, which tells more than a
+/// band to the end of the paper.
+fn rate(row: &Row, x: f64, kind: Kind) -> Rate {
+    let mut rate = Rate {
+        x,
+        rate: row.estimate,
+        low: row.low,
+        high: row.high,
+        limit: None,
+    };
+    if let Kind::Positive(limit) = kind {
+        rate.limit = (row.count == 0).then_some(limit);
+        rate.take_logarithms();
+    }
+    if rate.limit.is_some() {
+        (rate.low, rate.high) = (rate.rate, rate.rate);
+    }
+    rate
+}
+
+/// From 0 to 1 for a probability; around what there is otherwise.
+fn y_axis(kind: Kind, curves: &[Curve]) -> Axis {
+    let (bottom, top) = ends(rates(curves).map(|rate| rate.rate));
+    match kind {
+        _ if bottom > top => Axis::linear(0.0, 1.0, 5),
+        Kind::Share => Axis::linear(0.0, 1.0, 5).within(-0.03, 1.03),
+        Kind::Delay => {
+            let highest = rates(curves)
+                .map(|rate| rate.high)
+                .filter(|high| high.is_finite());
+            Axis::linear(0.0, 1.08 * highest.fold(top, f64::max), 5)
+        }
+        Kind::Positive(_) => Axis::decades(bottom - 0.35, top + 0.35),
+    }
+}
+
+fn axis_label(rides: &Rides) -> String {
+    match rides.measure {
+        Measure::Tradeoff => "median delay from a start to H_1*, s".to_owned(),
+        _ => key_in_words(rides.axis),
+    }
+}
+
+fn key_in_words(key: &str) -> String {
+    match key {
+        "delta_over_sigma" => "Δ/σ, acceleration of the drive in deviations of a sample",
+        "sigma" => "σ, deviation of a sample, m/s²",
+        "density" => "density of the noise, m/s²/√Hz",
+        "rate" => "sampling rate, Hz",
+        "alpha" => "α, level of each decision",
+        "vibration" => "deviation of the vibration at full speed, σ",
+        "least_speed" => "least speed of a motion, m/s",
+        "least_acceleration" => "least acceleration of a start, m/s²",
+        "speed" => "speed of the drive, m/s",
+        "acceleration" => "acceleration of the drive, m/s²",
+        "block" => "length of a block, s",
+        "jam_within" => "time from jam to stand, s",
+        other => return literal(other),
+    }
+    .to_owned()
+}
+
+/// What all points share, and what is drawn.
+fn caption(rows: &[Row], rides: &Rides) -> Vec<String> {
+    let measure = rides.measure;
+    let facts: Vec<_> = rows.iter().map(|row| facts(measure, row)).collect();
+    let shared = (0..facts[0].len())
+        .filter(|&index| facts.iter().all(|other| other[index] == facts[0][index]))
+        .filter_map(|index| facts[0][index].clone());
+    let mut parts: Vec<String> = shared.collect();
+    parts.push(format!("{} trials per point", thousands(rows[0].trials)));
+    parts.push(format!("seed {}", rides.seed));
+    if measure == Measure::Tradeoff {
+        let (first, last) = (rows[0].x, rows[rows.len() - 1].x);
+        let key = key_in_words(rides.axis);
+        parts.push(format!("along each curve {key}, from {first} to {last}"));
+    }
+    let percent = 100.0 * rows[0].confidence;
+    parts.push(match measure {
+        Measure::Rides | Measure::Jam => {
+            format!("bands: exact {percent} % intervals above, 5 % to 95 % of the delays below, where so many were told")
+        }
+        Measure::Rest | Measure::Tradeoff => {
+            format!("bands: exact {percent} % intervals; arrows: limits where nothing happened")
+        }
+        Measure::SwitchedOn => format!("bands: exact {percent} % intervals"),
+    });
+    parts
+}
+
+/// The parameters of a point in words, always as many; none for what goes without saying.
+fn facts(measure: Measure, row: &Row) -> Vec<Option<String>> {
+    let Row {
+        trips,
+        distance,
+        speed,
+        acceleration,
+        jerk,
+        ..
+    } = row;
+    let sigma = (1e4 * row.sigma).round() / 1e4;
+    let rides = measure.rides();
+    vec![
+        rides.then(|| format!("{trips} trips of {distance} m at {speed} m/s")),
+        rides.then(|| format!("{acceleration} m/s², {jerk} m/s³")),
+        measure
+            .rests()
+            .then(|| format!("rests of {} s", row.length)),
+        (measure == Measure::Jam).then(|| format!("jams within {} s", row.jam_within)),
+        Some(format!("{} Hz", row.rate)),
+        Some(format!("σ = {sigma} m/s²")),
+        (!row.sensor.ends_with("()")).then(|| row.sensor.clone()),
+        (row.vibration > 0.0).then(|| format!("vibration {} σ", row.vibration)),
+        (row.nu > 0.0).then(|| format!("ν = {}, θ = {} σ", row.nu, row.theta)),
+        (row.footfalls > 0.0)
+            .then(|| format!("footfalls {} per sample, {} σ", row.footfalls, row.jolt)),
+        Some(format!("α = {}", row.alpha)),
+        Some(format!(
+            "N, M_1, M_2 = {}, {}, {}",
+            row.reference, row.shift, row.scale
+        )),
+        Some(format!("blocks of {} s", row.block)),
+        Some(format!("motions from {} m/s", row.least_speed)),
+    ]
+}

@@ -1,0 +1,163 @@
+//! Axes: from data to a share of a panel's width or height, with ticks and a label.
+
+use crate::format::minus;
+
+/// Values that span more than this are drawn on a logarithmic axis.
+pub const LONG_RANGE: f64 = 30.0;
+
+/// One direction of a panel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Data at the two ends.
+    pub from: f64,
+    pub to: f64,
+    /// Where ticks stand, and what they say.
+    pub ticks: Vec<(f64, String)>,
+    pub label: String,
+}
+
+impl Axis {
+    fn new(from: f64, to: f64, ticks: Vec<(f64, String)>) -> Self {
+        let label = String::new();
+        Self {
+            from,
+            to,
+            ticks,
+            label,
+        }
+    }
+
+    /// `from` to `to` with about `count` ticks at 1, 2 or 5 times a power of ten.
+    pub fn linear(from: f64, to: f64, count: usize) -> Self {
+        let (step, decimals) = tick_step((to - from) / count as f64);
+        let first = (from / step - 1e-9).ceil() as i64;
+        let last = (to / step + 1e-9).floor() as i64;
+        let values = (first..=last).map(|i| i as f64 * step);
+        let ticks = values.map(|value| (value, minus(&format!("{value:.decimals$}"))));
+        Self::new(from, to, ticks.collect())
+    }
+
+    /// One value in the middle.
+    pub fn single(value: f64) -> Self {
+        let tick = (value, minus(&value.to_string()));
+        Self::new(value - 0.5, value + 0.5, vec![tick])
+    }
+
+    /// Decimal logarithms, `from` to `to`, with ticks at the powers of ten, and at 2 and 5 times them
+    /// where there is room.
+    pub fn logarithms(from: f64, to: f64) -> Self {
+        let factors: &[f64] = match to - from > 2.9 {
+            true => &[1.0],
+            false => &[1.0, 2.0, 5.0],
+        };
+        let ticks = ((from.floor() as i32)..=(to.ceil() as i32))
+            .map(|power| libm::pow(10.0, f64::from(power)))
+            .flat_map(|power| factors.iter().map(move |factor| factor * power))
+            .map(|value| (libm::log10(value), (value * 1e12).round() / 1e12))
+            .filter(|(x, _)| (from - 1e-9..=to + 1e-9).contains(x))
+            .map(|(x, value)| (x, value.to_string()));
+        Self::new(from, to, ticks.collect())
+    }
+
+    /// Decimal logarithms, `from` to `to`, with ticks at some of the powers of ten, about `count`.
+    pub fn powers_of_ten(from: f64, to: f64, count: usize) -> Self {
+        let (first, last) = (from.ceil() as i32, to.floor() as i32);
+        let step = ((to - from) / count as f64).ceil().max(1.0) as usize;
+        let powers = (first..=last).rev().step_by(step);
+        let ticks = powers.map(|power| (f64::from(power), power_of_ten(power)));
+        Self::new(from, to, ticks.collect())
+    }
+
+    /// Decimal logarithms with as many ticks as there is room for.
+    pub fn decades(from: f64, to: f64) -> Self {
+        if to - from < 2.5 {
+            Self::logarithms(from, to)
+        } else {
+            Self::powers_of_ten(from, to, 6)
+        }
+    }
+
+    /// Names at 0, 1, 2, …
+    pub fn names(names: Vec<String>) -> Self {
+        let to = names.len() as f64 - 0.5;
+        let ticks = (0..).map(f64::from).zip(names);
+        Self::new(-0.5, to, ticks.collect())
+    }
+
+    /// Ticks where the caller wants them.
+    pub fn at(from: f64, to: f64, ticks: Vec<(f64, String)>) -> Self {
+        Self::new(from, to, ticks)
+    }
+
+    /// Numbers, or their logarithms, with a little room on either side.
+    pub fn around(places: impl IntoIterator<Item = f64>, is_logarithmic: bool) -> Self {
+        let (low, high) = ends(places);
+        let room = 0.025 * (high - low);
+        let axis = match is_logarithmic {
+            _ if low == high => return Self::single(low),
+            true => Self::logarithms(low, high),
+            false => Self::linear(low, high, 7),
+        };
+        axis.within(low - room, high + room)
+    }
+
+    /// The same ticks between other ends.
+    pub fn within(self, from: f64, to: f64) -> Self {
+        Self { from, to, ..self }
+    }
+
+    /// The same with these words along it.
+    pub fn labelled(self, label: impl Into<String>) -> Self {
+        let label = label.into();
+        Self { label, ..self }
+    }
+
+    /// The same without any words.
+    pub fn unlabelled(&self) -> Self {
+        let ticks = self.ticks.iter().map(|(at, _)| (*at, String::new()));
+        Self::new(self.from, self.to, ticks.collect())
+    }
+
+    /// 0 at the start, 1 at the end.
+    pub fn share(&self, value: f64) -> f64 {
+        (value - self.from) / (self.to - self.from)
+    }
+}
+
+/// Whether values span so much that their logarithms are drawn.
+pub fn is_long(values: &[f64]) -> bool {
+    let (smallest, largest) = ends(values.iter().copied());
+    smallest > 0.0 && largest >= LONG_RANGE * smallest
+}
+
+/// The smallest and the largest.
+pub fn ends(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    let start = (f64::INFINITY, f64::NEG_INFINITY);
+    let widen = |(low, high): (f64, f64), value| (low.min(value), high.max(value));
+    values.into_iter().fold(start, widen)
+}
+
+/// The next step of 1, 2 or 5 times a power of ten from `rough` on, and the decimals it takes.
+fn tick_step(rough: f64) -> (f64, usize) {
+    let mut decimals = 9i32;
+    loop {
+        let power = libm::pow(10.0, f64::from(-decimals));
+        for factor in [1.0, 2.0, 5.0] {
+            if factor * power >= rough * (1.0 - 1e-9) {
+                return (factor * power, decimals.max(0) as usize);
+            }
+        }
+        decimals -= 1;
+    }
+}
+
+/// 10⁻³.
+pub fn power_of_ten(power: i32) -> String {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let digits = power.to_string();
+    let raised = digits.chars().map(|c| match c.to_digit(10) {
+        Some(digit) => RAISED[digit as usize],
+        None => '⁻',
+    });
+    format!("10{}", raised.collect::<String>())
+}

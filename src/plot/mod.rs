@@ -1,0 +1,139 @@
+//! What a picture says: panels with their axes, marks in data, a legend and a caption. Values without
+//! pixels, so that a test can look at them.
+//!
+//! `layout` puts a [`Plot`] on a [`Canvas`]: lines, areas and texts in points (1/72 inch). It finds a place
+//! for the legend that covers no data, and refuses a plot whose texts would be cut off.
+
+#![allow(missing_docs, reason = "fields are called what they are")]
+
+mod axis;
+mod canvas;
+mod frame;
+mod layout;
+mod legend;
+mod mark;
+mod style;
+mod text;
+
+pub use axis::{Axis, LONG_RANGE, ends, is_long, power_of_ten};
+pub use canvas::{Canvas, Shape};
+pub use layout::{LayoutError, check_panels, layout};
+pub use legend::{Entry, Key, Legend, Place};
+pub use mark::{Cell, Mark, Point};
+pub use style::{Colour, Marker, Style};
+pub use text::{CAPTION, NORMAL, SMALL, font, literal, text_width};
+
+/// Width of every sheet, in points.
+pub const WIDTH: f64 = 396.0;
+/// Where a caption starts, and as far from the right edge it ends.
+const CAPTION_LEFT: f64 = 10.0;
+
+/// A picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plot {
+    /// From left to right in each row, from the uppermost row down.
+    pub panels: Vec<Panel>,
+    /// Panels in a row.
+    pub columns: usize,
+    /// In the order in which they are drawn, each with the panel it lies in.
+    pub marks: Vec<(usize, Mark)>,
+    pub legend: Option<Legend>,
+    /// In lines.
+    pub caption: Vec<String>,
+    pub margins: Margins,
+}
+
+/// A pair of axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    /// Above it.
+    pub title: String,
+    /// In points.
+    pub height: f64,
+    pub x: Axis,
+    /// A second scale along its upper edge.
+    pub top: Option<Axis>,
+    pub y: Axis,
+}
+
+/// Points left free around the panels: for labels, names, and what stands beside them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Margins {
+    pub left: f64,
+    pub right: f64,
+    pub top: f64,
+    /// Above the caption.
+    pub bottom: f64,
+    /// Above and below a legend that lies over the panels.
+    pub legend: (f64, f64),
+}
+
+impl Default for Margins {
+    fn default() -> Self {
+        Self {
+            left: 54.0,
+            right: 16.0,
+            top: 10.0,
+            bottom: 36.0,
+            legend: (4.0, 8.0),
+        }
+    }
+}
+
+impl Plot {
+    /// Panels one under the other that share `x`, each `(height, y)`; only the lowest has words along x.
+    pub fn stack<const N: usize>(x: &Axis, panels: [(f64, Axis); N]) -> Self {
+        let mut above = N;
+        let panels = panels.map(|(height, y)| {
+            above -= 1;
+            let x = if above == 0 {
+                x.clone()
+            } else {
+                x.unlabelled()
+            };
+            Panel::new(height, x, y)
+        });
+        Self::of(panels.into(), 1)
+    }
+
+    /// Panels in rows of so many.
+    pub fn of(panels: Vec<Panel>, columns: usize) -> Self {
+        Self {
+            panels,
+            columns,
+            marks: Vec::new(),
+            legend: None,
+            caption: Vec::new(),
+            margins: Margins::default(),
+        }
+    }
+
+    /// Draws `mark` next, in a panel.
+    pub fn add(&mut self, panel: usize, mark: Mark) {
+        self.marks.push((panel, mark));
+    }
+
+    /// What the caption says, broken into lines between these parts.
+    pub fn set_caption(&mut self, parts: &[String]) {
+        self.caption = text::wrap(parts, WIDTH - 2.0 * CAPTION_LEFT);
+    }
+
+    /// The marks of a panel.
+    pub fn marks_of(&self, panel: usize) -> impl Iterator<Item = &Mark> {
+        let here = self.marks.iter().filter(move |(index, _)| *index == panel);
+        here.map(|(_, mark)| mark)
+    }
+}
+
+impl Panel {
+    /// Without title.
+    pub fn new(height: f64, x: Axis, y: Axis) -> Self {
+        Self {
+            title: String::new(),
+            height,
+            x,
+            top: None,
+            y,
+        }
+    }
+}
