@@ -39,6 +39,9 @@ pub struct Threshold {
     /// Draw the plane of W and T with the region in it.
     #[arg(long, value_name = "FILE.png|FILE.svg")]
     figure: Option<PathBuf>,
+    /// Replace a figure that exists.
+    #[arg(long, requires = "figure")]
+    force: bool,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -67,7 +70,8 @@ impl Threshold {
     /// Runs the command.
     pub fn run(self) -> Outcome {
         let figure = self.figure.as_ref();
-        let figure = figure.map(|path| Output::picture(path, true)).transpose()?;
+        let figure = figure.map(|path| Output::picture(path, self.force));
+        let figure = figure.transpose()?;
         let samples =
             Samples::contiguous(self.reference, self.shift, self.scale).map_err(Failure::input)?;
         let rule = match self.rule {
@@ -83,14 +87,15 @@ impl Threshold {
         };
         let laws = NullLaws::new(alternative, &samples).map_err(Failure::input)?;
         let region = laws.region(&rule, self.alpha).map_err(Failure::input)?;
-        let text = match self.json {
-            true => self.as_json(&laws, &region, &rule, alternative),
-            false => self.as_table(&laws, &region, &rule, alternative),
+        let text = if self.json {
+            self.as_json(&laws, &region, &rule, alternative)
+        } else {
+            self.as_table(&laws, &region, &rule, alternative)
         };
         if let Some(figure) = figure {
             let title = liftsim::figure::region_title(&samples, alternative, self.alpha);
             let drawing = liftsim::figure::region(&laws, &rule, &region, title);
-            figure.draw(&drawing.map_err(Failure::run)?)?;
+            figure.draw(&drawing.map_err(Failure::run)?)?.publish()?;
         }
         print(&text)?;
         Ok(ExitCode::SUCCESS)
@@ -180,8 +185,9 @@ impl Threshold {
 
 /// Nine decimals where they say something, a power of ten where they do not.
 fn probability(p: f64) -> String {
-    match p >= 1e-6 || p == 0.0 {
-        true => format!("{p:.9}"),
-        false => format!("{p:.4e}"),
+    if p >= 1e-6 || p == 0.0 {
+        format!("{p:.9}")
+    } else {
+        format!("{p:.4e}")
     }
 }

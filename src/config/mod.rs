@@ -31,6 +31,7 @@ pub use watch::WatchConfig;
 use crate::stats::tally;
 use error::Source;
 use file::{AxisTable, File, Sections};
+use serde::de::DeserializeOwned;
 use std::ops::Range;
 use std::path::Path;
 
@@ -208,6 +209,14 @@ impl File {
             (None, None) => Ok(DEFAULT_TRIALS),
         }
     }
+}
+
+/// Reads a file that describes no experiment.
+///
+/// # Errors
+/// Where it cannot be read, is no TOML, or holds something that does not belong there.
+pub fn read<T: DeserializeOwned>(path: &Path) -> Result<T, ConfigError> {
+    Source::load(path)?.read()
 }
 
 /// Trials per point where the file says nothing.

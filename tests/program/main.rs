@@ -5,11 +5,11 @@ mod commands;
 mod exhibits;
 mod figures;
 mod gate;
-mod record;
 mod recordings;
 mod replay;
 mod results;
 mod shards;
+mod simulate;
 mod survival;
 
 use assert_cmd::Command;
