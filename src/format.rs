@@ -1,4 +1,6 @@
-//! Numbers as a typesetter writes them.
+//! Numbers as a typesetter writes them, and what a user wrote, at no more than some length.
+
+use std::borrow::Cow;
 
 /// 200000 as 200 000, with thin spaces.
 pub fn thousands(number: u64) -> String {
@@ -18,13 +20,19 @@ pub fn minus(number: &str) -> String {
     number.replace('-', "−")
 }
 
-/// At most 200 characters of what a user wrote, for a message.
-pub fn shortened(text: &str) -> std::borrow::Cow<'_, str> {
-    const MOST: usize = 200;
-    match text.char_indices().nth(MOST) {
-        Some((end, _)) => format!("{}…", &text[..end]).into(),
-        None => text.into(),
+/// The most characters of what a user wrote that a message repeats.
+const MOST_SHOWN: usize = 200;
+
+/// `text`, or its two ends where it is too long to be repeated.
+pub fn shorten(text: &str) -> Cow<'_, str> {
+    let length = text.chars().count();
+    if length <= MOST_SHOWN {
+        return text.into();
     }
+    let tail = MOST_SHOWN / 3;
+    let head: String = text.chars().take(MOST_SHOWN - tail - 1).collect();
+    let tail: String = text.chars().skip(length - tail).collect();
+    format!("{head}…{tail}").into()
 }
 
 #[cfg(test)]
@@ -36,5 +44,14 @@ mod tests {
         assert_eq!(thousands(1_234_567), "1\u{2009}234\u{2009}567");
         assert_eq!(thousands(999), "999");
         assert_eq!(minus("-1e-7"), "−1e−7");
+    }
+
+    #[test]
+    fn what_is_long_is_shorten() {
+        let (fits, long) = ("ä".repeat(200), "ä".repeat(1_000_000) + "end");
+        assert_eq!(shorten(&fits), fits);
+        let short = shorten(&long);
+        assert_eq!(short.chars().count(), 200);
+        assert!(short.starts_with("ää") && short.contains("ä…ä") && short.ends_with("äend"));
     }
 }

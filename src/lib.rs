@@ -32,7 +32,7 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | 0 | [`rng`]: coordinates → generator · [`stats`]: exact tails, intervals, tests · [`format`]: numbers in print · [`simd`]: trials side by side |
+//! | 0 | [`rng`]: coordinates → generator · [`stats`]: exact tails, intervals, tests · [`format`]: numbers and words in print · [`files`]: files that appear whole · [`simd`]: trials side by side |
 //! | 1 | [`ledger`]: which trials have been counted |
 //! | 2 | [`signal`]: sensor, noise, impulses, motion, rides · [`whiten`]: filters · [`detect`]: W, T, their laws, regions |
 //! | 3 | [`chain`]: one trial, every stage · [`monitor`]: one lift, sample by sample |
@@ -82,6 +82,7 @@ pub mod detection;
 pub mod ensemble;
 pub mod exhibit;
 pub mod figure;
+pub mod files;
 pub mod format;
 pub mod gate;
 pub mod ledger;

@@ -2,12 +2,11 @@
 
 mod cli;
 
-use clap::Parser;
-use cli::{Arguments, Failure};
+use cli::{Arguments, Failure, brief};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    match Arguments::parse().run() {
+    match Arguments::read().run() {
         Ok(code) => code,
         Err(Failure::Input(error)) => report(&error, 2),
         Err(Failure::Run(error)) => report(&error, 1),
@@ -19,6 +18,6 @@ fn main() -> ExitCode {
 }
 
 fn report(error: &anyhow::Error, code: u8) -> ExitCode {
-    eprintln!("error: {error:#}");
+    eprintln!("error: {}", brief(format!("{error:#}")));
     ExitCode::from(code)
 }

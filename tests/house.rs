@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// Each module of the library and its floor.
 const FLOORS: [&[&str]; 9] = [
-    &["rng", "stats", "format", "simd", "suggest", "values", "plot", "config"],
+    &["rng", "stats", "format", "files", "simd", "suggest", "values", "plot", "config"],
     &["ledger"],
     &["signal", "whiten", "detect"],
     &["chain", "monitor"],

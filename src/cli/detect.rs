@@ -1,7 +1,7 @@
 //! `liftsim detect RECORDING`: rest, rides and what decided them, in a recording.
 
 use super::found::Found;
-use super::output::Output;
+use super::output::{Output, Ready};
 use super::progress;
 use super::reading::ReadingArguments;
 use super::watch::{Told, Watch, check_strength};
@@ -9,7 +9,7 @@ use super::{Failure, Outcome, print};
 use clap::Args;
 use indicatif::ProgressBar;
 use liftsim::detection::Detection;
-use liftsim::figure::{self, FigureError};
+use liftsim::figure::{self, Drawing, FigureError};
 use liftsim::monitor::{Briefing, Design, Knowledge};
 use liftsim::signal::recording::{Reading, Recording, Sample};
 use std::path::PathBuf;
@@ -26,7 +26,7 @@ use std::process::ExitCode;
 /// How many at rest were wrong in this recording is said with the result.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
-    liftsim record --out ride.csv && liftsim detect ride.csv --figure ride.png\n  \
+    liftsim simulate --out ride.csv && liftsim detect ride.csv --figure ride.png\n  \
     liftsim detect log.csv --time t --acceleration az --unit mg\n  \
     liftsim detect ride.csv --save-state lift.json && liftsim monitor --state lift.json < samples")]
 pub struct Detect {
@@ -82,7 +82,7 @@ impl Detect {
         for warning in found.warnings() {
             eprintln!("warning: {warning}");
         }
-        self.write(&outputs, &found, &briefing)?;
+        self.write(outputs, &found, &briefing)?;
         print(&match self.json {
             true => found.json(),
             false => found.table(),
@@ -141,29 +141,30 @@ impl Detect {
         Ok((briefing, design))
     }
 
-    fn write(&self, to: &Outputs, found: &Found, briefing: &Briefing) -> Result<(), Failure> {
-        // What cannot be drawn leaves no other file behind.
+    fn drawing(&self, found: &Found) -> Result<Drawing, Failure> {
         let version = env!("CARGO_PKG_VERSION");
         let provenance = format!("liftsim {version}, recording {}", found.name());
-        let draw = |_: &Output| {
-            let plot = figure::detection::plot(found.detection, &found.name())?;
-            figure::render(&plot, &provenance)
-        };
-        let drawing = to.figure.as_ref().map(draw).transpose();
-        let drawing = drawing.map_err(|error| match error {
-            FigureError::Short => self.refused(error.into()),
-            error => Failure::run(error),
-        })?;
-        if let Some(state) = &to.state {
-            state.write(briefing.to_json().as_bytes())?;
+        figure::detection::plot(found.detection, &found.name())
+            .and_then(|plot| figure::render(&plot, &provenance))
+            .map_err(|error| match error {
+                FigureError::Short => self.refused(error.into()),
+                error => Failure::run(error),
+            })
+    }
+
+    /// All files or none.
+    fn write(&self, to: Outputs, found: &Found, briefing: &Briefing) -> Result<(), Failure> {
+        let mut written = Vec::new();
+        if let Some(figure) = to.figure {
+            written.push(figure.draw(&self.drawing(found)?)?);
         }
-        if let Some(csv) = &to.csv {
-            csv.write(&found.csv())?;
+        if let Some(state) = to.state {
+            written.push(state.write(briefing.to_json().as_bytes())?);
         }
-        match (&to.figure, &drawing) {
-            (Some(figure), Some(drawing)) => figure.draw(drawing),
-            _ => Ok(()),
+        if let Some(csv) = to.csv {
+            written.push(csv.write(&found.csv())?);
         }
+        written.into_iter().try_for_each(Ready::publish)
     }
 
     /// The recording is not what it should be.

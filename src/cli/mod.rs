@@ -16,9 +16,9 @@ mod plan;
 mod plot;
 mod progress;
 mod reading;
-mod record;
 mod replay;
 mod signals;
+mod simulate;
 mod status;
 mod store;
 mod sweep;
@@ -26,8 +26,10 @@ mod threshold;
 mod watch;
 
 use anyhow::Context;
+use clap::error::{ContextKind, ContextValue};
 use clap::{Args, Parser, Subcommand};
 use liftsim::config::{Config, ConfigError, ExhibitConfig, MOST_PILOT_TRIALS};
+use liftsim::format::shorten;
 use liftsim::plan::Plan;
 use liftsim::stats::tally::MOST_TRIALS;
 use std::io::{self, Write};
@@ -62,7 +64,8 @@ enum Command {
     Threshold(threshold::Threshold),
     Plan(plan::PlanCommand),
     Replay(replay::ReplayCommand),
-    Record(record::Record),
+    #[command(alias = "record")]
+    Simulate(simulate::Simulate),
     Detect(Box<detect::Detect>),
     Monitor(Box<monitor::MonitorCommand>),
     Completions(completions::Completions),
@@ -98,6 +101,11 @@ impl Failure {
 }
 
 impl Arguments {
+    /// Reads the command line; where that fails the process ends with the reason.
+    pub fn read() -> Self {
+        Self::try_parse().unwrap_or_else(|error| without_long_arguments(error).exit())
+    }
+
     /// Runs the command.
     pub fn run(self) -> Outcome {
         match self.command {
@@ -110,13 +118,39 @@ impl Arguments {
             Command::Threshold(verb) => verb.run(),
             Command::Plan(verb) => verb.run(),
             Command::Replay(verb) => verb.run(),
-            Command::Record(verb) => verb.run(),
+            Command::Simulate(verb) => verb.run(),
             Command::Detect(verb) => verb.run(self.quiet),
             Command::Monitor(verb) => verb.run(),
             Command::Completions(verb) => verb.run(),
             Command::Man(verb) => verb.run(),
         }
     }
+}
+
+/// The same refusal, in which no argument is repeated at more than some length.
+fn without_long_arguments(mut error: clap::Error) -> clap::Error {
+    let contexts = error.context().filter_map(|(kind, value)| match value {
+        ContextValue::String(text) if shorten(text) != *text => Some((kind, shorten(text).into())),
+        _ => None,
+    });
+    for (kind, text) in contexts.collect::<Vec<_>>() {
+        error.insert(kind, ContextValue::String(text));
+        // Tips repeat it too.
+        error.remove(ContextKind::Suggested);
+    }
+    error
+}
+
+/// A message in which no argument is repeated at more than some length.
+pub fn brief(message: String) -> String {
+    let arguments = std::env::args_os().skip(1);
+    arguments.fold(message, |message, argument| {
+        let argument = argument.to_string_lossy();
+        let value = argument
+            .split_once('=')
+            .map_or(&*argument, |(_, value)| value);
+        message.replace(value, &shorten(value))
+    })
 }
 
 /// What every command that simulates can be told beside its config.
@@ -134,8 +168,8 @@ struct Simulation {
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
     /// Threads to run on; all cores by default. Results do not depend on it.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    #[arg(long, value_name = "N", value_parser = threads)]
+    threads: Option<usize>,
 }
 
 impl Simulation {
@@ -176,11 +210,21 @@ impl Simulation {
             return Ok(());
         };
         rayon::ThreadPoolBuilder::new()
-            .num_threads(threads.into())
+            .num_threads(threads)
             .build_global()
             .context("threads")
             .map_err(Failure::Run)
     }
+}
+
+/// More than any machine this runs on has cores.
+const MOST_THREADS: usize = 1024;
+
+fn threads(text: &str) -> Result<usize, String> {
+    let threads = text.parse().ok();
+    threads
+        .filter(|threads| (1..=MOST_THREADS).contains(threads))
+        .ok_or_else(|| format!("must lie in 1 to {MOST_THREADS} (leave it out to use all cores)"))
 }
 
 /// Writes to standard output; a reader that has seen enough is no error.

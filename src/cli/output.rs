@@ -1,8 +1,11 @@
-//! Files that a command writes: what is in the way is refused before anything takes long.
+//! Files that a command writes: what is in the way is refused before anything takes long, and all of them appear or
+//! none does.
 
 use super::Failure;
 use anyhow::anyhow;
 use liftsim::figure::Drawing;
+use liftsim::files::Draft;
+use liftsim::format::shorten;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -14,39 +17,35 @@ pub struct Output {
     replaces: bool,
 }
 
+/// A file that is complete but not yet in its place.
+#[derive(Debug)]
+pub struct Ready {
+    draft: Draft,
+    output: Output,
+}
+
 impl Output {
     /// Refuses a file that exists, unless it may be replaced, and one in a folder that does not.
     pub fn new(path: &Path, replaces: bool) -> Result<Self, Failure> {
-        let folder = path
-            .parent()
-            .filter(|folder| !folder.as_os_str().is_empty());
-        let name = path.display();
-        if let Some(folder) = folder.filter(|folder| !folder.exists()) {
-            let folder = folder.display();
-            return Err(Failure::Input(anyhow!(
-                "{name}: cannot be written: no folder {folder} (make it, or give another name)"
-            )));
-        }
-        if !replaces && path.exists() {
-            return Err(Failure::Input(anyhow!(
-                "{name}: is there already (give another name, or --force to replace it)"
-            )));
-        }
-        Ok(Self {
+        let output = Self {
             path: path.to_owned(),
             replaces,
-        })
+        };
+        match output.obstacle() {
+            None => Ok(output),
+            Some(obstacle) => Err(Failure::Input(anyhow!("{}: {obstacle}", path.display()))),
+        }
     }
 
     /// The same for a picture, whose name must say of which kind it is.
     pub fn picture(path: &Path, replaces: bool) -> Result<Self, Failure> {
-        match path.extension().is_some_and(|e| e == "png" || e == "svg") {
-            true => Self::new(path, replaces),
-            false => Err(Failure::Input(anyhow!(
-                "--figure must end in .png or .svg, got {}",
-                path.display()
-            ))),
+        if path.extension().is_some_and(|e| e == "png" || e == "svg") {
+            return Self::new(path, replaces);
         }
+        Err(Failure::Input(anyhow!(
+            "--figure must end in .png or .svg, got {}",
+            path.display()
+        )))
     }
 
     /// Where it goes.
@@ -54,39 +53,69 @@ impl Output {
         &self.path
     }
 
+    /// What is in the way.
+    fn obstacle(&self) -> Option<String> {
+        let folder = self.path.parent();
+        let folder = folder.filter(|folder| !folder.as_os_str().is_empty());
+        if let Some(folder) = folder.filter(|folder| !folder.exists()) {
+            let folder = folder.display().to_string();
+            let folder = shorten(&folder);
+            return Some(format!(
+                "cannot be written: no folder {folder} (make it, or give another name)"
+            ));
+        }
+        // Of a link itself, for what it points to may be anything.
+        let there = self.path.symlink_metadata().ok()?;
+        if !self.replaces {
+            Some("is there already (give another name, or --force to replace it)".to_owned())
+        } else if !there.is_file() {
+            Some("is not an ordinary file, so it is not replaced (give another name)".to_owned())
+        } else {
+            None
+        }
+    }
+
     /// Writes what is all there.
-    pub fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
+    pub fn write(self, bytes: &[u8]) -> Result<Ready, Failure> {
         self.write_with(|out| out.write_all(bytes))
     }
 
     /// Writes a picture in the kind that the name says.
-    pub fn draw(&self, drawing: &Drawing) -> Result<(), Failure> {
-        match self.path.extension().is_some_and(|e| e == "svg") {
-            true => self.write(&drawing.svg),
-            false => self.write(&drawing.png),
+    pub fn draw(self, drawing: &Drawing) -> Result<Ready, Failure> {
+        if self.path.extension().is_some_and(|e| e == "svg") {
+            self.write(&drawing.svg)
+        } else {
+            self.write(&drawing.png)
         }
     }
 
     /// Writes what comes bit by bit.
     pub fn write_with(
-        &self,
-        content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-    ) -> Result<(), Failure> {
-        let mut options = File::options();
-        match self.replaces {
-            true => options.create(true).truncate(true),
-            false => options.create_new(true),
+        self,
+        content: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
+    ) -> Result<Ready, Failure> {
+        let draft = Draft::new(&self.path, content).map_err(|error| self.unwritable(&error))?;
+        let output = self;
+        Ok(Ready { draft, output })
+    }
+
+    fn unwritable(&self, error: &io::Error) -> Failure {
+        let path = self.path.display();
+        Failure::Input(anyhow!(
+            "{path}: cannot be written: {error} (give another name)"
+        ))
+    }
+}
+
+impl Ready {
+    /// Puts it in its place.
+    pub fn publish(self) -> Result<(), Failure> {
+        let Self { draft, output } = self;
+        let moved = if output.replaces {
+            draft.replace()
+        } else {
+            draft.create_new()
         };
-        let written = options.write(true).open(&self.path).and_then(|file| {
-            let mut out = BufWriter::new(file);
-            content(&mut out)?;
-            out.flush()
-        });
-        written.map_err(|error| {
-            Failure::Input(anyhow!(
-                "{}: cannot be written: {error} (give another name)",
-                self.path.display()
-            ))
-        })
+        moved.map_err(|error| output.unwritable(&error))
     }
 }

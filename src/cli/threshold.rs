@@ -41,6 +41,9 @@ pub struct Threshold {
     /// Draw the plane of W and T with the region in it.
     #[arg(long, value_name = "FILE.png|FILE.svg")]
     figure: Option<PathBuf>,
+    /// Replace a figure that exists.
+    #[arg(long, requires = "figure")]
+    force: bool,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -69,7 +72,8 @@ impl Threshold {
     /// Runs the command.
     pub fn run(self) -> Outcome {
         let figure = self.figure.as_ref();
-        let figure = figure.map(|path| Output::picture(path, true)).transpose()?;
+        let figure = figure.map(|path| Output::picture(path, self.force));
+        let figure = figure.transpose()?;
         let samples =
             Samples::contiguous(self.reference, self.shift, self.scale).map_err(Failure::input)?;
         let rule = match self.rule {
@@ -85,16 +89,17 @@ impl Threshold {
         };
         let laws = NullLaws::new(alternative, &samples).map_err(Failure::input)?;
         let region = laws.region(&rule, self.alpha).map_err(Failure::input)?;
-        let text = match self.json {
-            true => self.as_json(&laws, &region, &rule, alternative),
-            false => self.as_table(&laws, &region, &rule, alternative),
+        let text = if self.json {
+            self.as_json(&laws, &region, &rule, alternative)
+        } else {
+            self.as_table(&laws, &region, &rule, alternative)
         };
         if let Some(figure) = figure {
             let title = region::title(&samples, alternative, self.alpha);
             let plot = region::plot(&laws, &boundary(&rule, &region), &title);
             let version = env!("CARGO_PKG_VERSION");
             let provenance = format!("liftsim {version}, rule {rule}, {}", title.join("; "));
-            figure.draw(&render(&plot, &provenance).map_err(Failure::run)?)?;
+            figure.draw(&render(&plot, &provenance).map_err(Failure::run)?)?.publish()?;
         }
         print(&text)?;
         Ok(ExitCode::SUCCESS)
@@ -184,8 +189,9 @@ impl Threshold {
 
 /// Nine decimals where they say something, a power of ten where they do not.
 fn probability(p: f64) -> String {
-    match p >= 1e-6 || p == 0.0 {
-        true => format!("{p:.9}"),
-        false => format!("{p:.4e}"),
+    if p >= 1e-6 || p == 0.0 {
+        format!("{p:.9}")
+    } else {
+        format!("{p:.4e}")
     }
 }

@@ -74,7 +74,7 @@ impl Axis {
             return Err(Conflict::at(span, AxisError::Keys(entries.len())));
         };
         if !known.clone().into_iter().any(|known| known == *name) {
-            let error = AxisError::Unknown(among(&crate::format::shortened(name), known));
+            let error = AxisError::Unknown(among(&crate::format::shorten(name), known));
             return Err(Conflict::at(key_span, error));
         }
         let values = values(name, node).map_err(|error| Conflict::at(&node.span, error))?;

@@ -10,3 +10,15 @@ pub use axis::{Axis, AxisValue};
 pub use read::Refusal;
 pub use source::{ConfigError, Conflict, Source, Unfit};
 pub use tree::{Node, Table, Value};
+
+use serde::de::DeserializeOwned;
+use std::path::Path;
+
+/// Reads a file that describes no experiment.
+///
+/// # Errors
+/// Where it cannot be read, is no TOML, or holds something that does not belong there.
+pub fn read<T: DeserializeOwned>(path: &Path) -> Result<T, ConfigError> {
+    let source = Source::load(path)?;
+    source.read(&source.parse()?, "")
+}

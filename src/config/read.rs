@@ -1,7 +1,7 @@
 //! From a tree to any type that serde can read, so that every refusal knows its path and its place.
 
 use super::tree::{Node, Table, Value};
-use crate::format::shortened;
+use crate::format::shorten;
 use crate::suggest::among;
 use serde::de::value::StrDeserializer;
 use serde::de::{
@@ -80,7 +80,7 @@ impl Error for Refusal {
         let known = known.iter().copied();
         Self::custom(format_args!(
             "unknown value {}",
-            among(&shortened(got), known)
+            among(&shorten(got), known)
         ))
     }
 
@@ -88,7 +88,7 @@ impl Error for Refusal {
         let known = known.iter().copied();
         Self::custom(format_args!(
             "unknown key {}",
-            among(&shortened(got), known)
+            among(&shorten(got), known)
         ))
     }
 
@@ -103,7 +103,7 @@ fn described(got: Unexpected) -> String {
         Unexpected::Unsigned(number) => number.to_string(),
         Unexpected::Signed(number) => number.to_string(),
         Unexpected::Float(number) => number.to_string(),
-        Unexpected::Str(text) => format!("\"{}\"", shortened(text)),
+        Unexpected::Str(text) => format!("\"{}\"", shorten(text)),
         Unexpected::Map => "a table".to_owned(),
         Unexpected::Seq => "a list".to_owned(),
         other => other.to_string(),

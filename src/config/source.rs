@@ -52,7 +52,7 @@ impl Unfit {
         Self {
             path: path.into(),
             rule: rule.into(),
-            got: crate::format::shortened(&got.to_string()).into_owned(),
+            got: crate::format::shorten(&got.to_string()).into_owned(),
             remedy: "",
         }
     }

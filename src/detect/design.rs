@@ -1,6 +1,6 @@
 //! Filling regions: from the exact laws at one set of sizes to the critical values of each rule.
 
-use super::law::{NullLaw, NullLawError, ratio};
+use super::law::{NullLaw, NullLawError, check_memory, ratio};
 use super::likelihood::LikelihoodOrder;
 use super::region::{NEVER, Region, RegionError};
 use super::rule::{Alternative, Rule};
@@ -27,6 +27,12 @@ impl NullLaws {
     /// # Errors
     /// Where their counts would not fit in memory.
     pub fn new(alternative: Alternative, samples: &Samples) -> Result<Self, NullLawError> {
+        // Both before either is paid for; the rank sum's counts are held twice, as its own and as the score's.
+        let (w, t) = (
+            NullLaw::rank_sum_bytes(samples),
+            NullLaw::exceedances_bytes(samples),
+        );
+        check_memory(samples, 2.0 * w + t)?;
         let rank_sum = NullLaw::rank_sum(samples)?;
         let score = match alternative {
             // W is symmetric about its mean, so its mirror image has the same law.

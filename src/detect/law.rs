@@ -30,31 +30,24 @@ pub struct NullLaw {
     tails: Vec<BigUint>,
 }
 
-/// Why a law was refused.
+/// Why laws were refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum NullLawError {
     /// The counts would not fit in memory.
     #[error(
-        "the exact law of {statistic} at {reference}/{shift}/{scale} needs {gigabytes:.1} GB of counts, \
-         more than the {limit:.0} GB allowed (lower reference, shift or scale)"
+        "the exact laws of W and T at {samples} need {gigabytes:.1} GB of counts, more than the {limit:.0} GB allowed \
+         (lower reference, shift or scale)",
+        limit = MEMORY_LIMIT / 1e9
     )]
     TooLarge {
-        /// W or T.
-        statistic: char,
-        /// N.
-        reference: usize,
-        /// M₁.
-        shift: usize,
-        /// M₂.
-        scale: usize,
+        /// Their sizes.
+        samples: Samples,
         /// What it would take.
         gigabytes: f64,
-        /// What is allowed.
-        limit: f64,
     },
 }
 
-/// The most memory the counts of one law may take.
+/// The most memory that counts may take, in bytes.
 const MEMORY_LIMIT: f64 = 1e9;
 
 impl NullLaw {
@@ -67,8 +60,7 @@ impl NullLaw {
             samples.shift(),
             samples.reference().saturating_add(samples.scale()),
         );
-        let values = m1 as f64 * others as f64 + 1.0;
-        check_memory('W', samples, values, m1, others)?;
+        check_memory(samples, Self::rank_sum_bytes(samples))?;
         Ok(Self::from_counts(
             smallest_rank_sum(m1),
             gaussian_binomial(m1, others),
@@ -81,7 +73,7 @@ impl NullLaw {
     /// Where its counts would not fit in memory.
     pub fn exceedances(samples: &Samples) -> Result<Self, NullLawError> {
         let (n, m2) = (samples.reference(), samples.scale());
-        check_memory('T', samples, m2 as f64 + 1.0, n, m2)?;
+        check_memory(samples, Self::exceedances_bytes(samples))?;
         if n == 1 {
             let mut counts = vec![BigUint::ZERO; m2];
             counts.push(BigUint::from(m2 + 1));
@@ -97,6 +89,21 @@ impl NullLaw {
         }
         counts.reverse();
         Ok(Self::from_counts(0, counts))
+    }
+
+    /// Memory for the counts of W.
+    pub(super) fn rank_sum_bytes(samples: &Samples) -> f64 {
+        let (m1, others) = (
+            samples.shift(),
+            samples.reference().saturating_add(samples.scale()),
+        );
+        bytes(m1 as f64 * others as f64 + 1.0, m1, others)
+    }
+
+    /// Memory for the counts of T.
+    pub(super) fn exceedances_bytes(samples: &Samples) -> f64 {
+        let (n, m2) = (samples.reference(), samples.scale());
+        bytes(m2 as f64 + 1.0, n, m2)
     }
 
     /// The law of |2S − 2E S| for this S, which must be symmetric: what a two-sided rule looks at.
@@ -213,30 +220,25 @@ fn gaussian_binomial(chosen: usize, others: usize) -> Vec<BigUint> {
     counts
 }
 
-/// Refuses a law of `values` counts, none above C(chosen + others, chosen): their digits, and what a
-/// vector of digits costs beside them.
-fn check_memory(
-    statistic: char,
-    samples: &Samples,
-    values: f64,
-    chosen: usize,
-    others: usize,
-) -> Result<(), NullLawError> {
+/// Refuses counts that take more memory than is allowed.
+pub(super) fn check_memory(samples: &Samples, bytes: f64) -> Result<(), NullLawError> {
+    // NaN, of sizes near the largest integer, is too large as well.
+    if bytes <= MEMORY_LIMIT {
+        return Ok(());
+    }
+    Err(NullLawError::TooLarge {
+        samples: *samples,
+        gigabytes: bytes / 1e9,
+    })
+}
+
+/// Memory for `values` counts, none above C(chosen + others, chosen): their digits, and what a vector of digits costs
+/// beside them.
+fn bytes(values: f64, chosen: usize, others: usize) -> f64 {
     let n = chosen as f64 + others as f64;
     let share = chosen as f64 / n;
     let entropy = -share * libm::log2(share) - (1.0 - share) * libm::log2(1.0 - share);
-    let bytes = values * (n * entropy / 8.0 + 40.0);
-    match bytes > MEMORY_LIMIT {
-        true => Err(NullLawError::TooLarge {
-            statistic,
-            reference: samples.reference(),
-            shift: samples.shift(),
-            scale: samples.scale(),
-            gigabytes: bytes / 1e9,
-            limit: MEMORY_LIMIT / 1e9,
-        }),
-        false => Ok(()),
-    }
+    values * (n * entropy / 8.0 + 40.0)
 }
 
 #[cfg(test)]

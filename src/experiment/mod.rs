@@ -124,7 +124,7 @@ impl File {
         let written = root.table().into_iter().flatten();
         let mut strange = written.filter(|(key, _)| !known.clone().any(|known| known == *key));
         if let Some((key, (span, _))) = strange.next() {
-            let among = among(&crate::format::shortened(key), known);
+            let among = among(&crate::format::shorten(key), known);
             return Err(source.at(Some(span.clone()), ExperimentError::Unknown(among)));
         }
         let header: Header = source.read(&root.only(|key| Header::KEYS.contains(&key)), "")?;

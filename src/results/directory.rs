@@ -2,9 +2,9 @@
 
 use super::{Checkpoint, Comparison, Manifest, Quantity, ResultsError, Row, sha256};
 use crate::config::{ExhibitConfig, Experiment};
+use crate::files;
 use serde::de::DeserializeOwned;
-use std::fs::File;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// A directory that holds, or is to hold, the results of one experiment.
@@ -18,7 +18,6 @@ const POINTS: &str = "points.csv";
 const COMPARISONS: &str = "comparisons.csv";
 const QUANTITIES: &str = "quantities.csv";
 const COUNTS: &str = "counts.json";
-const TEMPORARY: &str = ".liftsim-part";
 /// What a run may leave beside its manifest.
 const FILES: [&str; 6] = [
     POINTS,
@@ -269,23 +268,9 @@ impl Directory {
             .map_err(|error| self.unwritable(error))
     }
 
-    /// Puts a file in the place of another. The temporary name is always the same, so that a process that
-    /// is killed here leaves nothing that the next one does not use again; the lock keeps two from using
-    /// it at once.
     fn replace(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
         std::fs::create_dir_all(&self.path)?;
-        let temporary = self.path.join(TEMPORARY);
-        let written = File::create(&temporary).and_then(|mut file| {
-            file.write_all(bytes)?;
-            file.sync_all()
-        });
-        let renamed = written.and_then(|()| std::fs::rename(&temporary, self.path.join(name)));
-        if renamed.is_err() {
-            // A full disk has no room for half a file.
-            let _ = std::fs::remove_file(&temporary);
-        }
-        renamed?;
-        sync(&self.path)
+        files::replace(&self.path.join(name), bytes)
     }
 
     /// Takes away what an earlier run left and `manifest` does not vouch for.
@@ -294,7 +279,7 @@ impl Directory {
     /// Where a file is there and cannot be taken away.
     pub fn remove_stale(&self, manifest: &Manifest) -> Result<(), ResultsError> {
         let is_stale = |name: &&str| !manifest.files.contains_key(*name);
-        for name in FILES.into_iter().chain([TEMPORARY]).filter(is_stale) {
+        for name in FILES.into_iter().filter(is_stale) {
             match std::fs::remove_file(self.path.join(name)) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => {
                     return Err(self.unwritable(error));
@@ -309,18 +294,6 @@ impl Directory {
         let path = self.path.clone();
         ResultsError::Unwritable { path, error }
     }
-}
-
-/// Makes a rename last.
-#[cfg(unix)]
-fn sync(directory: &Path) -> io::Result<()> {
-    File::open(directory)?.sync_all()
-}
-
-/// A directory cannot be opened here, and need not be.
-#[cfg(not(unix))]
-fn sync(_: &Path) -> io::Result<()> {
-    Ok(())
 }
 
 /// The first thing that keeps held results from being those of `config`; the question and the number

@@ -1,6 +1,7 @@
 //! One run at a time in a directory.
 
 use super::{Directory, ResultsError};
+use crate::files;
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -26,8 +27,8 @@ impl Drop for Lock {
 }
 
 impl Directory {
-    /// Makes the directory and keeps others from writing into it. On a file system that knows no
-    /// locks nobody is kept out.
+    /// Makes the directory, keeps others from writing into it, and removes what a killed run left half written. On a
+    /// file system that knows no locks nobody is kept out.
     ///
     /// # Errors
     /// Where another run holds it, or it cannot be made.
@@ -44,6 +45,7 @@ impl Directory {
             let handle = open(self.path()).map_err(unwritable)?;
             match handle.try_lock() {
                 Ok(()) => {
+                    files::remove_drafts(self.path()).map_err(unwritable)?;
                     let _handle = Some(handle);
                     return Ok(Lock { _handle, made });
                 }

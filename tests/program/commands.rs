@@ -54,28 +54,106 @@ fn threshold_prints_json() {
 fn threshold_draws_the_plane() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("plane.png");
-    run(&[&SIZES[..], &["--figure", path.to_str().unwrap()]].concat());
-    assert!(fs::read(path).unwrap().starts_with(b"\x89PNG"));
+    let draw = [&SIZES[..], &["--figure", path.to_str().unwrap()]].concat();
+    run(&draw);
+    assert!(fs::read(&path).unwrap().starts_with(b"\x89PNG"));
+    // What is there is not replaced unasked.
+    fs::write(&path, "old").unwrap();
+    let (code, _, err) = outcome(liftsim().args(&draw));
+    assert_eq!(code, 2);
+    assert!(err.contains("plane.png: is there already"), "{err}");
+    assert_eq!(fs::read(&path).unwrap(), b"old");
+    run(&[&draw[..], &["--force"]].concat());
+    assert!(fs::read(&path).unwrap().starts_with(b"\x89PNG"));
 }
 
-/// Half a minute of patience is more than it takes at the largest sizes promised.
+/// The largest sizes that are promised.
 #[test]
 fn threshold_at_large_sizes() {
-    let start = std::time::Instant::now();
-    run(&[
-        "threshold",
-        "--reference",
-        "200",
-        "--shift",
-        "200",
-        "--scale",
-        "200",
-        "--alpha",
-        "0.01",
-    ]);
-    let seconds = start.elapsed().as_secs_f64();
-    println!("200/200/200: {seconds:.2} s");
-    assert!(seconds < 5.0);
+    let sizes = ["--reference", "200", "--shift", "200", "--scale", "200"];
+    let out = run(&[&["threshold", "--alpha", "0.01"], &sizes[..]].concat());
+    assert!(out.contains("exact size 0.00"), "{out}");
+}
+
+/// What would take more than there is, is refused before it is paid for: in an address space of 200 MB.
+#[cfg(target_os = "linux")]
+#[test]
+fn huge_sizes_are_refused_at_once() {
+    let program = assert_cmd::cargo::cargo_bin("liftsim");
+    for (command, sentence) in [
+        (
+            "threshold --reference 12 --shift 1 --scale 10000000 --alpha 0.01",
+            "MB of counts",
+        ),
+        (
+            "threshold --reference 12 --shift 12 --scale 10000000 --alpha 0.01",
+            "GB of counts",
+        ),
+        (
+            "threshold --reference 10000000 --shift 12 --scale 12 --alpha 0.01",
+            "GB of counts",
+        ),
+        (
+            "threshold --reference 12 --shift 10000000 --scale 12 --alpha 0.01",
+            "GB of counts",
+        ),
+        (
+            "threshold --reference 3000 --shift 3000 --scale 3000 --alpha 0.01",
+            "GB of counts",
+        ),
+        (
+            "threshold --reference 18446744073709551615 --shift 12 --scale 12 --alpha 0.01",
+            "of counts",
+        ),
+        (
+            "sweep configs/fig6.toml --threads 10000",
+            "must lie in 1 to 1024 (leave it out to use all cores)",
+        ),
+        (
+            "sweep configs/fig6.toml --threads 1000000000",
+            "must lie in 1 to 1024",
+        ),
+    ] {
+        let script = format!("ulimit -v 200000; exec {} {command}", program.display());
+        let mut shell = std::process::Command::new("sh");
+        let output = shell.args(["-c", &script]).current_dir(project()).output();
+        let output = output.unwrap();
+        let err = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{command}: {err}");
+        assert!(err.contains(sentence), "{command}: {err}");
+    }
+}
+
+/// Whatever is typed, no message repeats more than 200 characters of it.
+#[test]
+fn messages_repeat_little_of_what_was_typed() {
+    let long = "x".repeat(100_000);
+    let cases: [&[&str]; 9] = [
+        &["sweep", &long],
+        &["detect", &long],
+        &["status", &long],
+        &["plot", &long],
+        &["simulate", "--out", &long],
+        &["simulate", "--out", "a.csv", "--trip", &long],
+        &["threshold", "--alpha", &long],
+        &[&long],
+        &["figures", "--only", &long],
+    ];
+    for arguments in cases {
+        let (code, out, err) = outcome(liftsim().args(arguments));
+        assert!(
+            out.is_empty() || arguments[0] == "status",
+            "{}",
+            arguments[0]
+        );
+        assert!(
+            code == 2 || arguments[0] == "status",
+            "{}: {err}",
+            arguments[0]
+        );
+        let repeated = (err + &out).matches('x').count();
+        assert!(repeated < 250, "{}: {repeated}", arguments[0]);
+    }
 }
 
 #[test]

@@ -6,11 +6,11 @@ mod exhibits;
 mod figures;
 mod gate;
 mod order;
-mod record;
 mod recordings;
 mod replay;
 mod results;
 mod shards;
+mod simulate;
 mod survival;
 
 use assert_cmd::Command;

@@ -1,7 +1,7 @@
 //! `liftsim detect` and `liftsim monitor`: the rides of a recording, the same from a pipe; and every bad input:
 //! exit 2, a message that says where, what was got and what to do, no panic, and nothing left behind.
 
-use super::{liftsim, outcome, project};
+use super::{liftsim, outcome};
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::fs;
@@ -39,7 +39,7 @@ fn recorded(flags: &[&str]) -> TempDir {
     let directory = tempfile::tempdir().unwrap();
     let mut command = liftsim();
     command.current_dir(&directory);
-    command.args(["record", "--out", "ride.csv"]).args(flags);
+    command.args(["simulate", "--out", "ride.csv"]).args(flags);
     well(outcome(&mut command));
     directory
 }
@@ -75,7 +75,7 @@ fn objects(lines: &str) -> Vec<Value> {
 fn finds_the_rides_of_the_example() {
     let directory = recorded(&[]);
     let found = found(directory.path(), &["ride.csv"]);
-    let truth = fs::read_to_string(project().join("examples/ride.truth.csv")).unwrap();
+    let truth = fs::read_to_string(directory.path().join("ride.truth.csv")).unwrap();
     let rides = found["rides"].as_array().unwrap();
     assert_eq!(rides.len(), 2);
     for (ride, truth) in rides.iter().zip(truth.lines().skip(1)) {

@@ -5,7 +5,6 @@ use liftsim::campaign;
 use liftsim::ledger::Ledger;
 use liftsim::results::{Directory, Shard};
 use std::path::PathBuf;
-use std::time::Instant;
 
 fn shard(bench: &Bench, number: u64, count: u64, more: &[&str]) -> String {
     let out = format!("{number}-of-{count}");
@@ -150,7 +149,6 @@ fn merge_is_linear() {
         .checkpoint()
         .unwrap()
         .unwrap();
-    let bytes = all.to_json().len();
     for count in [500u64, 1000] {
         let shards: Vec<Directory> = (1..=count)
             .map(|number| {
@@ -168,11 +166,7 @@ fn merge_is_linear() {
                 Directory::new(path)
             })
             .collect();
-        let start = Instant::now();
         let joined = campaign::join(&shards).unwrap();
-        let seconds = start.elapsed().as_secs_f64();
-        let rate = count as f64 / seconds;
-        println!("{count} shards of {bytes} bytes in {seconds:.2} s: {rate:.0} shards/s");
         assert!(joined.missing == campaign::Missing::default());
         for (key, counter) in all.counters.iter() {
             let sum = joined.state.counters.get(key).unwrap();

@@ -152,7 +152,7 @@ pub enum RecordingProblem {
     NotANumber {
         /// Its name.
         column: String,
-        /// As written, shortened.
+        /// As written, shorten.
         got: String,
         /// What to do, in brackets after a space; or nothing.
         remedy: &'static str,
@@ -164,7 +164,7 @@ pub enum RecordingProblem {
     NotFinite {
         /// Its name.
         column: String,
-        /// As written, shortened.
+        /// As written, shorten.
         got: String,
     },
     /// A number that no lift makes, and that sums of squares would not survive.
@@ -250,7 +250,7 @@ impl fmt::Display for Names {
             return f.write_str("none");
         }
         for (index, name) in self.0.iter().take(LISTED).enumerate() {
-            let name = super::line_reader::shortened(name.as_bytes());
+            let name = super::line_reader::shorten(name.as_bytes());
             write!(f, "{}\"{name}\"", if index > 0 { ", " } else { "" })?;
         }
         match self.0.len().saturating_sub(LISTED) {

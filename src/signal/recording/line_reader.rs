@@ -58,7 +58,7 @@ pub enum LineError {
         line: u64,
         /// Whether it should end with the drum.
         has_drum: bool,
-        /// As written, shortened.
+        /// As written, shorten.
         got: String,
     },
     /// NaN or an infinity.
@@ -68,7 +68,7 @@ pub enum LineError {
     NotFinite {
         /// From 1.
         line: u64,
-        /// As written, shortened.
+        /// As written, shorten.
         got: String,
     },
     /// A line of another kind.
@@ -157,7 +157,7 @@ impl<R: BufRead> LineReader<R> {
                 Err(Cell::NotFinite) => {
                     return Err(LineError::NotFinite {
                         line: number,
-                        got: shortened(line),
+                        got: shorten(line),
                     });
                 }
                 Err(_) if may_be_header && is_words(line) => {
@@ -168,7 +168,7 @@ impl<R: BufRead> LineReader<R> {
                     return Err(LineError::NotNumbers {
                         line: number,
                         has_drum: self.has_drum,
-                        got: shortened(line),
+                        got: shorten(line),
                     });
                 }
             };
@@ -244,7 +244,7 @@ fn split(line: &[u8]) -> (&[u8], Option<&[u8]>) {
 }
 
 /// The beginning of what was written, in print.
-pub(super) fn shortened(text: &[u8]) -> String {
+pub(super) fn shorten(text: &[u8]) -> String {
     const SHOWN: usize = 40;
     let text = String::from_utf8_lossy(&text[..text.len().min(4 * SHOWN)]);
     let mut short: String = text

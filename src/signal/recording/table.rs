@@ -4,7 +4,7 @@ use super::cell::{Cell, DecimalMark};
 use super::delimiter::{Delimiter, Splitter};
 use super::error::{RecordingError, RecordingProblem};
 use super::layout::{Layout, is_remark};
-use super::line_reader::shortened;
+use super::line_reader::shorten;
 use super::lines::{Lines, NoLine};
 use super::source::{Source, Text};
 use std::sync::Arc;
@@ -119,7 +119,7 @@ impl Table {
         if cell.iter().any(u8::is_ascii_control) {
             return RecordingProblem::Binary;
         }
-        let (column, got) = (self.layout.columns[column].name.clone(), shortened(cell));
+        let (column, got) = (self.layout.columns[column].name.clone(), shorten(cell));
         match read {
             Cell::NotFinite => RecordingProblem::NotFinite { column, got },
             _ => RecordingProblem::NotANumber {

@@ -1,42 +1,78 @@
-//! `liftsim record`: files, refusals, and the example that ships.
+//! `liftsim simulate`: files, refusals, and the ride of the README.
 
 use super::{liftsim, outcome, project};
+use liftsim::results::sha256;
 use std::fs;
 use std::path::Path;
 
-fn record(directory: &Path, flags: &[&str]) -> (i32, String, String) {
+fn simulate(directory: &Path, flags: &[&str]) -> (i32, String, String) {
     let mut command = liftsim();
-    command.current_dir(directory).arg("record").args(flags);
+    command.current_dir(directory).arg("simulate").args(flags);
     outcome(&mut command)
 }
 
 fn refused(flags: &[&str]) -> String {
     let directory = tempfile::tempdir().unwrap();
     let all = [&["--out", "ride.csv"], flags].concat();
-    let (code, out, err) = record(directory.path(), &all);
+    let (code, out, err) = simulate(directory.path(), &all);
     assert_eq!((code, out.as_str()), (2, ""), "{flags:?}: {err}");
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 0);
     err
 }
 
-/// The files in `examples/` are what the program writes, twice the same, and says so.
+/// The ride that the README begins with: the same bytes on every machine, which are those of the defaults.
 #[test]
-fn examples_are_up_to_date() {
+fn the_ride_of_the_readme() {
     let directory = tempfile::tempdir().unwrap();
-    let flags = ["--out", "ride.csv", "--seed", "1"];
-    let (code, out, err) = record(directory.path(), &flags);
+    let config = project().join("configs/simulate/ride.toml");
+    let flags = [config.to_str().unwrap(), "--out", "ride.csv"];
+    let (code, out, err) = simulate(directory.path(), &flags);
     assert_eq!((code, err.as_str()), (0, ""));
     assert_eq!(
         out,
         "ride.csv  6212 samples, 62.1 s at 100 Hz\nride.truth.csv  2 trips\n"
     );
-    for name in ["ride.csv", "ride.truth.csv"] {
-        let written = fs::read(directory.path().join(name)).unwrap();
-        let shipped = fs::read(project().join("examples").join(name)).unwrap();
-        assert!(
-            written == shipped,
-            "liftsim record --out examples/ride.csv --seed 1 --force"
-        );
+    let read = |name| fs::read(directory.path().join(name)).unwrap();
+    let golden = "ba87a45dfb66374249fe60ac94244a9bf2b43a045608c47e61787e5030151ba1";
+    assert_eq!(sha256(&read("ride.csv")), golden);
+    let truth = "start,stop,direction,distance,speed,ended,uniform,braking\n\
+        8.005000,27.064524,up,12.000000,0.700000,commanded,9.921667,25.147857\n\
+        35.064524,54.124048,down,-12.000000,0.700000,commanded,36.981190,52.207381\n";
+    assert_eq!(String::from_utf8(read("ride.truth.csv")).unwrap(), truth);
+    assert_eq!(simulate(directory.path(), &["--out", "default.csv"]).0, 0);
+    assert!(read("default.csv") == read("ride.csv"));
+}
+
+/// Flags go over the config, and what is wrong in the config is shown there.
+#[test]
+fn a_config_is_read_strictly() {
+    let directory = tempfile::tempdir().unwrap();
+    let config = |text: &str| {
+        fs::write(directory.path().join("short.toml"), text).unwrap();
+        let flags = ["short.toml", "--out", "ride.csv", "--rest", "2", "--force"];
+        simulate(directory.path(), &flags)
+    };
+    let (code, out, err) = config("rate = 50\ntrip = [\"up:3\"]\nrest = [600]\n");
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert!(
+        out.contains("at 50 Hz") && out.contains(" 1 trip\n"),
+        "{out}"
+    );
+    for (text, message) in [
+        (
+            "rates = 50",
+            "short.toml:1:1: unknown key `rates`, did you mean `rate`?",
+        ),
+        ("trip = [\"up\"]", "a trip reads up:METRES or down:METRES"),
+        (
+            "rate = \"fast\"",
+            "short.toml:1:8: rate: must be f64, got string \"fast\"",
+        ),
+        ("rate = 0", "rate must lie in"),
+    ] {
+        let (code, _, err) = config(text);
+        assert_eq!(code, 2, "{text}: {err}");
+        assert!(err.contains(message), "{text}: {err}");
     }
 }
 
@@ -44,10 +80,10 @@ fn examples_are_up_to_date() {
 fn replaces_nothing_unasked() {
     let directory = tempfile::tempdir().unwrap();
     let flags = ["--out", "ride.csv", "--still", "--rest", "1"];
-    assert_eq!(record(directory.path(), &flags).0, 0);
+    assert_eq!(simulate(directory.path(), &flags).0, 0);
     let first = fs::read(directory.path().join("ride.csv")).unwrap();
     let other = [&flags[..], &["--seed", "2"]].concat();
-    let (code, _, err) = record(directory.path(), &other);
+    let (code, _, err) = simulate(directory.path(), &other);
     assert_eq!(code, 2);
     assert!(
         err.contains("ride.csv: is there already (give another name, or --force"),
@@ -55,12 +91,58 @@ fn replaces_nothing_unasked() {
     );
     assert_eq!(fs::read(directory.path().join("ride.csv")).unwrap(), first);
     fs::remove_file(directory.path().join("ride.csv")).unwrap();
-    let (code, _, err) = record(directory.path(), &other);
+    let (code, _, err) = simulate(directory.path(), &other);
     assert_eq!(code, 2);
     assert!(err.contains("ride.truth.csv: is there already"), "{err}");
     let forced = [&other[..], &["--force"]].concat();
-    assert_eq!(record(directory.path(), &forced).0, 0);
+    assert_eq!(simulate(directory.path(), &forced).0, 0);
     assert_ne!(fs::read(directory.path().join("ride.csv")).unwrap(), first);
+}
+
+/// A link in the way is not followed, and a disk that fills up leaves the old files whole and nothing else.
+#[cfg(unix)]
+#[test]
+fn files_are_replaced_whole_or_not_at_all() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = |name: &str| directory.path().join(name);
+    fs::write(path("precious"), "old").unwrap();
+    for (name, planted) in [("ride.csv", "precious"), ("ride.truth.csv", "nothing")] {
+        std::os::unix::fs::symlink(path(planted), path(name)).unwrap();
+        let flags = ["--out", "ride.csv", "--still", "--rest", "1"];
+        let (code, _, err) = simulate(directory.path(), &flags);
+        assert_eq!(code, 2);
+        assert!(err.contains("is there already"), "{err}");
+        let forced = [&flags[..], &["--force"]].concat();
+        let (code, _, err) = simulate(directory.path(), &forced);
+        assert_eq!(code, 2);
+        assert!(
+            err.contains(&format!("{name}: is not an ordinary file")),
+            "{err}"
+        );
+        fs::remove_file(path(name)).unwrap();
+    }
+    assert_eq!(fs::read(path("precious")).unwrap(), b"old");
+    assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
+
+    assert_eq!(simulate(directory.path(), &["--out", "ride.csv"]).0, 0);
+    let read = || ["ride.csv", "ride.truth.csv"].map(|name| fs::read(path(name)).unwrap());
+    let old = read();
+    let program = assert_cmd::cargo::cargo_bin("liftsim");
+    let script = format!(
+        "trap '' XFSZ; ulimit -f 100; exec {} simulate --out ride.csv --seed 2 --force",
+        program.display()
+    );
+    let mut shell = std::process::Command::new("sh");
+    let output = shell
+        .args(["-c", &script])
+        .current_dir(directory.path())
+        .output();
+    let output = output.unwrap();
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{err}");
+    assert!(err.contains("ride.csv: cannot be written"), "{err}");
+    assert!(read() == old);
+    assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 3);
 }
 
 /// A jam, steps and gravity are in the files.
@@ -88,7 +170,7 @@ fn flags_shape_the_ride() {
         "0.1",
         "--with-gravity",
     ];
-    let (code, out, err) = record(directory.path(), &flags);
+    let (code, out, err) = simulate(directory.path(), &flags);
     assert_eq!((code, err.as_str()), (0, ""), "{out}");
     let truth = fs::read_to_string(directory.path().join("jam.truth.csv")).unwrap();
     let trips: Vec<Vec<&str>> = truth
@@ -145,7 +227,7 @@ fn bad_flags_get_sentences() {
     for (flags, sentence) in [
         (
             &["--trip", "up:0.5:jam"][..],
-            "--trip, number 1: jam: a trip of 0.5 m never moves uniformly",
+            "trip 1: jam: a trip of 0.5 m never moves uniformly",
         ),
         (
             &["--trip", "up:12:jam@1"],
@@ -172,7 +254,7 @@ fn bad_flags_get_sentences() {
         (&["--vibration=-1"], "vibration must be zero or positive"),
         (
             &["--step", "0"],
-            "--step must lie in [1e-9, 1e9] times --sigma, got 0",
+            "step must lie in [1e-9, 1e9] times sigma, got 0",
         ),
         (
             &["--still", "--rest", "3", "--rest", "4"],
@@ -185,10 +267,10 @@ fn bad_flags_get_sentences() {
         assert!(err.contains(sentence), "{flags:?}: {err}");
     }
     let directory = tempfile::tempdir().unwrap();
-    let (code, _, err) = record(directory.path(), &["--out", "ride"]);
+    let (code, _, err) = simulate(directory.path(), &["--out", "ride"]);
     assert_eq!(code, 2);
     assert!(err.contains("--out must end in .csv, got ride"), "{err}");
-    let (code, _, err) = record(directory.path(), &["--out", "none/ride.csv"]);
+    let (code, _, err) = simulate(directory.path(), &["--out", "none/ride.csv"]);
     assert_eq!(code, 2);
     assert!(
         err.contains(

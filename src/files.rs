@@ -1,0 +1,181 @@
+//! Files that appear whole or not at all: written beside their place, synced, and moved into it.
+//!
+//! The name of a draft is new and a move replaces a symbolic link, not what it points to: a link that somebody has
+//! planted is never followed.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use tempfile::{Builder, NamedTempFile};
+
+/// What the name of every draft begins with.
+const PREFIX: &str = ".liftsim-part";
+
+/// A file that is complete but not yet in its place. Dropped, it leaves nothing behind.
+#[derive(Debug)]
+pub struct Draft {
+    part: NamedTempFile,
+    path: PathBuf,
+}
+
+impl Draft {
+    /// Writes what is to stand at `path`.
+    ///
+    /// # Errors
+    /// Where its folder or `content` refuses, or the disk is full.
+    pub fn new(
+        path: &Path,
+        content: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
+    ) -> io::Result<Self> {
+        let mut builder = Builder::new();
+        builder.prefix(PREFIX);
+        share(&mut builder);
+        let part = builder.tempfile_in(folder(path))?;
+        let mut out = BufWriter::new(part.as_file());
+        content(&mut out)?;
+        out.flush()?;
+        drop(out);
+        part.as_file().sync_all()?;
+        let path = path.to_owned();
+        Ok(Self { part, path })
+    }
+
+    /// Puts it in the place of whatever is there.
+    ///
+    /// # Errors
+    /// Where the file system refuses; what was there is then whole.
+    pub fn replace(self) -> io::Result<()> {
+        self.part.persist(&self.path)?;
+        sync(folder(&self.path))
+    }
+
+    /// Puts it where nothing is.
+    ///
+    /// # Errors
+    /// Where something is there, or the file system refuses.
+    pub fn create_new(self) -> io::Result<()> {
+        self.part.persist_noclobber(&self.path)?;
+        sync(folder(&self.path))
+    }
+}
+
+/// Puts a file in the place of whatever is there.
+///
+/// # Errors
+/// Where it cannot be written; what was there is then whole.
+pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    Draft::new(path, |out| out.write_all(bytes))?.replace()
+}
+
+/// Removes the drafts of processes that were killed. Nobody else may be writing in `folder`.
+///
+/// # Errors
+/// Where one is there and cannot be removed.
+pub fn remove_drafts(folder: &Path) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        if entry.file_name().to_string_lossy().starts_with(PREFIX) {
+            fs::remove_file(entry.path())?;
+        }
+    }
+    Ok(())
+}
+
+fn folder(path: &Path) -> &Path {
+    let parent = path.parent();
+    parent
+        .filter(|parent| !parent.as_os_str().is_empty())
+        .unwrap_or(Path::new("."))
+}
+
+/// A temporary file is its owner's alone; a result has the permissions of any other file.
+#[cfg(unix)]
+fn share(builder: &mut Builder) {
+    use std::os::unix::fs::PermissionsExt;
+    builder.permissions(fs::Permissions::from_mode(0o666));
+}
+
+#[cfg(not(unix))]
+fn share(_: &mut Builder) {}
+
+/// Makes a move last.
+#[cfg(unix)]
+fn sync(folder: &Path) -> io::Result<()> {
+    File::open(folder)?.sync_all()
+}
+
+/// A folder cannot be opened here, and need not be.
+#[cfg(not(unix))]
+fn sync(_: &Path) -> io::Result<()> {
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        let mut names: Vec<String> = entries
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    /// The disk fills up half way: what was there is whole, and nothing is left behind.
+    #[test]
+    fn a_failure_changes_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file");
+        fs::write(&path, "old").unwrap();
+        let full = |out: &mut BufWriter<&File>| {
+            out.write_all(&[0; 1 << 16])?;
+            Err(io::ErrorKind::StorageFull.into())
+        };
+        assert!(Draft::new(&path, full).is_err());
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(names(folder.path()), ["file"]);
+    }
+
+    #[test]
+    fn what_is_there_is_replaced_only_when_asked() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file");
+        let draft = |text: &'static str| Draft::new(&path, |out| out.write_all(text.as_bytes()));
+        draft("one").unwrap().create_new().unwrap();
+        assert!(draft("two").unwrap().create_new().is_err());
+        assert_eq!(fs::read(&path).unwrap(), b"one");
+        draft("two").unwrap().replace().unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"two");
+        drop(draft("three").unwrap());
+        assert_eq!(fs::read(&path).unwrap(), b"two");
+        assert_eq!(names(folder.path()), ["file"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_not_followed() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let folder = tempfile::tempdir().unwrap();
+        let [path, precious] = ["file", "precious"].map(|name| folder.path().join(name));
+        fs::write(&precious, "old").unwrap();
+        symlink(&precious, &path).unwrap();
+        let draft = || Draft::new(&path, |out| out.write_all(b"new")).unwrap();
+        assert!(draft().create_new().is_err());
+        draft().replace().unwrap();
+        assert_eq!(fs::read(&precious).unwrap(), b"old");
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+        let mode = |path| fs::symlink_metadata(path).unwrap().permissions().mode();
+        assert_eq!(mode(&path), mode(&precious), "as any other file");
+    }
+
+    #[test]
+    fn drafts_of_the_dead_are_removed() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join(".liftsim-partAbCdEf"), "half").unwrap();
+        fs::write(folder.path().join("points.csv"), "whole").unwrap();
+        remove_drafts(folder.path()).unwrap();
+        assert_eq!(names(folder.path()), ["points.csv"]);
+    }
+}
