@@ -2,13 +2,14 @@
 //! false-alarm rate; in one panel, or in as many as the curves name.
 
 use super::FigureError;
-use super::labels::{self, Parameter, axis_label, common_facts, is_held_against_alpha};
+use super::labels::{self, WHITENED_DELTA, axis_label, common_facts, is_held_against_alpha};
 use super::rates::{Curve, Limit, Rate, add_bands, add_bars, rates};
 use super::x_axis::XAxis;
 use crate::plot::{
     Axis, Entry, Key, LONG_RANGE, Legend, Margins, Mark, Panel, Place, Plot, Style, ends,
 };
 use crate::results::Row;
+use crate::scenario::Parameter;
 
 /// One panel, without its legend above.
 const HEIGHT: f64 = 212.0;
@@ -18,7 +19,7 @@ const SMALL_HEIGHT: f64 = 114.0;
 /// What is swept.
 #[derive(Clone, Debug)]
 pub struct Sweep {
-    pub axis: Parameter,
+    pub axis: &'static Parameter,
     /// Of the axis, where they are numbers.
     pub values: Vec<f64>,
     pub curves: Vec<SweepCurve>,
@@ -51,7 +52,7 @@ pub fn plot(sweep: &Sweep, rows: &[Row], seed: u64) -> Result<Plot, FigureError>
         .collect();
     let all: Vec<&Row> = drawn.iter().flatten().copied().collect();
     if all.is_empty() {
-        return Err(FigureError::Empty(sweep.axis.name()));
+        return Err(FigureError::Empty(sweep.axis.name));
     }
     let x = XAxis::new(sweep, &all);
     let common = common_facts(&all);
@@ -137,7 +138,7 @@ fn grouped(
 
 /// The panels: one, or two in a row, with words at the left and along the lowest.
 fn panels(x: &XAxis, y: &Axis, sweep: &Sweep, groups: &[Group], rows: &[&Row]) -> Plot {
-    let is_whitened = rows.iter().all(|row| row.delta_at == "whitened");
+    let is_whitened = rows.iter().all(|row| row.values.text("delta_at") == "whitened");
     let label = axis_label(sweep.axis, is_whitened);
     let (x_axis, y) = (
         x.axis(
@@ -153,7 +154,7 @@ fn panels(x: &XAxis, y: &Axis, sweep: &Sweep, groups: &[Group], rows: &[&Row]) -
             whitened_unit(sweep, rows).filter(|_| !x.is_logarithmic() && group.title.is_empty());
         let top = unit.map(|unit| {
             let axis = Axis::linear(x_axis.from * unit, x_axis.to * unit, 8);
-            axis.labelled(axis_label(Parameter::Delta, true))
+            axis.labelled(WHITENED_DELTA)
         });
         let above = match (&top, group.title.is_empty()) {
             (Some(_), _) => 32.0,
@@ -225,7 +226,7 @@ fn y_axis(groups: &[Group], rows: &[&Row], is_false_alarm: bool, is_logarithmic:
 
 /// Where the level stands that false-alarm rates are compared with.
 fn nominal(rows: &[&Row], is_logarithmic: bool) -> Option<f64> {
-    let alpha = is_held_against_alpha(rows).then_some(rows[0].alpha)?;
+    let alpha = is_held_against_alpha(rows).then_some(rows[0].alpha())?;
     Some(if is_logarithmic {
         libm::log10(alpha)
     } else {
@@ -247,13 +248,13 @@ fn spans_far(groups: &[Group]) -> bool {
 
 /// A row's rate and interval, from its counts.
 fn rate(x: f64, row: &Row) -> Rate {
-    let (low, high) = row.tally().interval(row.confidence);
+    let (low, high) = row.tally.interval(row.confidence);
     Rate {
         x,
-        rate: row.tally().rate(),
+        rate: row.tally.rate(),
         low,
         high,
-        limit: (row.detections == 0).then_some(Limit::Upper),
+        limit: (row.tally.hits == 0).then_some(Limit::Upper),
     }
 }
 
@@ -272,7 +273,10 @@ fn rows_of(rows: &[Row], curve: usize) -> Vec<&Row> {
 fn whitened_unit(sweep: &Sweep, rows: &[&Row]) -> Option<f64> {
     let first = rows[0];
     let agrees =
-        |row: &&Row| row.delta_at == "record" && row.sensor == first.sensor && row.decimation == 1;
-    let is_one = sweep.axis == Parameter::Delta && rows.iter().all(agrees);
+        |row: &&Row| {
+            let is_same = |name| row.values.cell(name) == first.values.cell(name);
+            row.values.text("delta_at") == "record" && is_same("sensor") && row.values.number("decimation") == 1.0
+        };
+    let is_one = sweep.axis.name == "delta" && rows.iter().all(agrees);
     sweep.curves[first.curve - 1].step_gain.filter(|_| is_one)
 }

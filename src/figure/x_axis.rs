@@ -1,7 +1,6 @@
 //! The axis of a sweep: where each row stands on it, and what its ticks say.
 
 use super::curves::Sweep;
-use super::labels::Parameter;
 use crate::plot::{Axis, is_long};
 use crate::results::Row;
 
@@ -10,15 +9,16 @@ pub(super) struct XAxis<'a> {
     sweep: &'a Sweep,
     is_logarithmic: bool,
     /// The rules on a rule axis, in order.
-    rules: Vec<&'a str>,
+    rules: Vec<String>,
 }
 
 impl<'a> XAxis<'a> {
-    pub fn new(sweep: &'a Sweep, rows: &[&'a Row]) -> Self {
-        let mut rules: Vec<&str> = Vec::new();
-        for row in rows.iter().filter(|_| sweep.axis == Parameter::Rule) {
-            if !rules.contains(&row.rule.as_str()) {
-                rules.push(&row.rule);
+    pub fn new(sweep: &'a Sweep, rows: &[&Row]) -> Self {
+        let mut rules: Vec<String> = Vec::new();
+        for row in rows.iter().filter(|_| sweep.axis.name == "rule") {
+            let rule = row.values.text("rule");
+            if !rules.contains(&rule) {
+                rules.push(rule);
             }
         }
         Self {
@@ -44,7 +44,8 @@ impl<'a> XAxis<'a> {
     pub fn place(&self, rows: &[&Row], index: usize) -> f64 {
         let (row, values) = (rows[index], &self.sweep.values);
         if self.is_named() {
-            let rule = self.rules.iter().position(|rule| *rule == row.rule);
+            let own = row.values.text("rule");
+            let rule = self.rules.iter().position(|rule| *rule == own);
             return rule.unwrap_or(0) as f64;
         }
         let value = match rows.len() == values.len() {
@@ -68,10 +69,10 @@ impl<'a> XAxis<'a> {
 
     /// The rules without their tables, tables numbered where there are several.
     fn names(&self) -> Vec<String> {
-        let is_table = |rule: &&&str| rule.starts_with("table");
+        let is_table = |rule: &&String| rule.starts_with("table");
         let several = self.rules.iter().filter(is_table).count() > 1;
         let mut tables = 0;
-        let name = |rule: &&str| {
+        let name = |rule: &String| {
             if several && is_table(&rule) {
                 tables += 1;
                 return format!("table {tables}");
