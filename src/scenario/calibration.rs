@@ -4,7 +4,7 @@ use crate::signal::{Law, Noise, Sensor, SensorChoice};
 use schemars::JsonSchema;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserializer, MapAccess, Visitor};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::fmt;
 
 /// Where a threshold comes from.

@@ -68,6 +68,7 @@ impl ScenarioError {
     /// The keys that may be to blame, the likeliest first.
     pub fn keys(&self) -> &'static [&'static str] {
         match self {
+            Self::Motion(MotionError::Delta(_)) => &["motion.delta"],
             Self::Motion(MotionError::Duration { .. }) => &["motion.duration", "motion.offset"],
             Self::Motion(MotionError::Rise { .. }) => &["motion.profile", "motion.duration"],
             Self::Whitening(error) => error.keys(),
