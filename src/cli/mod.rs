@@ -7,6 +7,7 @@ mod detect;
 mod exhibit;
 mod figures;
 mod found;
+mod keys;
 mod man;
 mod merge;
 mod monitor;
@@ -68,6 +69,7 @@ enum Command {
     Simulate(simulate::Simulate),
     Detect(Box<detect::Detect>),
     Monitor(Box<monitor::MonitorCommand>),
+    Keys(keys::Keys),
     Completions(completions::Completions),
     Man(man::Man),
 }
@@ -118,6 +120,7 @@ impl Arguments {
             Command::Threshold(verb) => verb.run(),
             Command::Plan(verb) => verb.run(),
             Command::Replay(verb) => verb.run(),
+            Command::Keys(verb) => verb.run(),
             Command::Simulate(verb) => verb.run(),
             Command::Detect(verb) => verb.run(self.quiet),
             Command::Monitor(verb) => verb.run(),

@@ -19,7 +19,9 @@ pub fn schema() -> Value {
     let sections = properties::<Sections>(&mut generator);
     let mut all = properties::<Header>(&mut generator);
     all.extend(properties::<Narrative>(&mut generator));
-    all.insert("axis".to_owned(), axis(PARAMETERS.iter().filter(|p| p.is_swept()).map(|p| p.name)));
+    let swept = PARAMETERS.iter().filter(|parameter| parameter.is_swept());
+    let swept = swept.map(|parameter| (parameter.name, at(&sections, parameter.paths[0])));
+    all.insert("axis".to_owned(), axis(swept));
     let mut curve = properties::<CurveHeader>(&mut generator);
     curve.extend(sections.clone());
     let description = "One curve of a sweep; each may change any of the sections.";
@@ -57,10 +59,16 @@ fn properties<T: JsonSchema>(generator: &mut SchemaGenerator) -> Map<String, Val
     }
 }
 
-/// An axis of one of these keys.
-pub(super) fn axis<'a>(names: impl Iterator<Item = &'a str>) -> Value {
-    let values = json!({ "anyOf": [
-        { "type": "array", "minItems": 1 },
+/// The schema of a key of a section.
+fn at(sections: &Map<String, Value>, path: &str) -> Value {
+    let (section, key) = path.split_once('.').unwrap_or((path, ""));
+    sections[section]["properties"][key].clone()
+}
+
+/// An axis of one of these keys, each with the schema of its values.
+pub(super) fn axis<'a>(keys: impl Iterator<Item = (&'a str, Value)>) -> Value {
+    let values = |value: Value| json!({ "anyOf": [
+        { "type": "array", "minItems": 1, "items": value },
         {
             "type": "object",
             "properties": {
@@ -71,10 +79,9 @@ pub(super) fn axis<'a>(names: impl Iterator<Item = &'a str>) -> Value {
             "required": ["from", "to", "step"],
             "additionalProperties": false,
         },
-        { "type": "number" },
-        { "type": "string" },
+        value,
     ] });
-    let keys: Map<String, Value> = names.map(|name| (name.to_owned(), values.clone())).collect();
+    let keys: Map<String, Value> = keys.map(|(name, value)| (name.to_owned(), values(value))).collect();
     json!({
         "description": "What the x axis sweeps, exactly one key: a list of values, or { from, to, step }.",
         "type": "object",

@@ -5,10 +5,10 @@ use super::{liftsim, outcome};
 use std::fmt::Write;
 use std::fs;
 
-const GOOD: &str = "question = \"?\"\nseed = 1\ntrials = 10\n";
+pub const GOOD: &str = "question = \"?\"\nseed = 1\ntrials = 10\n";
 
 /// What the message is about, and the rest of a config that earns it.
-const CONFIGS: &[(&str, &str)] = &[
+pub const CONFIGS: &[(&str, &str)] = &[
     ("unknown key", "trails = 5\n[axis]\ndelta = [1.0]\n"),
     (
         "unknown key in a section",
@@ -524,7 +524,7 @@ const DRAWINGS: &[(&str, &str)] = &[
 ];
 
 /// Tables of rides that are wrong in their own ways.
-const RIDES: &[(&str, &str)] = &[
+pub const RIDES: &[(&str, &str)] = &[
     ("no measure", "[ride.axis]\nrate = [100]\n"),
     (
         "an unknown measure",

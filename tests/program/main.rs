@@ -5,6 +5,7 @@ mod commands;
 mod exhibits;
 mod figures;
 mod gate;
+mod keys;
 mod order;
 mod recordings;
 mod replay;

@@ -1,0 +1,27 @@
+//! `liftsim keys`: the reference of every table and key of a config.
+
+use super::{Outcome, print};
+use clap::Args;
+use liftsim::experiment::reference;
+use std::process::ExitCode;
+
+/// Print the reference of every table and key of a config.
+///
+/// `configs/README.md` and `configs/schema.json` are what it prints.
+#[derive(Debug, Args)]
+pub struct Keys {
+    /// As a JSON Schema, for editors: `#:schema ./schema.json` in a config's first line.
+    #[arg(long)]
+    schema: bool,
+}
+
+impl Keys {
+    pub fn run(self) -> Outcome {
+        if self.schema {
+            print(&format!("{:#}\n", reference::schema()))?;
+        } else {
+            print(&reference::markdown())?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
