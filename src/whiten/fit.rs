@@ -1,6 +1,6 @@
 //! Fitting the filter's coefficients: least squares, Yule–Walker, Burg.
 
-use super::order::{Schwarz, is_constant};
+use super::order::Schwarz;
 use super::{Fit, Order, Whitening};
 use crate::simd::Value;
 use std::ops::Range;
@@ -11,7 +11,7 @@ pub struct Fitter<V: Value = f64> {
     whitening: Whitening,
     coefficients: Vec<V>,
     products: Vec<V>,
-    /// Chooses the order of each trial, where it is not given.
+    /// Where each trial chooses its order.
     choice: Option<Schwarz>,
     solver: Solver,
 }
@@ -67,32 +67,16 @@ impl<V: Value> Fitter<V> {
             covariances(training, mean, order, &mut self.products);
         }
         for lane in 0..mean.lanes().len() {
-            if self.choice.is_some() {
-                self.choose(training, lane);
+            if let Some(choice) = &mut self.choice {
+                let order = choice.order_in(lane, training, &self.products);
+                self.solver.coefficients.resize(order, 0.0);
+                for beyond in &mut self.coefficients[order..] {
+                    beyond.lanes_mut()[lane] = 0.0;
+                }
             }
             self.solve(training, mean, lane);
         }
         &self.coefficients
-    }
-
-    /// Makes the solver one of the order that the training record of this trial asks for.
-    fn choose(&mut self, training: &[V], lane: usize) {
-        let Some(choice) = &mut self.choice else {
-            return;
-        };
-        for (to, product) in choice.products.iter_mut().zip(&self.products) {
-            *to = product.lanes()[lane];
-        }
-        // Around the mean of equal samples there may be roundings.
-        let order = if is_constant(training.iter().map(|x| &x.lanes()[lane])) {
-            0
-        } else {
-            choice.order()
-        };
-        self.solver.coefficients.resize(order, 0.0);
-        for unused in &mut self.coefficients[order..] {
-            unused.lanes_mut()[lane] = 0.0;
-        }
     }
 
     fn solve(&mut self, training: &[V], mean: V, lane: usize) {
@@ -106,9 +90,7 @@ impl<V: Value> Fitter<V> {
             Fit::Known | Fit::None => {}
             Fit::LeastSquares if self.choice.is_some() => {
                 centre(&mut solver.forward);
-                let order = solver.coefficients.len();
-                covariances(&solver.forward, 0.0, order, &mut solver.normal);
-                solver.least_squares();
+                solver.least_squares_of_record();
             }
             Fit::LeastSquares => {
                 let products = self.products.iter().map(|product| product.lanes()[lane]);
@@ -134,6 +116,13 @@ impl Solver {
     /// Solves Σ_k c_jk a_k = c_j0, c_jk = Σ_{i=m}^{L−1} x_{i−j} x_{i−k}.
     fn least_squares(&mut self) {
         solve_normal_equations(&mut self.normal, &mut self.scratch, &mut self.coefficients);
+    }
+
+    /// The same from the record in `forward`: products of a higher order leave out its first samples.
+    fn least_squares_of_record(&mut self) {
+        let order = self.coefficients.len();
+        covariances(&self.forward, 0.0, order, &mut self.normal);
+        self.least_squares();
     }
 
     /// Levinson's recursion on r_k = Σ x_i x_{i−k}.

@@ -11,6 +11,8 @@
 //! ranks do not feel, but the fit does. With the sign convention of eq. (3) an impulse λ_i becomes
 //! λ_i − Σ a_p λ_{i−p}; (9) prints a plus there, which its own Δ(1 − β) contradicts.
 //!
+//! The order m is given, or chosen for each record of rest: see [`Order`] and [`Chosen`].
+//!
 //! [^1]: see [`crate::signal`].
 
 mod fit;

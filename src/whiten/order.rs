@@ -14,6 +14,7 @@
 
 use super::fit::{covariances, solve_normal_equations};
 use super::{Fit, Fitter, Whitening};
+use crate::simd::Value;
 use libm::log;
 use serde::de::{Deserializer, Error, Unexpected, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
@@ -143,6 +144,18 @@ impl Schwarz {
             diagonal: vec![0.0; most + 1],
             coefficients: vec![0.0; most],
         }
+    }
+
+    /// The order that the record of the trial in `lane` asks for.
+    pub fn order_in<V: Value>(&mut self, lane: usize, record: &[V], products: &[V]) -> usize {
+        // Around the mean of equal samples there may be roundings, which are no noise to whiten.
+        if is_constant(record.iter().map(|x| &x.lanes()[lane])) {
+            return 0;
+        }
+        for (to, product) in self.products.iter_mut().zip(products) {
+            *to = product.lanes()[lane];
+        }
+        self.order()
     }
 
     /// The order that the products ask for, the lowest of equals.
