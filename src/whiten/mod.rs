@@ -18,16 +18,17 @@
 mod fit;
 mod order;
 mod portmanteau;
+mod schwarz;
 #[cfg(test)]
 mod tests;
 
 pub use fit::Fitter;
-pub use order::{Chosen, MOST_ORDER, Order, OrderError, coefficients};
-
-use order::SAMPLES_PER_COEFFICIENT;
+pub use order::{MOST_ORDER, Order};
 pub use portmanteau::{LjungBox, PortmanteauError};
+pub use schwarz::{Chosen, OrderError, coefficients};
 
 use crate::simd::Value;
+use schwarz::SAMPLES_PER_COEFFICIENT;
 use std::fmt;
 
 /// How a filter comes by its coefficients.
