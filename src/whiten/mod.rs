@@ -11,21 +11,24 @@
 //! ranks do not feel, but the fit does. With the sign convention of eq. (3) an impulse λ_i becomes
 //! λ_i − Σ a_p λ_{i−p}; (9) prints a plus there, which its own Δ(1 − β) contradicts.
 //!
+//! The order m is given, or chosen for each record of rest: see [`Order`] and [`Chosen`].
+//!
 //! [^1]: see [`crate::signal`].
 
 mod fit;
 mod order;
 mod portmanteau;
+mod schwarz;
 #[cfg(test)]
 mod tests;
 
 pub use fit::Fitter;
-pub use order::{Chosen, MOST_ORDER, Order, OrderError, coefficients};
-
-use order::SAMPLES_PER_COEFFICIENT;
+pub use order::{MOST_ORDER, Order};
 pub use portmanteau::{LjungBox, PortmanteauError};
+pub use schwarz::{Chosen, OrderError, coefficients};
 
 use crate::simd::Value;
+use schwarz::SAMPLES_PER_COEFFICIENT;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
