@@ -12,13 +12,13 @@ fn main() -> ExitCode {
         Err(Failure::Input(error)) => report(&error, 2),
         Err(Failure::Run(error)) => report(&error, 1),
         Err(Failure::Stopped { code, message }) => {
-            eprintln!("{message}");
+            cli::say(message);
             ExitCode::from(code)
         }
     }
 }
 
 fn report(error: &anyhow::Error, code: u8) -> ExitCode {
-    eprintln!("error: {error:#}");
+    cli::say(format_args!("error: {error:#}"));
     ExitCode::from(code)
 }

@@ -5,11 +5,12 @@
 //! this is agreement, not accuracy. Without the folder these tests say that they are skipped; the
 //! simulated ones always run.
 
-use liftsim::detection::{Detection, End, Ride};
+use liftsim::detection::{Detection, End, Trip};
 use liftsim::monitor::{Direction, Event, Knowledge, Monitor, Settings, State};
 use liftsim::signal::recording::{Reading, Recording, Sample};
 use liftsim::signal::{
-    Digitiser, Drive, Ending, Journey, Law, Noise, Phase, Pickup, Ride as Simulation, Sensor, Trip,
+    Digitiser, Drive, Ending, Journey, Law, Noise, Phase, Pickup, Ride as Simulation, Sensor,
+    Trip as SimulatedTrip,
 };
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -49,7 +50,7 @@ impl Known {
         let knowledge = Knowledge::from_record(&design, pass)?.map_err(|none| none.to_string())?;
         let samples = self.samples.iter().map(|sample| Ok::<_, String>(*sample));
         let detection = Detection::of(&design, knowledge, samples)?;
-        let worst = worst(&self.trips, &detection.rides);
+        let worst = worst(&self.trips, &detection.trips);
         Ok(Compared { detection, worst })
     }
 
@@ -66,13 +67,13 @@ impl Known {
     }
 }
 
-fn worst(trips: &[Stated], rides: &[Ride]) -> Result<f64, String> {
+fn worst(trips: &[Stated], rides: &[Trip]) -> Result<f64, String> {
     if trips.len() != rides.len() {
         return Err(format!("{} rides, {} stated", rides.len(), trips.len()));
     }
     let mut worst: f64 = 0.0;
     for (trip, ride) in trips.iter().zip(rides) {
-        let (Some(stop), Some(End::Stop)) = (ride.stop, ride.end) else {
+        let (Some(stop), End::Stop) = (ride.stop, ride.ended) else {
             return Err(format!("no stop: {ride:?}"));
         };
         if ride.direction != trip.direction {
@@ -139,7 +140,7 @@ fn real_rides_are_found_where_they_are_stated() {
     for recording in &known {
         let Compared { detection, worst } = recording.detect(&Settings::default()).unwrap();
         println!("{}", recording.name);
-        for (ride, trip) in detection.rides.iter().zip(&recording.trips) {
+        for (ride, trip) in detection.trips.iter().zip(&recording.trips) {
             let delay = |reported: Option<f64>, time: Option<f64>| {
                 reported
                     .zip(time)
@@ -411,7 +412,7 @@ fn cases() -> Vec<Case> {
 
 /// An up ride and a down ride.
 fn simulated(case: &Case) -> Known {
-    let trip = |distance| Trip {
+    let trip = |distance| SimulatedTrip {
         distance,
         drive: case.drive,
         ending: Ending::Commanded,
@@ -501,7 +502,7 @@ fn misled(ride: &Simulation, record: &[f64], mut monitor: Monitor, grace: f64) -
         let inside = |journey: &Journey| journey.start + grace < time && time < journey.stop - 0.1;
         journeys.iter().any(inside)
     };
-    let rest = State::Known(Phase::Rest);
+    let rest = State::REST;
     let wrong = record.iter().enumerate().filter(|(i, acceleration)| {
         let time = *i as f64 / ride.rate();
         monitor.step(
@@ -524,7 +525,7 @@ fn journey(index: u64, direction: Directions) -> Simulation {
     let part =
         |i: u64, salt: u64| (index * 131 + i * 17 + salt).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 40;
     let share = |i: u64, salt: u64| part(i, salt) as f64 / (1u64 << 24) as f64;
-    let trips = (0..10).map(|i| Trip {
+    let trips = (0..10).map(|i| SimulatedTrip {
         distance: direction(part(i, 1)) * (4.0 + 20.0 * share(i, 2)),
         drive: Drive {
             speed: 1.0,
@@ -591,7 +592,7 @@ fn a_record_that_begins_in_motion_is_not_read_upside_down() {
         };
         let found = record.detect(&Settings::default()).unwrap().detection;
         assert!(!found.knowledge.begins_at_rest, "{cut}");
-        for ride in &found.rides {
+        for ride in &found.trips {
             assert!(
                 known
                     .trips
@@ -641,5 +642,5 @@ fn a_levelling_lift_has_not_stopped() {
         is_adverse: false,
     };
     let found = known.detect(&Settings::default()).unwrap();
-    assert!(found.worst.unwrap() < 0.1, "{:?}", found.detection.rides);
+    assert!(found.worst.unwrap() < 0.1, "{:?}", found.detection.trips);
 }

@@ -46,7 +46,8 @@ fn events(design: &Design, knowledge: Knowledge, pieces: &[Piece]) -> Vec<Event>
 
 /// When it was said that the cage stands.
 fn rests(events: &[Event]) -> Vec<f64> {
-    let is_rest = |event: &&Event| matches!(event.kind, Kind::Change { state, .. } if state == State::Known(Phase::Rest));
+    let is_rest =
+        |event: &&Event| matches!(event.kind, Kind::Change { state, .. } if state == State::REST);
     events
         .iter()
         .filter(is_rest)
@@ -100,11 +101,11 @@ fn no_uniform_motion() {
                 ];
                 let samples = samples(&ride).into_iter().map(Ok::<_, ()>);
                 let found = Detection::of(&design, knowledge(&design), samples).unwrap();
-                let ends: Vec<Option<End>> = found.rides.iter().map(|ride| ride.end).collect();
-                assert_eq!(ends, [Some(End::Stop)], "{ride:?}: {:?}", found.events);
+                let ends: Vec<End> = found.trips.iter().map(|trip| trip.ended).collect();
+                assert_eq!(ends, [End::Stop], "{ride:?}: {:?}", found.events);
                 let top = seconds * acceleration;
                 assert!(
-                    (found.rides[0].speed / top - 1.0).abs() < 0.2,
+                    (found.trips[0].speed / top - 1.0).abs() < 0.2,
                     "{ride:?}: {:?}",
                     found.events
                 );
@@ -195,7 +196,7 @@ fn gaps_anywhere() {
         for event in &found.events {
             assert!(event.time <= event.reported, "{gap}: {event:?}");
         }
-        for ride in &found.rides {
+        for ride in &found.trips {
             let stop = ride.stop.unwrap_or(f64::INFINITY);
             assert!(ride.start < stop, "{gap}: {ride:?}");
         }

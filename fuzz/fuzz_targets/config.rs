@@ -3,7 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use liftsim::config::WatchConfig;
+use liftsim::config::MonitorOptions;
 use liftsim::monitor::{Monitor, Settings};
 
 fuzz_target!(|bytes: &[u8]| {
@@ -12,7 +12,7 @@ fuzz_target!(|bytes: &[u8]| {
     };
     if choice % 2 == 0 {
         let text = String::from_utf8_lossy(bytes);
-        match WatchConfig::parse("watch.toml", &text) {
+        match MonitorOptions::parse("watch.toml", &text) {
             Ok(config) => begin(&config.settings, 100.0),
             Err(error) => assert!(!error.to_string().is_empty()),
         }

@@ -47,13 +47,13 @@ fn detect(recording: &Recording, choice: u8) {
         assert!(said <= event.reported, "{event:?} after {said}");
         said = event.reported;
     }
-    for ride in &found.rides {
+    for ride in &found.trips {
         assert!(
             ride.speed.is_finite() && ride.stop.is_none_or(|stop| ride.start <= stop),
             "{ride:?}"
         );
     }
-    assert!(found.at_rest.alarms <= found.at_rest.decisions);
+    assert!(found.at_rest.false_alarms <= found.at_rest.decisions);
 }
 
 /// Small samples, so that a short recording reaches all of the monitor.

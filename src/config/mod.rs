@@ -11,6 +11,7 @@ mod drawing;
 mod error;
 mod exhibit;
 mod file;
+mod monitor_options;
 mod resolve;
 mod ride;
 mod story;
@@ -18,15 +19,14 @@ mod story;
 mod tests;
 mod trace;
 mod value;
-mod watch;
 
 pub use axis::{Axis, AxisValue, Parameter};
 pub use claim::{Claim, ClaimProblem, Contrast, Contrasts, Narrative, Test};
 pub use error::{ConfigError, Problem};
 pub use exhibit::{ExhibitConfig, ExhibitKind, Experiment, Search};
+pub use monitor_options::MonitorOptions;
 pub use ride::{Measure, RideCurve, RidePoint, RideProblem, RideStudy};
 pub use trace::{Part, Trace};
-pub use watch::WatchConfig;
 
 use crate::stats::tally;
 use error::Source;

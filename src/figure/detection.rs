@@ -106,8 +106,13 @@ impl<'a> Found<'a> {
     fn draw_decisions<B: DrawingBackend>(&self, sheet: &Sheet<B>) -> Result<(), FigureError> {
         let [upper, lower] = &self.frames;
         for (reported, decision) in &self.decisions {
-            let placed = decision.samples.iter().enumerate();
-            for (index, (from, to)) in placed.filter_map(|(index, span)| Some((index, (*span)?))) {
+            let samples = [
+                decision.reference,
+                Some(decision.shift),
+                Some(decision.scale),
+            ];
+            let placed = samples.into_iter().enumerate();
+            for (index, (from, to)) in placed.filter_map(|(index, span)| Some((index, span?))) {
                 let y = lower.top + 6.0 + 5.0 * index as f64;
                 let ends = [lower.at_within(from, 0.0).0, lower.at_within(to, 0.0).0];
                 sheet.line(&ends.map(|x| (x, y)), 2.4, sample_colour(index).into())?;

@@ -35,34 +35,34 @@
 //! [^1]: see [`crate::signal`].
 
 mod blocks;
-mod briefing;
-mod cage;
+mod decide;
 mod event;
-mod hindsight;
 mod history;
-mod judge;
+mod learn;
+mod lift_state;
 mod pulse;
 mod reference;
-mod scene;
+mod saved_state;
 mod settings;
+mod step_input;
 #[cfg(test)]
 mod tests;
 
 pub use blocks::STRONGEST;
-pub use briefing::{Briefing, BriefingError};
-pub use event::{Alarm, Decision, Direction, Event, Kind, State};
-pub use hindsight::NoRest;
+pub use event::{Alarm, Decision, Direction, Event, Kind, Span, State};
+pub use learn::NoRest;
 pub use reference::Reference;
+pub use saved_state::{SavedState, SavedStateError};
 pub use settings::{Design, MOST_ORDER, Settings, SettingsError};
 
 use crate::signal::recording::Sample;
 use blocks::{Block, Blocks};
-use cage::Cage;
+use decide::{Decider, Windows};
 use history::History;
-use judge::{Judge, Places};
+use lift_state::LiftState;
 use pulse::{Cusum, is_level};
-use scene::Scene;
 use serde::{Deserialize, Serialize};
+use step_input::StepInput;
 
 /// What is known of a cage before its record begins.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -102,10 +102,10 @@ pub struct Monitor {
     motion_shows: bool,
     blocks: Blocks,
     history: History,
-    judge: Judge,
+    decider: Decider,
     /// Up and down.
     cusums: [Cusum; 2],
-    cage: Cage,
+    cage: LiftState,
     /// The first block that the next reference may be learnt from.
     learns_from: u64,
     /// How many motions in a row have looked different from rest.
@@ -145,9 +145,9 @@ impl Monitor {
             motion_shows,
             blocks: Blocks::new(design.samples.decimation(), design.block),
             history: History::new(learnt.max(looked_back)),
-            judge: Judge::new(&design),
+            decider: Decider::new(&design),
             cusums: [cusum(1.0), cusum(-1.0)],
-            cage: Cage::unknown(0),
+            cage: LiftState::unknown(0),
             learns_from: 0,
             shown: 0,
             is_high_passed: false,
@@ -212,7 +212,7 @@ impl Monitor {
         self.learns_from = 0;
         self.begins_at_rest = false;
         let state = self.cage.state();
-        self.cage = Cage::unknown(0);
+        self.cage = LiftState::unknown(0);
         if state != State::Unknown {
             self.events.push(self.cage.change(time, time, None));
         }
@@ -222,23 +222,23 @@ impl Monitor {
         self.history.push(block, self.reference.as_ref());
         let now = self.history.end();
         if self.reference.is_some() {
-            self.judge_block(now, &block);
+            self.decide_block(now, &block);
             self.doubt_level(now, &block);
         }
         self.learn(now);
     }
 
     /// The decision at a block, the pulses, and what they make of the state.
-    fn judge_block(&mut self, now: u64, block: &Block) {
+    fn decide_block(&mut self, now: u64, block: &Block) {
         let Some(reference) = &self.reference else {
             return;
         };
         let excess = block.mean - reference.level;
         let ended =
             (self.cusums.each_mut()).map(|cusum| cusum.step(now - 1, excess, block.seconds));
-        let places = Places::forwards(&self.design, now);
-        let verdict = places.as_ref().and_then(|places| {
-            (self.judge).verdict(&self.design, reference, &self.history, places)
+        let windows = Windows::forwards(&self.design, now);
+        let verdict = windows.as_ref().and_then(|windows| {
+            (self.decider).decide(&self.design, reference, &self.history, windows)
         });
         self.newest = Some(Observation {
             times: (block.from, block.to),
@@ -246,25 +246,25 @@ impl Monitor {
             whitened: self.history.newest(),
             moves: verdict.map(|verdict| verdict.moves),
         });
-        let (Some(places), Some(verdict)) = (places, verdict) else {
+        let (Some(windows), Some(verdict)) = (windows, verdict) else {
             return;
         };
-        let mut scene = Scene {
+        let mut input = StepInput {
             design: &self.design,
             history: &self.history,
             reference,
             calm_is_rest: self.is_rest && self.motion_shows,
             begins_at_rest: self.is_rest && self.begins_at_rest,
-            judge: &mut self.judge,
+            decider: &mut self.decider,
             cusums: &self.cusums,
             ended,
-            places,
+            windows,
             verdict,
             now,
             time: block.to,
         };
         let was = self.cage;
-        self.cage = was.step(&mut scene, &mut self.events);
+        self.cage = was.step(&mut input, &mut self.events);
         self.remember(was, now);
     }
 
@@ -280,12 +280,12 @@ impl Monitor {
     }
 
     /// What a change of state tells of this cage.
-    fn remember(&mut self, was: Cage, now: u64) {
+    fn remember(&mut self, was: LiftState, now: u64) {
         self.is_high_passed |= self.cage.decays();
         if self.cage.state() != was.state() {
             self.learns_from = now;
         }
-        if self.cage != Cage::Rest {
+        if self.cage != LiftState::Rest {
             return;
         }
         self.begins_at_rest = false;
@@ -310,7 +310,7 @@ impl Monitor {
         if self.cusums.iter().any(|cusum| cusum.pulse().is_some()) {
             return;
         }
-        let stands = self.cage == Cage::Rest;
+        let stands = self.cage == LiftState::Rest;
         let blocks = now - lag - needed..now - lag;
         let Some(record) = self.history.blocks(blocks.clone()) else {
             return;
@@ -342,7 +342,7 @@ impl Monitor {
 
     /// The alarm of a cage that stands while the rope is paid out.
     fn watch_drum(&mut self, time: f64, drum_turns: Option<bool>) {
-        let is_slack = drum_turns == Some(true) && self.cage == Cage::Rest;
+        let is_slack = drum_turns == Some(true) && self.cage == LiftState::Rest;
         self.slack = if is_slack { self.slack + 1 } else { 0 };
         let longest = self.design.settings.longest_slack;
         if self.slack == (longest / self.design.block).ceil() as u64 {

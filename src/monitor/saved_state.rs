@@ -7,13 +7,13 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// No briefing is longer, bytes.
+/// No saved is longer, bytes.
 const LONGEST: u64 = 1 << 20;
 
 /// What a monitor is told and what it knows, at one sampling rate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a saved state")]
-pub struct Briefing {
+pub struct SavedState {
     /// What it is told.
     pub settings: Settings,
     /// Samples per second.
@@ -25,9 +25,9 @@ pub struct Briefing {
     pub knowledge: Knowledge,
 }
 
-/// Why a file is no briefing.
+/// Why a file is no saved.
 #[derive(Debug, thiserror::Error)]
-pub enum BriefingError {
+pub enum SavedStateError {
     /// It cannot be read.
     #[error(
         "{path}: cannot be read: {error} (`liftsim detect RECORDING --save-state FILE` writes one)"
@@ -85,53 +85,53 @@ pub enum BriefingError {
     },
 }
 
-impl Briefing {
+impl SavedState {
     /// Reads a file.
     ///
     /// # Errors
-    /// Where it cannot be read or holds no briefing that can be used.
-    pub fn load(path: &Path) -> Result<Self, BriefingError> {
+    /// Where it cannot be read or holds no saved that can be used.
+    pub fn load(path: &Path) -> Result<Self, SavedStateError> {
         let name = path.display().to_string();
         let mut text = String::new();
         let read = File::open(path).and_then(|file| file.take(LONGEST).read_to_string(&mut text));
         match read {
             Ok(_) => Self::from_json(&name, &text),
-            Err(error) => Err(BriefingError::Unreadable { path: name, error }),
+            Err(error) => Err(SavedStateError::Unreadable { path: name, error }),
         }
     }
 
     /// Checks a file's text; `name` is what messages call it.
     ///
     /// # Errors
-    /// As [`Briefing::load`].
-    pub fn from_json(name: &str, text: &str) -> Result<Self, BriefingError> {
+    /// As [`SavedState::load`].
+    pub fn from_json(name: &str, text: &str) -> Result<Self, SavedStateError> {
         let path = name.to_owned();
-        let briefing: Self = match serde_json::from_str(text) {
-            Ok(briefing) => briefing,
-            Err(error) => return Err(BriefingError::Format { path, error }),
+        let saved: Self = match serde_json::from_str(text) {
+            Ok(saved) => saved,
+            Err(error) => return Err(SavedStateError::Format { path, error }),
         };
-        if let Err(error) = briefing.design() {
-            return Err(BriefingError::Settings { path, error });
+        if let Err(error) = saved.design() {
+            return Err(SavedStateError::Settings { path, error });
         }
-        let Some(reference) = &briefing.knowledge.reference else {
-            return Ok(briefing);
+        let Some(reference) = &saved.knowledge.reference else {
+            return Ok(saved);
         };
-        let (expected, got) = (briefing.settings.reference, reference.sample.len());
+        let (expected, got) = (saved.settings.reference, reference.sample.len());
         match () {
-            () if got != expected => Err(BriefingError::Sample {
+            () if got != expected => Err(SavedStateError::Sample {
                 path,
                 expected,
                 got,
             }),
-            () if reference.level.abs() > STRONGEST => Err(BriefingError::Level {
+            () if reference.level.abs() > STRONGEST => Err(SavedStateError::Level {
                 path,
                 got: reference.level,
             }),
-            () if !is_fitted(&reference.coefficients) => Err(BriefingError::Filter {
+            () if !is_fitted(&reference.coefficients) => Err(SavedStateError::Filter {
                 path,
                 got: reference.coefficients.clone(),
             }),
-            () => Ok(briefing),
+            () => Ok(saved),
         }
     }
 
@@ -172,7 +172,7 @@ mod tests {
     use super::*;
     use crate::monitor::Reference;
 
-    fn briefing() -> Briefing {
+    fn saved() -> SavedState {
         let settings = Settings::default();
         let reference = Reference {
             level: 9.8,
@@ -183,7 +183,7 @@ mod tests {
             span: None,
             sample: vec![0.01; settings.reference],
         };
-        Briefing {
+        SavedState {
             settings,
             rate: 100.0,
             first_sample: Some((0.0, 9.81)),
@@ -196,43 +196,42 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read() {
-        let briefing = briefing();
-        let again = Briefing::from_json("lift.json", &briefing.to_json()).unwrap();
-        assert_eq!(again, briefing);
+        let saved = saved();
+        let again = SavedState::from_json("lift.json", &saved.to_json()).unwrap();
+        assert_eq!(again, saved);
     }
 
-    type Change<'a> = &'a dyn Fn(&mut Briefing, &mut Reference);
+    type Change<'a> = &'a dyn Fn(&mut SavedState, &mut Reference);
 
     /// Files that would take all memory, or turn the sign of every start.
     #[test]
     fn what_no_rest_gives_is_refused() {
         let refusal = |change: Change| {
-            let mut briefing = briefing();
-            let mut reference = briefing.knowledge.reference.take().unwrap();
-            change(&mut briefing, &mut reference);
-            briefing.knowledge.reference = Some(reference);
-            let refused = Briefing::from_json("lift.json", &briefing.to_json());
+            let mut saved = saved();
+            let mut reference = saved.knowledge.reference.take().unwrap();
+            change(&mut saved, &mut reference);
+            saved.knowledge.reference = Some(reference);
+            let refused = SavedState::from_json("lift.json", &saved.to_json());
             refused.unwrap_err().to_string()
         };
         let cases: [(&str, Change); 11] = [
             (
                 "gap must be at most 200 blocks, got 18446744073709551615",
-                &|briefing, _| briefing.settings.gap = usize::MAX,
+                &|saved, _| saved.settings.gap = usize::MAX,
             ),
             (
                 "training must be at most 100000 blocks, got 1000000",
-                &|briefing, _| briefing.settings.training = 1_000_000,
+                &|saved, _| saved.settings.training = 1_000_000,
             ),
-            (
-                "shift must be at most 200 blocks, got 3000",
-                &|briefing, _| briefing.settings.shift = 3000,
-            ),
+            ("shift must be at most 200 blocks, got 3000", &|saved, _| {
+                saved.settings.shift = 3000
+            }),
             (
                 "block must lie in [0.001, 0.5] s, got 0.000001 s",
-                &|briefing, _| briefing.settings.block = 1e-6,
+                &|saved, _| saved.settings.block = 1e-6,
             ),
-            ("rate must lie in [1, 1e6] Hz, got 0", &|briefing, _| {
-                briefing.rate = 0.0;
+            ("rate must lie in [1, 1e6] Hz, got 0", &|saved, _| {
+                saved.rate = 0.0;
             }),
             ("X must have 24 finite blocks", &|_, reference| {
                 reference.sample.truncate(3);

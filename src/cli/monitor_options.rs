@@ -3,14 +3,14 @@
 use super::Failure;
 use anyhow::anyhow;
 use clap::Args;
-use liftsim::config::WatchConfig;
-use liftsim::monitor::{Briefing, MOST_ORDER, STRONGEST, Settings};
+use liftsim::config::MonitorOptions;
+use liftsim::monitor::{MOST_ORDER, STRONGEST, SavedState, Settings};
 use std::path::PathBuf;
 
 /// How the monitor is set up. Flags go over the config, the config over the defaults.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "The monitor")]
-pub struct Watch {
+pub struct MonitorArguments {
     /// Settings, a TOML file; see README.md for its keys.
     #[arg(long, value_name = "CONFIG")]
     config: Option<PathBuf>,
@@ -32,11 +32,11 @@ pub struct Watch {
 }
 
 /// What the command line, the config or a saved state come to.
-pub struct Told {
+pub struct Setup {
     /// From the config and the flags.
-    pub config: WatchConfig,
+    pub config: MonitorOptions,
     /// From a saved state, which goes before the settings of the config.
-    pub briefing: Option<Briefing>,
+    pub saved: Option<SavedState>,
 }
 
 /// Refuses an acceleration that a monitor would take for a weaker one.
@@ -49,12 +49,12 @@ pub fn check_strength(acceleration: f64) -> anyhow::Result<()> {
     }
 }
 
-impl Watch {
+impl MonitorArguments {
     /// Reads what it names.
-    pub fn told(&self) -> Result<Told, Failure> {
+    pub fn setup(&self) -> Result<Setup, Failure> {
         let mut config = match &self.config {
-            Some(path) => WatchConfig::load(path).map_err(Failure::input)?,
-            None => WatchConfig::default(),
+            Some(path) => MonitorOptions::load(path).map_err(Failure::input)?,
+            None => MonitorOptions::default(),
         };
         let settings = &mut config.settings;
         *settings = Settings {
@@ -65,10 +65,10 @@ impl Watch {
             ..settings.clone()
         };
         settings.check().map_err(Failure::input)?;
-        let briefing = self.state.as_deref().map(Briefing::load);
-        Ok(Told {
+        let saved = self.state.as_deref().map(SavedState::load);
+        Ok(Setup {
             config,
-            briefing: briefing.transpose().map_err(Failure::input)?,
+            saved: saved.transpose().map_err(Failure::input)?,
         })
     }
 }

@@ -15,7 +15,7 @@ use toml::Spanned;
 
 /// How a recording is read, and how it is watched.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct WatchConfig {
+pub struct MonitorOptions {
     /// What the file is told about its columns.
     pub reading: Reading,
     /// What the monitor is told.
@@ -24,7 +24,7 @@ pub struct WatchConfig {
 
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-struct WatchFile {
+struct OptionsFile {
     recording: RecordingTable,
     samples: SamplesTable,
     whitening: WhiteningTable,
@@ -83,7 +83,7 @@ struct MonitorTable {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct OrderValue(Option<usize>);
 
-impl WatchConfig {
+impl MonitorOptions {
     /// Reads and checks a file.
     ///
     /// # Errors
@@ -95,13 +95,13 @@ impl WatchConfig {
     /// Checks a file's text; `name` is what messages call it.
     ///
     /// # Errors
-    /// As [`WatchConfig::load`].
+    /// As [`MonitorOptions::load`].
     pub fn parse(name: &str, text: &str) -> Result<Self, ConfigError> {
         Self::from_source(Source::new(name, text))
     }
 
     fn from_source(source: Source) -> Result<Self, ConfigError> {
-        let file: WatchFile = source.read()?;
+        let file: OptionsFile = source.read()?;
         let settings = file.settings();
         settings
             .check()
@@ -113,7 +113,7 @@ impl WatchConfig {
     }
 }
 
-impl WatchFile {
+impl OptionsFile {
     fn settings(&self) -> Settings {
         let number = |given: &Option<Spanned<Number>>, default: f64| {
             given.as_ref().map_or(default, |value| value.get_ref().0)
@@ -228,7 +228,7 @@ mod tests {
     use super::*;
 
     fn reading(lines: &str) -> Result<Reading, String> {
-        let read = WatchConfig::parse("lift.toml", &format!("[recording]\n{lines}"));
+        let read = MonitorOptions::parse("lift.toml", &format!("[recording]\n{lines}"));
         read.map(|config| config.reading)
             .map_err(|error| error.to_string())
     }
