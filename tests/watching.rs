@@ -2,7 +2,6 @@
 
 use liftsim::detection::{Detection, End};
 use liftsim::monitor::{Alarm, Design, Event, Kind, Knowledge, Monitor, Settings, State};
-use liftsim::signal::Phase;
 use liftsim::signal::recording::Sample;
 
 /// Seconds, and the acceleration in them, m/s².
