@@ -18,6 +18,15 @@ pub fn minus(number: &str) -> String {
     number.replace('-', "−")
 }
 
+/// At most 200 characters of what a user wrote, for a message.
+pub fn shortened(text: &str) -> std::borrow::Cow<'_, str> {
+    const MOST: usize = 200;
+    match text.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{}…", &text[..end]).into(),
+        None => text.into(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -95,4 +95,5 @@ pub mod run;
 pub mod signal;
 pub mod simd;
 pub mod stats;
+pub mod suggest;
 pub mod whiten;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// Each module of the library and its floor.
 const FLOORS: [&[&str]; 9] = [
-    &["rng", "stats", "format", "simd"],
+    &["rng", "stats", "format", "simd", "suggest"],
     &["ledger"],
     &["signal", "whiten", "detect"],
     &["chain", "monitor"],

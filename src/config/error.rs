@@ -3,6 +3,7 @@
 use super::MOST_PILOT_TRIALS;
 use super::claim::ClaimProblem;
 use super::ride::RideProblem;
+use super::source::{ConfigError, Source};
 use crate::chain::RecordTooLong;
 use crate::detect::{RegionError, SamplesError};
 use crate::monitor::SettingsError;
@@ -14,37 +15,10 @@ use crate::stats::tally::MOST_TRIALS;
 use crate::whiten::WhiteningError;
 use serde::de::DeserializeOwned;
 use std::fmt;
-use std::io;
-use std::ops::Range;
-use std::path::Path;
-
-/// Why a config was refused, and where.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct ConfigError(Box<Report>);
-
-#[derive(Debug)]
-struct Report {
-    file: String,
-    place: Option<Place>,
-    problem: Problem,
-}
-
-/// A line of the file with the offending part underlined.
-#[derive(Clone, Debug)]
-struct Place {
-    line: usize,
-    column: usize,
-    text: String,
-    width: usize,
-}
 
 /// What is wrong with a config.
 #[derive(Debug, thiserror::Error)]
 pub enum Problem {
-    /// The file cannot be read.
-    #[error("cannot be read: {0} (check the path)")]
-    Unreadable(#[source] io::Error),
     /// The file is no TOML, or holds something that does not belong there.
     #[error("{0}")]
     Toml(Refusal),
@@ -366,65 +340,22 @@ impl fmt::Display for Refusal {
     }
 }
 
-/// The known name nearest to `got`, if it is near.
-pub(super) fn nearest<'a>(got: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
-    known
-        .map(|name| (strsim::damerau_levenshtein(got, name), name))
-        .min()
-        .filter(|&(distance, name)| distance <= name.len().div_ceil(3))
-        .map(|(_, name)| name.to_owned())
-}
-
 /// A hint in words.
 pub(super) fn did_you_mean(hint: &Option<String>) -> String {
     hint.as_ref()
         .map_or(String::new(), |name| format!(", did you mean `{name}`?"))
 }
 
-/// A config's text and the name its messages give it.
-#[derive(Clone, Debug)]
-pub(super) struct Source {
-    name: String,
-    text: String,
+/// The known name nearest to `got`, if it is near.
+pub(super) fn nearest<'a>(got: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
+    crate::suggest::nearest(got, known).map(str::to_owned)
 }
 
 impl Source {
-    pub fn new(name: &str, text: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            text: text.to_owned(),
-        }
-    }
-
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
-    pub fn text(&self) -> &str {
-        &self.text
-    }
-
-    /// `problem` at `span`.
-    pub fn at(&self, span: Option<Range<usize>>, problem: Problem) -> ConfigError {
-        ConfigError(Box::new(Report {
-            file: self.name.clone(),
-            place: span.map(|span| self.place(span)),
-            problem,
-        }))
-    }
-
-    /// A file's text.
-    pub fn load(path: &Path) -> Result<Self, ConfigError> {
-        let name = path.display().to_string();
-        std::fs::read_to_string(path)
-            .map(|text| Self::new(&name, &text))
-            .map_err(|error| Self::new(&name, "").at(None, Problem::Unreadable(error)))
-    }
-
     /// Reads the text as TOML.
-    pub fn read<T: DeserializeOwned>(&self) -> Result<T, ConfigError> {
+    pub(super) fn read_all<T: DeserializeOwned>(&self) -> Result<T, ConfigError> {
         let deserializer =
-            toml::Deserializer::parse(&self.text).map_err(|error| self.toml("", error))?;
+            toml::Deserializer::parse(self.text()).map_err(|error| self.toml("", error))?;
         serde_path_to_error::deserialize(deserializer).map_err(|error| {
             let path = error.path().to_string();
             self.toml(&path, error.into_inner())
@@ -432,39 +363,7 @@ impl Source {
     }
 
     /// What the TOML reader refused at `path`.
-    pub fn toml(&self, path: &str, error: toml::de::Error) -> ConfigError {
+    pub(super) fn toml(&self, path: &str, error: toml::de::Error) -> ConfigError {
         self.at(error.span(), Problem::Toml(Refusal::new(path, error)))
-    }
-
-    fn place(&self, span: Range<usize>) -> Place {
-        let before = &self.text[..span.start.min(self.text.len())];
-        let start = before.rfind('\n').map_or(0, |newline| newline + 1);
-        let text = self.text[start..].lines().next().unwrap_or_default();
-        let column = before[start..].chars().count() + 1;
-        let marked = self.text[span.start.min(self.text.len())..span.end.min(self.text.len())]
-            .lines()
-            .next();
-        Place {
-            line: before.matches('\n').count() + 1,
-            column,
-            text: text.to_owned(),
-            width: marked.map_or(1, |marked| marked.chars().count().max(1)),
-        }
-    }
-}
-
-impl fmt::Display for Report {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Some(place) = &self.place else {
-            return write!(f, "{}: {}", self.file, self.problem);
-        };
-        let Place { line, column, .. } = place;
-        writeln!(f, "{}:{line}:{column}: {}", self.file, self.problem)?;
-        let number = line.to_string();
-        let blank = " ".repeat(number.len());
-        writeln!(f, " {blank} |")?;
-        writeln!(f, " {number} | {}", place.text)?;
-        let indent = " ".repeat(column - 1);
-        write!(f, " {blank} | {indent}{}", "^".repeat(place.width))
     }
 }

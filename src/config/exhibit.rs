@@ -1,9 +1,10 @@
 //! Experiments that are no sweep: one table says what to draw, the usual sections say of what.
 
 use super::drawing::{self, Refused};
-use super::error::{ConfigError, Problem, Source};
+use super::error::Problem;
 use super::file::{File, Sections};
 use super::ride::{self, RideStudy};
+use super::source::{ConfigError, Source};
 use super::trace::{self, Trace};
 use super::value::Whole;
 use super::{Config, Narrative};
@@ -251,7 +252,7 @@ impl ExhibitConfig {
             .map_err(|(problem, keys)| refuse((sections.first_span(keys), problem)))?;
         kind.check(&scenario, file).map_err(refuse)?;
         let narrative = (file.story().check(&[], None))
-            .map_err(|(span, problem)| source.at(Some(span), problem.into()))?;
+            .map_err(|(span, problem)| source.at(Some(span), Problem::from(problem)))?;
         let confidence = file.confidence(&source)?;
         let trials = match kind.has_trials() {
             true => file.trials(&source, confidence)?,

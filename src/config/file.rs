@@ -5,8 +5,8 @@ use super::drawing::{
     AutocorrelationTable, ImpulseLawTable, IndependenceTable, LayoutTable, OperatingPointTable,
     RegionTable,
 };
-use super::error::{ConfigError, Source};
 use super::ride::RideTable;
+use super::source::{ConfigError, Source};
 use super::story::{ClaimTable, Story};
 use super::trace::TraceTable;
 use super::value::{Critical, Number, Whole};
@@ -255,7 +255,7 @@ all_sections! { with_sections
 impl File {
     /// Reads the text.
     pub fn parse(source: &Source) -> Result<Self, ConfigError> {
-        source.read()
+        source.read_all()
     }
 
     /// What the report is told.

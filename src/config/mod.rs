@@ -12,24 +12,29 @@ mod error;
 mod exhibit;
 mod file;
 mod monitor_options;
+mod read;
 mod resolve;
 mod ride;
+mod source;
 mod story;
 #[cfg(test)]
 mod tests;
 mod trace;
+mod tree;
 mod value;
 
 pub use axis::{Axis, AxisValue, Parameter};
 pub use claim::{Claim, ClaimProblem, Contrast, Contrasts, Narrative, Test};
-pub use error::{ConfigError, Problem};
+pub use error::Problem;
 pub use exhibit::{ExhibitConfig, ExhibitKind, Experiment, Search};
 pub use monitor_options::MonitorOptions;
+pub use read::Refusal;
 pub use ride::{Measure, RideCurve, RidePoint, RideProblem, RideStudy};
+pub use source::{ConfigError, Source};
 pub use trace::{Part, Trace};
+pub use tree::{Node, Table, Value};
 
 use crate::stats::tally;
-use error::Source;
 use file::{AxisTable, File, Sections};
 use std::ops::Range;
 use std::path::Path;
@@ -118,7 +123,7 @@ impl Config {
         }
         check_panels(file, &curves, &source)?;
         let narrative = (file.story().check(&curves, Some(&axis)))
-            .map_err(|(span, problem)| source.at(Some(span), problem.into()))?;
+            .map_err(|(span, problem)| source.at(Some(span), Problem::from(problem)))?;
         Ok(Self {
             question: file.question.clone(),
             seed: file.seed.0,

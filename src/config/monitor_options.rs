@@ -2,7 +2,8 @@
 //!
 //! Every key has a default; an unknown one is refused.
 
-use super::error::{ConfigError, Problem, Source};
+use super::error::Problem;
+use super::source::{ConfigError, Source};
 use super::value::{Named, Number, Whole};
 use crate::monitor::{Settings, SettingsError};
 use crate::signal::recording::{Axis, Reading, TimeUnit, Unit, UnitError};
@@ -101,7 +102,7 @@ impl MonitorOptions {
     }
 
     fn from_source(source: Source) -> Result<Self, ConfigError> {
-        let file: OptionsFile = source.read()?;
+        let file: OptionsFile = source.read_all()?;
         let settings = file.settings();
         settings
             .check()

@@ -1,11 +1,12 @@
 //! From sections to a scenario: defaults filled in, parts checked against each other, every refusal
 //! sent back to the value that caused it.
 
-use super::error::{ConfigError, Problem};
+use super::error::Problem;
 use super::file::{
     AlternativeKind, CalibrateKind, DeltaAtKind, DuringKind, FitKind, LawKind, ProfileKind,
     RuleKind, Sections, SensorSection, TiesKind,
 };
+use super::source::ConfigError;
 use super::value::{Number, Whole};
 use super::{AxisValue, Config};
 use crate::chain::{Calibration, Detector, Scenario};

@@ -1,0 +1,172 @@
+//! A config's text, and errors that point at it: file, line and column, what is wrong, what to do.
+
+use super::read::Refusal;
+use super::tree::Node;
+use serde::de::DeserializeOwned;
+use std::error::Error;
+use std::fmt;
+use std::io::{self, Read};
+use std::ops::Range;
+use std::path::Path;
+
+/// Why a config was refused, and where.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct ConfigError(Box<Report>);
+
+#[derive(Debug)]
+struct Report {
+    file: String,
+    place: Option<Place>,
+    error: Box<dyn Error + Send + Sync>,
+}
+
+/// A line of the file with the offending part underlined.
+#[derive(Clone, Debug)]
+struct Place {
+    line: usize,
+    column: usize,
+    text: String,
+    width: usize,
+}
+
+/// A file that is no config.
+#[derive(Debug, thiserror::Error)]
+enum Unreadable {
+    #[error("cannot be read: {0} (check the path)")]
+    Io(#[from] io::Error),
+    #[error("is larger than {} kB, which no config is (check the path)", MOST_BYTES / 1000)]
+    TooLarge,
+}
+
+/// A config is written by hand.
+const MOST_BYTES: u64 = 1_000_000;
+
+/// A config's text and the name its messages give it.
+#[derive(Clone, Debug)]
+pub struct Source {
+    name: String,
+    text: String,
+}
+
+impl Source {
+    /// A text; `name` is what messages call it.
+    pub fn new(name: &str, text: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            text: text.to_owned(),
+        }
+    }
+
+    /// A file's text.
+    ///
+    /// # Errors
+    /// Where it cannot be read, is no UTF-8 or is too large.
+    pub fn load(path: &Path) -> Result<Self, ConfigError> {
+        let name = path.display().to_string();
+        match read(path) {
+            Ok(text) => Ok(Self { name, text }),
+            Err(error) => Err(Self::new(&name, "").at(None, error)),
+        }
+    }
+
+    /// What messages call it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// All of it.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The tree of its keys and values.
+    ///
+    /// # Errors
+    /// Where it is no TOML.
+    pub fn parse(&self) -> Result<Node, ConfigError> {
+        Node::parse(&self.text).map_err(|error| self.at(error.span(), first_line(error.message())))
+    }
+
+    /// What a tree of this text says, as any type that serde reads; its path in messages starts with
+    /// `prefix`.
+    ///
+    /// # Errors
+    /// Where a key is unknown or missing, or a value does not fit.
+    pub fn read<T: DeserializeOwned>(&self, tree: &Node, prefix: &str) -> Result<T, ConfigError> {
+        T::deserialize(tree).map_err(|refusal: Refusal| {
+            let span = refusal.span.clone().unwrap_or(tree.span.clone());
+            self.at(Some(span), refusal.within(prefix))
+        })
+    }
+
+    /// An error at a place.
+    pub fn at(
+        &self,
+        span: Option<Range<usize>>,
+        error: impl Into<Box<dyn Error + Send + Sync>>,
+    ) -> ConfigError {
+        ConfigError(Box::new(Report {
+            file: self.name.clone(),
+            place: span.map(|span| self.place(span)),
+            error: error.into(),
+        }))
+    }
+
+    fn place(&self, span: Range<usize>) -> Place {
+        let before = &self.text[..span.start.min(self.text.len())];
+        let start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let text = self.text[start..].lines().next().unwrap_or_default();
+        let column = before[start..].chars().count() + 1;
+        let marked = self.text[span.start.min(self.text.len())..span.end.min(self.text.len())]
+            .lines()
+            .next();
+        Place {
+            line: before.matches('\n').count() + 1,
+            column,
+            text: text.to_owned(),
+            width: marked.map_or(1, |marked| marked.chars().count().max(1)),
+        }
+    }
+}
+
+fn read(path: &Path) -> Result<String, Unreadable> {
+    let mut text = String::new();
+    let file = std::fs::File::open(path)?;
+    file.take(MOST_BYTES + 1).read_to_string(&mut text)?;
+    match text.len() as u64 > MOST_BYTES {
+        true => Err(Unreadable::TooLarge),
+        false => Ok(text),
+    }
+}
+
+fn first_line(message: &str) -> String {
+    message.lines().next().unwrap_or_default().to_owned()
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(place) = &self.place else {
+            return write!(f, "{}: {}", self.file, self.error);
+        };
+        let Place { line, column, .. } = place;
+        writeln!(f, "{}:{line}:{column}: {}", self.file, self.error)?;
+        let number = line.to_string();
+        let blank = " ".repeat(number.len());
+        writeln!(f, " {blank} |")?;
+        writeln!(f, " {number} | {}", window(&place.text, *column))?;
+        let indent = " ".repeat((column - 1).min(BEFORE));
+        let width = place.width.min(MOST_SHOWN);
+        write!(f, " {blank} | {indent}{}", "^".repeat(width))
+    }
+}
+
+/// Characters of a line that are shown, and how many of them before the place.
+const MOST_SHOWN: usize = 200;
+const BEFORE: usize = 120;
+
+/// The part of a long line around a column.
+fn window(text: &str, column: usize) -> String {
+    let skipped = (column - 1).saturating_sub(BEFORE);
+    text.chars().skip(skipped).take(MOST_SHOWN).collect()
+}
