@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 
 /// Each module of the library and its floor.
 const FLOORS: [&[&str]; 9] = [
-    &["rng", "stats", "format", "simd", "suggest"],
+    &[
+        "fields", "format", "rng", "rule", "simd", "stats", "suggest",
+    ],
     &["ledger"],
     &["signal", "whiten", "detect"],
     &["chain", "monitor"],

@@ -173,10 +173,8 @@ fn real_rides_are_found_where_they_are_stated() {
 fn false_alarms_on_real_rest_are_counted() {
     let Some(known) = real() else { return };
     for alpha in [0.01, 0.001] {
-        let settings = Settings {
-            alpha,
-            ..Settings::default()
-        };
+        let mut settings = Settings::default();
+        settings.detector.alpha = alpha;
         for recording in known.iter().filter(|recording| !recording.is_adverse) {
             let at_rest = recording.detect(&settings).unwrap().detection.at_rest;
             println!(
@@ -208,55 +206,55 @@ fn choices() -> Vec<Choice> {
         Choice {
             name: "block",
             values: around(
-                default.block,
+                default.monitor.block,
                 &[0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.6, 2.0, 3.0, 4.0],
             ),
-            set: |settings, value| settings.block = value,
+            set: |settings, value| settings.monitor.block = value,
         },
         Choice {
             name: "reference",
             values: vec![8.0, 12.0, 16.0, 20.0, 24.0, 28.0, 36.0, 48.0],
-            set: |settings, value| settings.reference = value as usize,
+            set: |settings, value| settings.samples.reference = value as usize,
         },
         Choice {
             name: "shift",
             values: vec![4.0, 6.0, 8.0, 10.0, 12.0, 14.0, 18.0, 24.0],
-            set: |settings, value| settings.shift = value as usize,
+            set: |settings, value| settings.samples.shift = value as usize,
         },
         Choice {
             name: "scale",
             values: vec![4.0, 6.0, 8.0, 10.0, 12.0, 14.0, 18.0, 24.0],
-            set: |settings, value| settings.scale = value as usize,
+            set: |settings, value| settings.samples.scale = value as usize,
         },
         Choice {
             name: "alpha",
             values: vec![1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.05, 0.1],
-            set: |settings, value| settings.alpha = value,
+            set: |settings, value| settings.detector.alpha = value,
         },
         Choice {
             name: "order",
             values: (0..=8).map(f64::from).collect(),
-            set: |settings, value| settings.order = Some(value as usize),
+            set: |settings, value| settings.whitening.order = Some(value as usize),
         },
         Choice {
             name: "training",
             values: vec![40.0, 48.0, 60.0, 72.0, 96.0, 144.0, 200.0],
-            set: |settings, value| settings.training = value as usize,
+            set: |settings, value| settings.whitening.training = value as usize,
         },
         Choice {
             name: "least_speed",
-            values: around(default.least_speed, &wide),
-            set: |settings, value| settings.least_speed = value,
+            values: around(default.monitor.least_speed, &wide),
+            set: |settings, value| settings.monitor.least_speed = value,
         },
         Choice {
             name: "least_acceleration",
-            values: around(default.least_acceleration, &wide),
-            set: |settings, value| settings.least_acceleration = value,
+            values: around(default.monitor.least_acceleration, &wide),
+            set: |settings, value| settings.monitor.least_acceleration = value,
         },
         Choice {
             name: "most_acceleration",
-            values: around(default.most_acceleration, &wide),
-            set: |settings, value| settings.most_acceleration = value,
+            values: around(default.monitor.most_acceleration, &wide),
+            set: |settings, value| settings.monitor.most_acceleration = value,
         },
     ]
 }

@@ -123,14 +123,12 @@ fn a_jam_at_any_sizes() {
         (12, 24, 24, 0),
         (40, 8, 8, 2),
     ] {
-        let settings = Settings {
-            reference,
-            shift,
-            scale,
-            gap,
-            alpha: 0.01,
-            ..Settings::default()
-        };
+        let mut settings = Settings::default();
+        settings.samples.reference = reference;
+        settings.samples.shift = shift;
+        settings.samples.scale = scale;
+        settings.samples.gap = gap;
+        settings.detector.alpha = 0.01;
         let design = settings.at(1.0 / BLOCK).unwrap();
         let ride = [
             (8.0, 0.0),

@@ -64,7 +64,7 @@ fn rest(detection: &Detection) -> String {
     text += &format!(
         "decisions: {} blocks, alpha {}; {}\n\n",
         design.samples,
-        design.settings.alpha,
+        design.settings.detector.alpha,
         at_rest(&detection.at_rest)
     );
     if !knowledge.begins_at_rest {

@@ -4,7 +4,8 @@ use super::Failure;
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::config::MonitorOptions;
-use liftsim::monitor::{MOST_ORDER, STRONGEST, SavedState, Settings};
+use liftsim::monitor::{MOST_ORDER, STRONGEST, SavedState};
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// How the monitor is set up. Flags go over the config, the config over the defaults.
@@ -15,8 +16,15 @@ pub struct MonitorArguments {
     #[arg(long, value_name = "CONFIG")]
     config: Option<PathBuf>,
     /// Start from a state that `detect --save-state` wrote, settings included.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["config", "alpha", "order", "block", "least_speed"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["config", "SettingFlags"])]
     state: Option<PathBuf>,
+    #[command(flatten)]
+    flags: SettingFlags,
+}
+
+/// Settings that have a flag, by the last words of their keys.
+#[derive(Debug, Args, Serialize)]
+struct SettingFlags {
     /// The level of each decision [default: 0.001].
     #[arg(long, value_name = "A")]
     alpha: Option<f64>,
@@ -31,11 +39,11 @@ pub struct MonitorArguments {
     least_speed: Option<f64>,
 }
 
-/// What the command line, the config or a saved state come to.
+/// How the recording is read and the monitor set up.
 pub struct Setup {
     /// From the config and the flags.
     pub config: MonitorOptions,
-    /// From a saved state, which goes before the settings of the config.
+    /// Its settings go before those of the config.
     pub saved: Option<SavedState>,
 }
 
@@ -56,15 +64,9 @@ impl MonitorArguments {
             Some(path) => MonitorOptions::load(path).map_err(Failure::input)?,
             None => MonitorOptions::default(),
         };
-        let settings = &mut config.settings;
-        *settings = Settings {
-            alpha: self.alpha.unwrap_or(settings.alpha),
-            order: self.order.map(usize::from).or(settings.order),
-            block: self.block.unwrap_or(settings.block),
-            least_speed: self.least_speed.unwrap_or(settings.least_speed),
-            ..settings.clone()
-        };
-        settings.check().map_err(Failure::input)?;
+        let given = toml::Table::try_from(&self.flags).map_err(Failure::run)?;
+        let flag = |key: &str| format!("--{}", key.replace('_', "-"));
+        config.settings = (config.settings.with(&given, flag)).map_err(Failure::input)?;
         let saved = self.state.as_deref().map(SavedState::load);
         Ok(Setup {
             config,

@@ -6,6 +6,7 @@ use super::file::{File, Sections};
 use super::ride::{self, RideStudy};
 use super::source::{ConfigError, Source};
 use super::trace::{self, Trace};
+use super::tree::Node;
 use super::value::Whole;
 use super::{Config, Narrative};
 use crate::chain::Scenario;
@@ -112,7 +113,7 @@ impl Experiment {
     fn from_source(source: Source) -> Result<Self, ConfigError> {
         let file = File::parse(&source)?;
         let axis = file.axis.as_ref().map(|axis| ("axis", axis.span()));
-        let asked = file.asked();
+        let asked = file.asked(&source.parse()?);
         let drawings = asked.iter().map(|asked| (asked.name, asked.table.clone()));
         let things: Vec<_> = axis.into_iter().chain(drawings).collect();
         if let [(first, _), (second, span), ..] = &things[..] {
@@ -183,7 +184,7 @@ impl Asked {
 
 impl File {
     /// The drawing tables that are there, and what each comes to.
-    fn asked(&self) -> Vec<Asked> {
+    fn asked(&self, tree: &Node) -> Vec<Asked> {
         let rules = |table: &_| drawing::rules(table, &self.sections());
         let all = [
             Asked::new(
@@ -197,7 +198,9 @@ impl File {
             Asked::new("independence", &self.independence, drawing::sizes),
             Asked::new("impulse_law", &self.impulse_law, drawing::impulse_law),
             Asked::new("operating_point", &self.operating_point, drawing::search),
-            Asked::new("ride", &self.ride, ride::study),
+            Asked::new("ride", &self.ride, |table| {
+                ride::study(table, tree.get("ride").expect("it was read"))
+            }),
         ];
         all.into_iter().flatten().collect()
     }

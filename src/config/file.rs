@@ -67,7 +67,6 @@ macro_rules! section {
         }
     };
 }
-pub(super) use section;
 
 section! {
     /// `[sensor]`, exactly one of its keys.

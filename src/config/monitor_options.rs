@@ -1,96 +1,58 @@
-//! What `detect` and `monitor` are told: how a recording is read, and the settings of the monitor.
+//! The file of `detect --config` and `monitor --config`: how a recording is read, and the settings of the monitor.
 //!
 //! Every key has a default; an unknown one is refused.
 
-use super::error::Problem;
 use super::source::{ConfigError, Source};
-use super::value::{Named, Number, Whole};
-use crate::monitor::{Settings, SettingsError};
-use crate::signal::recording::{Axis, Reading, TimeUnit, Unit, UnitError};
+use super::tree::Node;
+use crate::monitor::{Level, Limits, Settings, Sizes, Whitening};
+use crate::signal::recording::{Axis, Reading, TimeUnit, Unit};
 use serde::Deserialize;
-use serde::de::{Deserializer, Error, Visitor};
-use std::fmt;
-use std::ops::Range;
+use serde::de::{Deserializer, Error};
+use std::fmt::Display;
 use std::path::Path;
-use toml::Spanned;
+use std::str::FromStr;
 
 /// How a recording is read, and how it is watched.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[allow(missing_docs, reason = "what a name says is not said again")]
 pub struct MonitorOptions {
-    /// What the file is told about its columns.
     pub reading: Reading,
-    /// What the monitor is told.
     pub settings: Settings,
 }
 
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct OptionsFile {
     recording: RecordingTable,
-    samples: SamplesTable,
-    whitening: WhiteningTable,
-    detector: DetectorTable,
-    monitor: MonitorTable,
+    samples: Sizes,
+    whitening: Whitening,
+    detector: Level,
+    monitor: Limits,
 }
 
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct RecordingTable {
     time: Option<String>,
     acceleration: Option<String>,
-    time_unit: Option<Named<TimeUnit>>,
-    unit: Option<Spanned<String>>,
-    scale: Option<Spanned<Number>>,
-    offset: Option<Spanned<Number>>,
-    axis: Option<Named<Axis>>,
-    resample: Option<Number>,
+    #[serde(deserialize_with = "named")]
+    time_unit: Option<TimeUnit>,
+    unit: Option<String>,
+    scale: Option<f64>,
+    offset: Option<f64>,
+    #[serde(deserialize_with = "named")]
+    axis: Option<Axis>,
+    resample: Option<f64>,
     member: Option<String>,
 }
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct SamplesTable {
-    reference: Option<Spanned<Whole>>,
-    shift: Option<Spanned<Whole>>,
-    scale: Option<Spanned<Whole>>,
-    gap: Option<Spanned<Whole>>,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct WhiteningTable {
-    order: Option<Spanned<OrderValue>>,
-    training: Option<Spanned<Whole>>,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct DetectorTable {
-    alpha: Option<Spanned<Number>>,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct MonitorTable {
-    block: Option<Spanned<Number>>,
-    least_speed: Option<Spanned<Number>>,
-    least_acceleration: Option<Spanned<Number>>,
-    most_acceleration: Option<Spanned<Number>>,
-    longest_motion: Option<Spanned<Number>>,
-    longest_slack: Option<Spanned<Number>>,
-}
-
-/// `"auto"`, or a whole number.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct OrderValue(Option<usize>);
 
 impl MonitorOptions {
     /// Reads and checks a file.
     ///
     /// # Errors
-    /// Where it cannot be read, is no TOML, has a key that means nothing, or a value out of its range.
+    /// Where it cannot be read, is not TOML, or has an unknown key or a value out of its range.
     pub fn load(path: &Path) -> Result<Self, ConfigError> {
-        Self::from_source(Source::load(path)?)
+        Self::from_source(&Source::load(path)?)
     }
 
     /// Checks a file's text; `name` is what messages call it.
@@ -98,130 +60,56 @@ impl MonitorOptions {
     /// # Errors
     /// As [`MonitorOptions::load`].
     pub fn parse(name: &str, text: &str) -> Result<Self, ConfigError> {
-        Self::from_source(Source::new(name, text))
+        Self::from_source(&Source::new(name, text))
     }
 
-    fn from_source(source: Source) -> Result<Self, ConfigError> {
-        let file: OptionsFile = source.read_all()?;
-        let settings = file.settings();
-        settings
-            .check()
-            .map_err(|error| source.at(file.place(&error), Problem::Watch(error)))?;
+    fn from_source(source: &Source) -> Result<Self, ConfigError> {
+        let tree = source.parse()?;
+        let file: OptionsFile = source.read(&tree, "")?;
+        let span = |path: &str| tree.get(path).map(|node| node.span.clone());
+        let settings = Settings {
+            samples: file.samples,
+            whitening: file.whitening,
+            detector: file.detector,
+            monitor: file.monitor,
+        };
+        (settings.check()).map_err(|error| source.at(span(error.key()), error))?;
         Ok(Self {
-            reading: file.recording.reading(&source)?,
+            reading: file.recording.reading(source, &tree)?,
             settings,
         })
     }
 }
 
-impl OptionsFile {
-    fn settings(&self) -> Settings {
-        let number = |given: &Option<Spanned<Number>>, default: f64| {
-            given.as_ref().map_or(default, |value| value.get_ref().0)
-        };
-        let size = |given: &Option<Spanned<Whole>>, default: usize| {
-            (given.as_ref()).map_or(default, |value| value.get_ref().size())
-        };
-        let default = Settings::default();
-        let (samples, monitor) = (&self.samples, &self.monitor);
-        let order = self.whitening.order.as_ref();
-        Settings {
-            block: number(&monitor.block, default.block),
-            reference: size(&samples.reference, default.reference),
-            shift: size(&samples.shift, default.shift),
-            scale: size(&samples.scale, default.scale),
-            gap: size(&samples.gap, default.gap),
-            alpha: number(&self.detector.alpha, default.alpha),
-            training: size(&self.whitening.training, default.training),
-            order: order.map_or(default.order, |order| order.get_ref().0),
-            least_speed: number(&monitor.least_speed, default.least_speed),
-            least_acceleration: number(&monitor.least_acceleration, default.least_acceleration),
-            most_acceleration: number(&monitor.most_acceleration, default.most_acceleration),
-            longest_motion: number(&monitor.longest_motion, default.longest_motion),
-            longest_slack: number(&monitor.longest_slack, default.longest_slack),
-        }
-    }
-
-    /// Where the value stands that an error is about.
-    fn place(&self, error: &SettingsError) -> Option<Range<usize>> {
-        let (samples, monitor) = (&self.samples, &self.monitor);
-        match error.key() {
-            "reference" => span(&samples.reference),
-            "shift" => span(&samples.shift),
-            "scale" => span(&samples.scale),
-            "gap" => span(&samples.gap),
-            "order" => span(&self.whitening.order),
-            "training" => span(&self.whitening.training),
-            "alpha" => span(&self.detector.alpha),
-            "block" => span(&monitor.block),
-            "least_speed" => span(&monitor.least_speed),
-            "least_acceleration" => span(&monitor.least_acceleration),
-            "most_acceleration" => span(&monitor.most_acceleration),
-            "longest_motion" => span(&monitor.longest_motion),
-            "longest_slack" => span(&monitor.longest_slack),
-            _ => None,
-        }
-    }
-}
-
 impl RecordingTable {
-    fn reading(self, source: &Source) -> Result<Reading, ConfigError> {
-        let unit = self.unit().map_err(|error| {
-            let place = match error.key() {
-                "scale" => span(&self.scale),
-                "offset" => span(&self.offset),
-                _ => span(&self.unit).or(span(&self.offset)),
-            };
-            source.at(place, Problem::Unit(error))
+    fn reading(self, source: &Source, tree: &Node) -> Result<Reading, ConfigError> {
+        let unit = Unit::told(self.unit.as_deref(), self.scale, self.offset);
+        let unit = unit.map_err(|error| {
+            let mut keys = [error.key(), "unit", "offset"].into_iter();
+            let place = keys.find_map(|key| tree.get(&format!("recording.{key}")));
+            source.at(
+                place.map(|node| node.span.clone()),
+                format!("recording.{error}"),
+            )
         })?;
         Ok(Reading {
             unit: unit.unwrap_or_default(),
             time: self.time,
             acceleration: self.acceleration,
-            time_unit: self.time_unit.map(|unit| unit.0),
-            axis: self.axis.map_or_else(Axis::default, |axis| axis.0),
-            resample: self.resample.map(|rate| rate.0),
+            time_unit: self.time_unit,
+            axis: self.axis.unwrap_or_default(),
+            resample: self.resample,
             member: self.member,
         })
     }
-
-    fn unit(&self) -> Result<Option<Unit>, UnitError> {
-        let number = |given: &Option<Spanned<Number>>| given.as_ref().map(|n| n.get_ref().0);
-        let name = self.unit.as_ref().map(|name| name.get_ref().as_str());
-        Unit::told(name, number(&self.scale), number(&self.offset))
-    }
 }
 
-/// Where a value stands.
-fn span<T>(value: &Option<Spanned<T>>) -> Option<Range<usize>> {
-    value.as_ref().map(Spanned::span)
-}
-
-impl<'de> Deserialize<'de> for OrderValue {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct OrderVisitor;
-        impl Visitor<'_> for OrderVisitor {
-            type Value = OrderValue;
-
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("\"auto\" or a whole number")
-            }
-
-            fn visit_i64<E: Error>(self, value: i64) -> Result<OrderValue, E> {
-                usize::try_from(value)
-                    .map(|order| OrderValue(Some(order)))
-                    .map_err(|_| E::invalid_value(serde::de::Unexpected::Signed(value), &self))
-            }
-
-            fn visit_str<E: Error>(self, value: &str) -> Result<OrderValue, E> {
-                match value {
-                    "auto" => Ok(OrderValue(None)),
-                    _ => Err(E::invalid_value(serde::de::Unexpected::Str(value), &self)),
-                }
-            }
-        }
-        deserializer.deserialize_any(OrderVisitor)
-    }
+/// What its own type reads from a name.
+fn named<'de, T: FromStr<Err: Display>, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<T>, D::Error> {
+    let name = String::deserialize(deserializer)?;
+    name.parse().map(Some).map_err(D::Error::custom)
 }
 
 #[cfg(test)]

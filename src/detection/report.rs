@@ -116,7 +116,7 @@ impl<'a> DetectReport<'a> {
     /// One row a trip.
     pub fn csv(&self) -> Vec<u8> {
         let columns = columns();
-        let alpha = self.settings.alpha.to_string();
+        let alpha = self.settings.detector.alpha.to_string();
         let mut writer = csv::Writer::from_writer(Vec::new());
         let mut write = |row: Vec<String>| writer.write_record(row).expect("a vector takes it");
         write([&columns[..], &["alpha".to_owned()]].concat());

@@ -4,10 +4,10 @@
 //! every block. A stop is a start reversed in time: X is the newest blocks, Y₁ the middle of the braking and
 //! Y₂ the motion before it.
 
+use super::design::Design;
 use super::history::History;
 use super::pulse::Pulse;
 use super::reference::Reference;
-use super::settings::Design;
 use crate::detect::{Pooled, Statistics};
 use crate::rng::Stream;
 use rand::Rng;

@@ -36,6 +36,7 @@
 
 mod blocks;
 mod decide;
+mod design;
 mod event;
 mod history;
 mod learn;
@@ -49,11 +50,12 @@ mod step_input;
 mod tests;
 
 pub use blocks::STRONGEST;
+pub use design::{Design, SettingsError};
 pub use event::{Alarm, Decision, Direction, Event, Kind, Span, State};
 pub use learn::NoRest;
 pub use reference::Reference;
 pub use saved_state::{SavedState, SavedStateError};
-pub use settings::{Design, MOST_ORDER, Settings, SettingsError};
+pub use settings::{Level, Limits, MOST_ORDER, Settings, Sizes, Whitening};
 
 use crate::signal::recording::Sample;
 use blocks::{Block, Blocks};
@@ -133,10 +135,10 @@ impl Monitor {
             begins_at_rest,
             motion_shows,
         } = knowledge;
-        let drift = design.settings.least_acceleration / 2.0;
+        let drift = design.settings.monitor.least_acceleration / 2.0;
         let patience = design.samples.shift();
         let cusum = |sign| Cusum::new(sign, drift, patience);
-        let learnt = design.settings.training + design.samples.reference() + patience;
+        let learnt = design.settings.whitening.training + design.samples.reference() + patience;
         let looked_back = 4 * design.samples.span() + (LONGEST_PULSE / design.block) as usize;
         Self {
             is_rest: reference.is_some(),
@@ -300,7 +302,7 @@ impl Monitor {
     /// cage stands, or, for want of better, while nothing is known.
     fn learn(&mut self, now: u64) {
         let samples = &self.design.samples;
-        let needed = (self.design.settings.training + samples.reference()) as u64;
+        let needed = (self.design.settings.whitening.training + samples.reference()) as u64;
         // A start that has not been noticed yet must not get into the reference.
         let lag = samples.shift() as u64;
         if now < self.learns_from + needed + lag || self.cage.state().moves() {
@@ -318,8 +320,8 @@ impl Monitor {
         let record: Vec<f64> = record.iter().map(|block| block.mean).collect();
         // Not at every block, if this record is none to learn from.
         self.learns_from += needed / 4;
-        let drift = self.design.settings.least_acceleration / 2.0;
-        let bound = self.design.settings.least_speed / 2.0;
+        let drift = self.design.settings.monitor.least_acceleration / 2.0;
+        let bound = self.design.settings.monitor.least_speed / 2.0;
         if !is_level(&record, drift, self.design.block, bound) {
             return;
         }
@@ -344,7 +346,7 @@ impl Monitor {
     fn watch_drum(&mut self, time: f64, drum_turns: Option<bool>) {
         let is_slack = drum_turns == Some(true) && self.cage == LiftState::Rest;
         self.slack = if is_slack { self.slack + 1 } else { 0 };
-        let longest = self.design.settings.longest_slack;
+        let longest = self.design.settings.monitor.longest_slack;
         if self.slack == (longest / self.design.block).ceil() as u64 {
             self.events.push(Event {
                 time: time - longest,

@@ -1,6 +1,7 @@
 //! What a monitor knows of rest: the level, the whitening filter and the sample X.
 
-use super::settings::{Design, MOST_ORDER};
+use super::design::Design;
+use super::settings::MOST_ORDER;
 use crate::whiten::{self, Chosen, Fit, LjungBox, SAMPLES_PER_COEFFICIENT};
 use serde::{Deserialize, Serialize};
 
@@ -66,7 +67,7 @@ impl Filter {
     /// would turn the sign of a start.
     fn fit(stretches: &[&[f64]], design: &Design) -> Self {
         let joined = stretches.concat();
-        let coefficients = match design.settings.order {
+        let coefficients = match design.settings.whitening.order {
             Some(order) => whiten::coefficients(&joined, order, Fit::Burg),
             None => {
                 let most = MOST_ORDER.min(joined.len() / SAMPLES_PER_COEFFICIENT);

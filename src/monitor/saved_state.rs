@@ -1,4 +1,4 @@
-//! All that a monitor starts from, as a file holds it.
+//! All that a monitor starts from, as `detect --save-state` writes it.
 
 use super::{Design, Knowledge, MOST_ORDER, STRONGEST, Settings, SettingsError};
 use crate::signal::recording::Sample;
@@ -7,96 +7,65 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// No saved is longer, bytes.
+/// No state is longer, bytes.
 const LONGEST: u64 = 1 << 20;
 
-/// What a monitor is told and what it knows, at one sampling rate.
+/// The settings of a monitor and what it knows, at one sampling rate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a saved state")]
+#[allow(missing_docs, reason = "what a name says is not said again")]
 pub struct SavedState {
-    /// What it is told.
     pub settings: Settings,
     /// Samples per second.
     pub rate: f64,
     /// The time, s, and the acceleration, m/s², of the first sample of the record that it was learnt from:
     /// how that record begins is known of no other.
     pub first_sample: Option<(f64, f64)>,
-    /// What it knows.
     pub knowledge: Knowledge,
 }
 
-/// Why a file is no saved.
+/// Why a file cannot be used as a state.
 #[derive(Debug, thiserror::Error)]
-pub enum SavedStateError {
-    /// It cannot be read.
+#[error("{path}: {problem}")]
+pub struct SavedStateError {
+    path: String,
+    problem: Problem,
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Problem {
+    #[error("cannot be read: {0} (`liftsim detect RECORDING --save-state FILE` writes one)")]
+    Unreadable(#[from] io::Error),
+    #[error("not what `liftsim detect --save-state` writes: {0}")]
+    Format(#[from] serde_json::Error),
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    #[error("level must lie within {STRONGEST} m/s^2, got {0}")]
+    Level(f64),
     #[error(
-        "{path}: cannot be read: {error} (`liftsim detect RECORDING --save-state FILE` writes one)"
+        "coefficients must be at most {MOST_ORDER}, none beyond 70 in size and their sum at most 1, \
+         as those of a fit to rest are, got {0:?}"
     )]
-    Unreadable {
-        /// As given.
-        path: String,
-        /// What the system said.
-        error: io::Error,
-    },
-    /// It holds something else.
-    #[error("{path}: not what `liftsim detect --save-state` writes: {error}")]
-    Format {
-        /// As given.
-        path: String,
-        /// Where and why.
-        error: serde_json::Error,
-    },
-    /// Its settings cannot be used.
-    #[error("{path}: {error}")]
-    Settings {
-        /// As given.
-        path: String,
-        /// Why.
-        error: SettingsError,
-    },
-    /// A level that no rest has.
-    #[error("{path}: level must lie within {STRONGEST} m/s^2, got {got}")]
-    Level {
-        /// As given.
-        path: String,
-        /// m/s².
-        got: f64,
-    },
-    /// A filter that no rest gives.
-    #[error(
-        "{path}: coefficients must be at most {MOST_ORDER}, none beyond 70 in size and their sum at most 1, \
-         as those of a fit to rest are, got {got:?}"
-    )]
-    Filter {
-        /// As given.
-        path: String,
-        /// a₁ … a_m.
-        got: Vec<f64>,
-    },
-    /// Its parts do not fit each other.
-    #[error("{path}: X must have {expected} finite blocks as settings.reference says, got {got}")]
-    Sample {
-        /// As given.
-        path: String,
-        /// N.
-        expected: usize,
-        /// What there are.
-        got: usize,
-    },
+    Filter(Vec<f64>),
+    #[error("X must have {expected} finite blocks as settings.samples.reference says, got {got}")]
+    Sample { expected: usize, got: usize },
 }
 
 impl SavedState {
     /// Reads a file.
     ///
     /// # Errors
-    /// Where it cannot be read or holds no saved that can be used.
+    /// Where it cannot be read, or its parts cannot be used together.
     pub fn load(path: &Path) -> Result<Self, SavedStateError> {
         let name = path.display().to_string();
         let mut text = String::new();
         let read = File::open(path).and_then(|file| file.take(LONGEST).read_to_string(&mut text));
         match read {
             Ok(_) => Self::from_json(&name, &text),
-            Err(error) => Err(SavedStateError::Unreadable { path: name, error }),
+            Err(error) => Err(SavedStateError {
+                path: name,
+                problem: error.into(),
+            }),
         }
     }
 
@@ -105,34 +74,32 @@ impl SavedState {
     /// # Errors
     /// As [`SavedState::load`].
     pub fn from_json(name: &str, text: &str) -> Result<Self, SavedStateError> {
-        let path = name.to_owned();
-        let saved: Self = match serde_json::from_str(text) {
-            Ok(saved) => saved,
-            Err(error) => return Err(SavedStateError::Format { path, error }),
+        Self::checked(text).map_err(|problem| SavedStateError {
+            path: name.to_owned(),
+            problem,
+        })
+    }
+
+    fn checked(text: &str) -> Result<Self, Problem> {
+        let saved: Self = serde_json::from_str(text)?;
+        let in_file = |path: &str| match path {
+            "rate" => path.to_owned(),
+            path => format!("settings.{path}"),
         };
-        if let Err(error) = saved.design() {
-            return Err(SavedStateError::Settings { path, error });
+        saved.design().map_err(|error| error.called(in_file))?;
+        if let Some(reference) = &saved.knowledge.reference {
+            let (expected, got) = (saved.settings.samples.reference, reference.sample.len());
+            if got != expected {
+                return Err(Problem::Sample { expected, got });
+            }
+            if reference.level.abs() > STRONGEST {
+                return Err(Problem::Level(reference.level));
+            }
+            if !is_fitted(&reference.coefficients) {
+                return Err(Problem::Filter(reference.coefficients.clone()));
+            }
         }
-        let Some(reference) = &saved.knowledge.reference else {
-            return Ok(saved);
-        };
-        let (expected, got) = (saved.settings.reference, reference.sample.len());
-        match () {
-            () if got != expected => Err(SavedStateError::Sample {
-                path,
-                expected,
-                got,
-            }),
-            () if reference.level.abs() > STRONGEST => Err(SavedStateError::Level {
-                path,
-                got: reference.level,
-            }),
-            () if !is_fitted(&reference.coefficients) => Err(SavedStateError::Filter {
-                path,
-                got: reference.coefficients.clone(),
-            }),
-            () => Ok(saved),
-        }
+        Ok(saved)
     }
 
     /// What it knows of a record that begins with this sample.
@@ -179,9 +146,9 @@ mod tests {
             coefficients: vec![0.5, -0.25],
             deviation: 0.01,
             whiteness: None,
-            training: settings.training,
+            training: settings.whitening.training,
             span: None,
-            sample: vec![0.01; settings.reference],
+            sample: vec![0.01; settings.samples.reference],
         };
         SavedState {
             settings,
@@ -216,21 +183,22 @@ mod tests {
         };
         let cases: [(&str, Change); 11] = [
             (
-                "gap must be at most 200 blocks, got 18446744073709551615",
-                &|saved, _| saved.settings.gap = usize::MAX,
+                "settings.samples.gap: must lie in [0, 200] blocks, got 18446744073709551615",
+                &|saved, _| saved.settings.samples.gap = usize::MAX,
             ),
             (
-                "training must be at most 100000 blocks, got 1000000",
-                &|saved, _| saved.settings.training = 1_000_000,
+                "settings.whitening.training: must lie in [24, 100000] blocks, got 1000000",
+                &|saved, _| saved.settings.whitening.training = 1_000_000,
             ),
-            ("shift must be at most 200 blocks, got 3000", &|saved, _| {
-                saved.settings.shift = 3000
-            }),
             (
-                "block must lie in [0.001, 0.5] s, got 0.000001 s",
-                &|saved, _| saved.settings.block = 1e-6,
+                "settings.samples.shift: must lie in [1, 200] blocks, got 3000",
+                &|saved, _| saved.settings.samples.shift = 3000,
             ),
-            ("rate must lie in [1, 1e6] Hz, got 0", &|saved, _| {
+            (
+                "settings.monitor.block: must lie in [0.001, 0.5] s, for a lift gains speed in about a second, got 0.000001",
+                &|saved, _| saved.settings.monitor.block = 1e-6,
+            ),
+            ("rate: must lie in [1, 1000000] Hz, got 0", &|saved, _| {
                 saved.rate = 0.0;
             }),
             ("X must have 24 finite blocks", &|_, reference| {

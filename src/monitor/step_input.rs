@@ -3,11 +3,11 @@
 
 use super::blocks::Block;
 use super::decide::{Decider, Verdict, Windows};
+use super::design::Design;
 use super::event::Decision;
 use super::history::History;
 use super::pulse::{Cusum, Pulse};
 use super::reference::Reference;
-use super::settings::Design;
 use std::ops::Range;
 
 /// What pulses of real rides leave of the speed, at most.
@@ -37,11 +37,11 @@ pub(super) struct StepInput<'a> {
 
 impl StepInput<'_> {
     pub fn least_speed(&self) -> f64 {
-        self.design.settings.least_speed
+        self.design.settings.monitor.least_speed
     }
 
     pub fn longest_motion(&self) -> f64 {
-        self.design.settings.longest_motion
+        self.design.settings.monitor.longest_motion
     }
 
     /// N.
@@ -68,7 +68,7 @@ impl StepInput<'_> {
 
     /// Whether a pulse is stronger than any acceleration of a lift.
     pub fn is_violent(&self, pulse: &Pulse) -> bool {
-        pulse.peak > self.design.settings.most_acceleration
+        pulse.peak > self.design.settings.monitor.most_acceleration
     }
 
     /// How long a pulse has lasted, s.
@@ -145,7 +145,7 @@ impl StepInput<'_> {
             exceedances,
             lower,
             upper,
-            alpha: self.design.settings.alpha,
+            alpha: self.design.settings.detector.alpha,
             reference: reference.map(span).or(self.reference.span),
             shift: span(&windows.shift),
             scale: span(&windows.scale),

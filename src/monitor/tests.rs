@@ -139,10 +139,8 @@ fn a_ride_is_followed_phase_by_phase() {
 /// of five, no filter, ranks by sorting.
 #[test]
 fn decisions_are_those_of_a_recount() {
-    let settings = Settings {
-        order: Some(0),
-        ..Settings::default()
-    };
+    let mut settings = Settings::default();
+    settings.whitening.order = Some(0);
     let record = Record::quiet()
         .rest(8.0)
         .trip(1.0)
@@ -204,11 +202,9 @@ fn decisions_are_those_of_a_recount() {
 /// level is exact. Two-sided, 1e-6.
 #[test]
 fn a_decision_at_rest_has_its_exact_size() {
-    let settings = Settings {
-        order: Some(0),
-        alpha: 0.01,
-        ..Settings::default()
-    };
+    let mut settings = Settings::default();
+    settings.whitening.order = Some(0);
+    settings.detector.alpha = 0.01;
     let design = settings.at(20.0).unwrap();
     let trials = 40_000;
     let mut alarms = 0;
@@ -293,10 +289,8 @@ fn calm_is_no_rest_unless_motion_shows() {
 
 #[test]
 fn what_is_quiet_for_longer_than_any_motion_is_rest() {
-    let settings = Settings {
-        longest_motion: 30.0,
-        ..Settings::default()
-    };
+    let mut settings = Settings::default();
+    settings.monitor.longest_motion = 30.0;
     let mut monitor = Monitor::new(settings.at(RATE).unwrap(), Knowledge::default());
     let events = Record::quiet().rest(45.0).watch(&mut monitor);
     assert_eq!(states(&events), [REST]);

@@ -14,15 +14,22 @@ mod tests;
 pub use point::RidePoint;
 pub use problem::RideProblem;
 
-pub(super) use keys::RideTable;
-
 use super::axis::{self, AxisValue};
 use super::drawing::Refused;
-use super::error::{Problem, Refusal};
+use super::error::Problem;
 use super::exhibit::ExhibitKind;
-use keys::{CurveTable, RideKeys, STRENGTH};
+use super::file::AxisTable;
+use super::tree::{Node, Value};
+use keys::STRENGTH;
 use serde::Deserialize;
 use std::ops::Range;
+
+/// What must be there; everything else is read from the tree.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct RideTable {
+    measure: Measure,
+    axis: AxisTable,
+}
 
 /// What is asked of each trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
@@ -87,7 +94,7 @@ impl Measure {
     }
 
     /// The keys that change nothing in it.
-    fn unheeded(self) -> &'static [&'static str] {
+    fn unused(self) -> &'static [&'static str] {
         match self {
             Self::Rides => &["length", "jam_within"],
             Self::Rest => &[
@@ -107,17 +114,6 @@ impl Measure {
             Self::SwitchedOn => &["length", "jam_within"],
         }
     }
-
-    fn check_heeded(self, keys: &RideKeys) -> Result<(), Refused> {
-        let mut written = keys.written().into_iter();
-        match written.find(|(key, _)| self.unheeded().contains(key)) {
-            Some((key, span)) => {
-                let measure = self;
-                Err((Some(span), RideProblem::Unheeded { key, measure }.into()))
-            }
-            None => Ok(()),
-        }
-    }
 }
 
 /// The axis and where it stands.
@@ -127,19 +123,20 @@ struct Axis {
     span: Range<usize>,
 }
 
-/// What the table comes to.
-pub(super) fn study(table: &RideTable) -> Result<ExhibitKind, Refused> {
-    let (measure, base) = (table.measure, table.keys());
+/// The study of a `[ride]` table.
+pub(super) fn study(table: &RideTable, node: &Node) -> Result<ExhibitKind, Refused> {
+    let measure = table.measure;
+    let base = keys::values(node, &["measure", "axis", "curve"]).map_err(placed)?;
     let axis = Axis::new(table)?;
     axis.check_free(&base)?;
-    measure.check_heeded(&base)?;
+    keys::check_used(measure, &base).map_err(placed)?;
     let mut curves: Vec<RideCurve> = Vec::new();
-    for (index, curve) in tables(table).iter().enumerate() {
-        let keys = curve.keys();
-        axis.check_free(&keys)?;
-        measure.check_heeded(&keys)?;
+    for (index, curve) in tables(node).iter().enumerate() {
+        let values = keys::values(curve, &["label"]).map_err(placed)?;
+        axis.check_free(&values)?;
+        keys::check_used(measure, &values).map_err(placed)?;
         let label = label(curve, index, &curves)?;
-        let points = axis.points(measure, &keys.laid_over(&base))?;
+        let points = axis.points(measure, &values.over(&base, &[&STRENGTH]))?;
         curves.push(RideCurve { label, points });
     }
     Ok(ExhibitKind::Ride(RideStudy {
@@ -149,24 +146,32 @@ pub(super) fn study(table: &RideTable) -> Result<ExhibitKind, Refused> {
     }))
 }
 
+fn placed((span, problem): keys::Refused) -> Refused {
+    (span, problem.into())
+}
+
 /// The curves, or the one that a table without any stands for.
-fn tables(table: &RideTable) -> Vec<CurveTable> {
-    match table.curve.is_empty() {
-        true => vec![CurveTable::default()],
-        false => table.curve.clone(),
+fn tables(node: &Node) -> Vec<Node> {
+    match node.get("curve").map(|curves| &curves.value) {
+        Some(Value::List(curves)) if !curves.is_empty() => curves.clone(),
+        _ => vec![Node::empty(node.span.clone())],
     }
 }
 
 /// A label of its own, also when it is part of a quantity's name.
-fn label(table: &CurveTable, index: usize, before: &[RideCurve]) -> Result<String, Refused> {
-    let given = table.label.as_ref();
-    let label = given.map_or((index + 1).to_string(), |label| label.get_ref().clone());
+fn label(table: &Node, index: usize, before: &[RideCurve]) -> Result<String, Refused> {
+    let given = table.get("label");
+    let label = given.map(String::deserialize).transpose();
+    let label = label.map_err(|refusal| {
+        let problem = RideProblem::Read(refusal.within("ride.curve.label"));
+        (given.map(|node| node.span.clone()), problem.into())
+    })?;
+    let label = label.unwrap_or((index + 1).to_string());
     let name = RideCurve::name_of(&label);
-    let is_taken = before.iter().any(|other| other.name() == name);
-    match name.is_empty() || is_taken {
-        true => Err((given.map(toml::Spanned::span), Problem::Label(label))),
-        false => Ok(label),
+    if name.is_empty() || before.iter().any(|other| other.name() == name) {
+        return Err((given.map(|node| node.span.clone()), Problem::Label(label)));
     }
+    Ok(label)
 }
 
 impl RideCurve {
@@ -186,13 +191,16 @@ impl RideCurve {
 impl Axis {
     fn new(table: &RideTable) -> Result<Self, Refused> {
         let (key, value) = axis::only(&table.axis)?;
-        let known = RideKeys::NAMES.iter().copied();
-        let Some(name) = known.clone().find(|name| name == key.get_ref()) else {
-            return Err(axis::unknown(key, known));
+        let Some(name) = keys::all().find(|name| name == key.get_ref()) else {
+            return Err(axis::unknown(key, keys::all()));
         };
-        if table.measure.unheeded().contains(&name) {
-            let measure = table.measure;
-            let problem = RideProblem::Unheeded { key: name, measure };
+        let measure = table.measure;
+        if measure.unused().contains(&name) {
+            let key_name = name.to_owned();
+            let problem = RideProblem::Unused {
+                key: key_name,
+                measure,
+            };
             return Err((Some(key.span()), problem.into()));
         }
         let span = value.span();
@@ -202,52 +210,50 @@ impl Axis {
     }
 
     /// What is swept must not be set as well.
-    fn check_free(&self, keys: &RideKeys) -> Result<(), Refused> {
-        let rivals: &[&str] = match STRENGTH.contains(&self.name) {
-            true => &STRENGTH,
-            false => &[self.name],
-        };
-        match rivals.iter().find_map(|key| keys.span(key)) {
+    fn check_free(&self, values: &Node) -> Result<(), Refused> {
+        match place(values, self.name) {
             Some(span) => Err((Some(span), Problem::FixedAndSwept(self.name))),
             None => Ok(()),
         }
     }
 
-    /// What each value comes to.
-    fn points(&self, measure: Measure, keys: &RideKeys) -> Result<Vec<(f64, RidePoint)>, Refused> {
-        let at = |problem: Problem| (Some(self.span.clone()), problem);
+    /// Each value and its point.
+    fn points(&self, measure: Measure, values: &Node) -> Result<Vec<(f64, RidePoint)>, Refused> {
+        let at = |problem: RideProblem| (Some(self.span.clone()), problem.into());
         let point = |value: &AxisValue| {
-            let no_number = || at(RideProblem::NoNumber(self.name).into());
+            let no_number = || at(RideProblem::NoNumber(self.name.to_owned()));
             let number = value.number().ok_or_else(no_number)?;
-            let mut keys = keys.clone();
-            let set = keys.set(self.name, value.written(), self.span.clone());
-            set.map_err(|error| {
-                at(Problem::AxisValue {
-                    name: self.name,
-                    refusal: Refusal::new("", error),
-                })
+            let mut values = values.clone();
+            values.set(self.name, self.node(value, number));
+            let (keys, settings) = keys::read(&values).map_err(placed)?;
+            let point = RidePoint::new(measure, &keys, settings);
+            let point = point.map_err(|problem| {
+                let key = problem.key();
+                (key.and_then(|key| place(&values, key)), problem.into())
             })?;
-            let point = RidePoint::new(measure, &keys);
-            let point = point.map_err(|problem| (keys.blamed(&problem), problem.into()))?;
             Ok((number, point))
         };
         self.values.iter().map(point).collect()
     }
+
+    /// A value as it would stand in the table.
+    fn node(&self, value: &AxisValue, number: f64) -> Node {
+        let value = match value.written().as_integer() {
+            Some(whole) => Value::Integer(whole),
+            None => Value::Float(number),
+        };
+        let span = self.span.clone();
+        Node { span, value }
+    }
 }
 
-impl RideKeys {
-    /// Where the value stands that a problem is about: most begin with its key.
-    fn blamed(&self, problem: &RideProblem) -> Option<Range<usize>> {
-        let words = problem.to_string();
-        let mut words = words.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-        let key = match problem {
-            RideProblem::Settings(error) => error.key(),
-            _ => words.next().unwrap_or_default(),
-        };
-        let rivals: &[&str] = match STRENGTH.contains(&key) {
-            true => &STRENGTH,
-            false => &[key],
-        };
-        rivals.iter().find_map(|key| self.span(key))
-    }
+/// Where the value of a key stands, or that of a key that says the same in another way.
+fn place(values: &Node, key: &str) -> Option<Range<usize>> {
+    let rivals: &[&str] = if STRENGTH.contains(&key) {
+        &STRENGTH
+    } else {
+        &[key]
+    };
+    let mut found = rivals.iter().filter_map(|key| values.get(key));
+    found.next().map(|node| node.span.clone())
 }
