@@ -11,13 +11,13 @@ fn main() -> ExitCode {
         Err(Failure::Input(error)) => report(&error, 2),
         Err(Failure::Run(error)) => report(&error, 1),
         Err(Failure::Stopped { code, message }) => {
-            eprintln!("{message}");
+            cli::say(message);
             ExitCode::from(code)
         }
     }
 }
 
 fn report(error: &anyhow::Error, code: u8) -> ExitCode {
-    eprintln!("error: {}", brief(format!("{error:#}")));
+    cli::say(format_args!("error: {}", brief(format!("{error:#}"))));
     ExitCode::from(code)
 }

@@ -143,6 +143,13 @@ impl schemars::JsonSchema for Size {
     }
 }
 
+impl Default for Probability {
+    /// 0.
+    fn default() -> Self {
+        Self(0.0)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

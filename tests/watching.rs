@@ -2,7 +2,6 @@
 
 use liftsim::detection::{Detection, End};
 use liftsim::monitor::{Alarm, Design, Event, Kind, Knowledge, Monitor, Settings, State};
-use liftsim::signal::Phase;
 use liftsim::signal::recording::Sample;
 
 /// Seconds, and the acceleration in them, m/s².
@@ -46,7 +45,8 @@ fn events(design: &Design, knowledge: Knowledge, pieces: &[Piece]) -> Vec<Event>
 
 /// When it was said that the cage stands.
 fn rests(events: &[Event]) -> Vec<f64> {
-    let is_rest = |event: &&Event| matches!(event.kind, Kind::Change { state, .. } if state == State::Known(Phase::Rest));
+    let is_rest =
+        |event: &&Event| matches!(event.kind, Kind::Change { state, .. } if state == State::REST);
     events
         .iter()
         .filter(is_rest)
@@ -100,11 +100,11 @@ fn no_uniform_motion() {
                 ];
                 let samples = samples(&ride).into_iter().map(Ok::<_, ()>);
                 let found = Detection::of(&design, knowledge(&design), samples).unwrap();
-                let ends: Vec<Option<End>> = found.rides.iter().map(|ride| ride.end).collect();
-                assert_eq!(ends, [Some(End::Stop)], "{ride:?}: {:?}", found.events);
+                let ends: Vec<End> = found.trips.iter().map(|trip| trip.ended).collect();
+                assert_eq!(ends, [End::Stop], "{ride:?}: {:?}", found.events);
                 let top = seconds * acceleration;
                 assert!(
-                    (found.rides[0].speed / top - 1.0).abs() < 0.2,
+                    (found.trips[0].speed / top - 1.0).abs() < 0.2,
                     "{ride:?}: {:?}",
                     found.events
                 );
@@ -123,14 +123,12 @@ fn a_jam_at_any_sizes() {
         (12, 24, 24, 0),
         (40, 8, 8, 2),
     ] {
-        let settings = Settings {
-            reference,
-            shift,
-            scale,
-            gap,
-            alpha: 0.01,
-            ..Settings::default()
-        };
+        let mut settings = Settings::default();
+        settings.samples.reference = reference;
+        settings.samples.shift = shift;
+        settings.samples.scale = scale;
+        settings.samples.gap = gap;
+        settings.detector.alpha = 0.01;
         let design = settings.at(1.0 / BLOCK).unwrap();
         let ride = [
             (8.0, 0.0),
@@ -195,7 +193,7 @@ fn gaps_anywhere() {
         for event in &found.events {
             assert!(event.time <= event.reported, "{gap}: {event:?}");
         }
-        for ride in &found.rides {
+        for ride in &found.trips {
             let stop = ride.stop.unwrap_or(f64::INFINITY);
             assert!(ride.start < stop, "{gap}: {ride:?}");
         }

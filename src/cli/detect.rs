@@ -1,16 +1,16 @@
 //! `liftsim detect RECORDING`: rest, rides and what decided them, in a recording.
 
-use super::found::Found;
+use super::found;
+use super::monitor_options::{MonitorArguments, Setup, check_strength};
 use super::output::{Output, Ready};
 use super::progress;
 use super::reading::ReadingArguments;
-use super::watch::{Told, Watch, check_strength};
-use super::{Failure, Outcome, print};
+use super::{Failure, Outcome, print, warn};
 use clap::Args;
 use indicatif::ProgressBar;
-use liftsim::detection::Detection;
+use liftsim::detection::{DetectReport, Detection};
 use liftsim::figure::{self, Drawing, FigureError};
-use liftsim::monitor::{Briefing, Design, Knowledge};
+use liftsim::monitor::{Design, Knowledge, SavedState};
 use liftsim::signal::recording::{Reading, Recording, Sample};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -48,7 +48,7 @@ pub struct Detect {
     #[arg(long)]
     force: bool,
     #[command(flatten)]
-    watch: Watch,
+    options: MonitorArguments,
     #[command(flatten)]
     reading: ReadingArguments,
 }
@@ -64,28 +64,26 @@ impl Detect {
     /// Runs the command.
     pub fn run(self, quiet: bool) -> Outcome {
         let outputs = self.outputs()?;
-        let told = self.watch.told()?;
-        let recording = self.open(&told.config.reading)?;
-        let passes = if told.briefing.is_some() { 1 } else { 3 };
+        let setup = self.options.setup()?;
+        let recording = self.open(&setup.config.reading)?;
+        let passes = if setup.saved.is_some() { 1 } else { 3 };
         let bar = progress::passes(passes * recording.facts().samples, !quiet);
-        let (briefing, design) = self.brief(told, &recording, &bar)?;
+        let (saved, design) = self.brief(setup, &recording, &bar)?;
         let first = first_sample(&recording)?;
         let samples = recording.samples().map_err(Failure::input)?;
         let samples = progress::seen(samples, &bar);
-        let detection = Detection::of(&design, briefing.knowledge_of(&first), samples);
+        let detection = Detection::of(&design, saved.knowledge_of(&first), samples);
         bar.finish_and_clear();
-        let found = Found {
-            path: &self.recording,
-            recording: &recording,
-            detection: &detection.map_err(Failure::input)?,
-        };
-        for warning in found.warnings() {
-            eprintln!("warning: {warning}");
+        let detection = detection.map_err(Failure::input)?;
+        for warning in detection.warnings(recording.rate()) {
+            warn(&warning);
         }
-        self.write(outputs, &found, &briefing)?;
-        print(&match self.json {
-            true => found.json(),
-            false => found.table(),
+        let report = DetectReport::new(self.name(), &recording, &detection);
+        self.write(outputs, &report, &detection, &saved)?;
+        print(&if self.json {
+            report.json()
+        } else {
+            found::text(&report, &detection)
         })?;
         Ok(ExitCode::SUCCESS)
     }
@@ -110,7 +108,7 @@ impl Detect {
             .and(check_strength(facts.greatest))
             .map_err(|error| self.refused(error))?;
         for warning in recording.warnings() {
-            eprintln!("warning: {warning}");
+            warn(warning);
         }
         Ok(recording)
     }
@@ -118,33 +116,33 @@ impl Detect {
     /// What is known before the recording is watched, from a saved state or learnt, and how it is watched.
     fn brief(
         &self,
-        told: Told,
+        setup: Setup,
         recording: &Recording,
         bar: &ProgressBar,
-    ) -> Result<(Briefing, Design), Failure> {
-        if let Some(briefing) = told.briefing {
-            let design = briefing.design().map_err(Failure::input)?;
-            return Ok((briefing, design));
+    ) -> Result<(SavedState, Design), Failure> {
+        if let Some(saved) = setup.saved {
+            let design = saved.design().map_err(Failure::input)?;
+            return Ok((saved, design));
         }
-        let (settings, rate) = (told.config.settings, recording.rate());
+        let (settings, rate) = (setup.config.settings, recording.rate());
         let design = settings.at(rate);
         let design = design.map_err(|error| self.refused(error.into()))?;
         let pass = || Ok(progress::seen(recording.samples()?, bar));
         let learnt = Knowledge::from_record(&design, pass).map_err(Failure::input)?;
         let first = first_sample(recording)?;
-        let briefing = Briefing {
+        let saved = SavedState {
             knowledge: learnt.map_err(|error| self.refused(error.into()))?,
             settings,
             rate,
             first_sample: Some((first.time, first.acceleration)),
         };
-        Ok((briefing, design))
+        Ok((saved, design))
     }
 
-    fn drawing(&self, found: &Found) -> Result<Drawing, Failure> {
-        let version = env!("CARGO_PKG_VERSION");
-        let provenance = format!("liftsim {version}, recording {}", found.name());
-        figure::detection::plot(found.detection, &found.name())
+    fn drawing(&self, detection: &Detection) -> Result<Drawing, Failure> {
+        let (version, name) = (env!("CARGO_PKG_VERSION"), self.name());
+        let provenance = format!("liftsim {version}, recording {name}");
+        figure::detection::plot(detection, &name)
             .and_then(|plot| figure::render(&plot, &provenance))
             .map_err(|error| match error {
                 FigureError::Short => self.refused(error.into()),
@@ -153,18 +151,31 @@ impl Detect {
     }
 
     /// All files or none.
-    fn write(&self, to: Outputs, found: &Found, briefing: &Briefing) -> Result<(), Failure> {
+    fn write(
+        &self,
+        to: Outputs,
+        report: &DetectReport,
+        detection: &Detection,
+        saved: &SavedState,
+    ) -> Result<(), Failure> {
         let mut written = Vec::new();
         if let Some(figure) = to.figure {
-            written.push(figure.draw(&self.drawing(found)?)?);
+            written.push(figure.draw(&self.drawing(detection)?)?);
         }
         if let Some(state) = to.state {
-            written.push(state.write(briefing.to_json().as_bytes())?);
+            written.push(state.write(saved.to_json().as_bytes())?);
         }
         if let Some(csv) = to.csv {
-            written.push(csv.write(&found.csv())?);
+            written.push(csv.write(&report.csv())?);
         }
         written.into_iter().try_for_each(Ready::publish)
+    }
+
+    /// The recording's file, without its folder.
+    fn name(&self) -> String {
+        let path = self.recording.as_path();
+        let name = path.file_name().unwrap_or(path.as_os_str());
+        name.to_string_lossy().into_owned()
     }
 
     /// The recording is not what it should be.

@@ -1,7 +1,7 @@
 //! `liftsim figures`: every config's results, and the report on all of them.
 
 use super::progress::{self, Progress, Reporter};
-use super::{Failure, Outcome, exhibit, print, store, sweep, table};
+use super::{Failure, Outcome, exhibit, print, say, store, sweep, table};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::campaign::{Campaign, Terms};
@@ -189,11 +189,11 @@ impl Figures {
         let directory = Directory::new(&self.results);
         let path = directory.path().join("README.md");
         if !missing.is_empty() {
-            eprintln!(
+            say(format_args!(
                 "{}: not written: no complete results of {} (run liftsim figures without --only)",
                 path.display(),
                 in_short(&missing)
-            );
+            ));
             return Ok(());
         }
         let sections = entries.iter().map(Entry::section);

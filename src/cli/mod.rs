@@ -11,6 +11,7 @@ mod keys;
 mod man;
 mod merge;
 mod monitor;
+mod monitor_options;
 mod output;
 mod picture;
 mod plan;
@@ -24,7 +25,6 @@ mod status;
 mod store;
 mod sweep;
 mod threshold;
-mod watch;
 
 use anyhow::Context;
 use clap::error::{ContextKind, ContextValue};
@@ -33,6 +33,7 @@ use liftsim::config::{Config, ConfigError, ExhibitConfig, MOST_PILOT_TRIALS};
 use liftsim::format::shorten;
 use liftsim::plan::Plan;
 use liftsim::stats::tally::MOST_TRIALS;
+use std::fmt::Display;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -239,6 +240,16 @@ fn print(text: &str) -> Result<(), Failure> {
         )),
         _ => Ok(()),
     }
+}
+
+/// A line on standard error. Best effort: where nobody can read it, the work goes on.
+pub fn say(line: impl Display) {
+    let _ = writeln!(io::stderr().lock(), "{line}");
+}
+
+/// What should be known, and stops nothing.
+fn warn(warning: impl Display) {
+    say(format_args!("warning: {warning}"));
 }
 
 /// A table of text: every column as wide as its widest cell, numbers to the right.

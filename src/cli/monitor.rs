@@ -1,10 +1,10 @@
 //! `liftsim monitor`: watches a lift, sample by sample, from standard input.
 
-use super::watch::{Told, Watch, check_strength};
-use super::{Failure, Outcome};
+use super::monitor_options::{MonitorArguments, Setup, check_strength};
+use super::{Failure, Outcome, warn};
 use anyhow::{Context, anyhow};
 use clap::{Args, ValueEnum};
-use liftsim::monitor::{Briefing, Event, Knowledge, Monitor};
+use liftsim::monitor::{Event, Knowledge, Monitor, SavedState};
 use liftsim::signal::recording::{LineError, LineReader, LineReading, Sample};
 use std::io::{self, BufReader, Write};
 use std::process::ExitCode;
@@ -43,7 +43,7 @@ pub struct MonitorCommand {
     #[arg(long)]
     keep_going: bool,
     #[command(flatten)]
-    watch: Watch,
+    options: MonitorArguments,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
@@ -66,7 +66,7 @@ type Reading = (Sample, Option<bool>);
 impl MonitorCommand {
     /// Runs the command.
     pub fn run(self) -> Outcome {
-        let Told { config, briefing } = self.watch.told()?;
+        let Setup { config, saved } = self.options.setup()?;
         let input = BufReader::with_capacity(1 << 16, io::stdin().lock());
         let mut readings = Readings {
             lines: match self.expected_moving {
@@ -79,23 +79,23 @@ impl MonitorCommand {
             count: 0,
             keeps_going: self.keep_going,
         };
-        let saved_rate = briefing.as_ref().map(|briefing| briefing.rate);
+        let saved_rate = saved.as_ref().map(|saved| saved.rate);
         let (first, rate) = readings.begin(self.rate.or(saved_rate))?;
         let beginning = first[0].0;
-        let briefing = Briefing {
+        let saved = SavedState {
             rate,
-            ..briefing.unwrap_or(Briefing {
+            ..saved.unwrap_or(SavedState {
                 settings: config.settings,
                 rate,
                 first_sample: None,
                 knowledge: Knowledge::default(),
             })
         };
-        let mut knowledge = briefing.knowledge_of(&beginning);
+        let mut knowledge = saved.knowledge_of(&beginning);
         if let Some(begins) = self.begins {
             knowledge.begins_at_rest = begins == Beginning::Rest;
         }
-        let design = briefing.design().map_err(anyhow::Error::from);
+        let design = saved.design().map_err(anyhow::Error::from);
         let design = match self.rate.or(saved_rate) {
             Some(_) => design,
             None => design.context("standard input, whose times must be in s"),
@@ -216,7 +216,7 @@ impl<R: io::BufRead> Readings<R> {
                     .context("standard input")
                     .map_err(Failure::Input);
             }
-            self.warn(&format!("{refusal:#} (passed over)"));
+            warn(format_args!("{refusal:#} (passed over)"));
         }
     }
 
@@ -251,10 +251,6 @@ impl<R: io::BufRead> Readings<R> {
                 Ok(Ok(Sample { time, acceleration }))
             }
         }
-    }
-
-    fn warn(&self, words: &str) {
-        eprintln!("warning: {words}");
     }
 }
 

@@ -1,8 +1,8 @@
 //! Simulation, and what is to be seen of it on standard error: a bar on a terminal, lines of JSON for
 //! machines, or nothing.
 
-use super::Failure;
 use super::signals::Signals;
+use super::{Failure, say};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use liftsim::campaign::{Campaign, Witness};
@@ -45,7 +45,7 @@ impl Reporter {
     /// An event for machines.
     fn say(&self, event: &serde_json::Value) {
         if self.is_json {
-            eprintln!("{event}");
+            say(event);
         }
     }
 

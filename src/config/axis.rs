@@ -15,6 +15,8 @@ pub struct Axis {
     pub name: String,
     /// At least one.
     pub values: Vec<AxisValue>,
+    /// Where the key stands.
+    pub key_span: Range<usize>,
     /// Where all of them stand.
     pub span: Range<usize>,
 }
@@ -80,9 +82,18 @@ impl Axis {
         let values = values(name, node).map_err(|error| Conflict::at(&node.span, error))?;
         Ok(Self {
             name: (*name).clone(),
+            key_span: key_span.clone(),
             values: values.into_iter().map(AxisValue).collect(),
             span: node.span.clone(),
         })
+    }
+}
+
+impl Axis {
+    /// What is wrong with a key that is swept and set.
+    pub fn swept_and_set(&self) -> String {
+        let name = &self.name;
+        format!("the axis sweeps {name}, so it cannot be set here too (take it out here, or sweep another)")
     }
 }
 

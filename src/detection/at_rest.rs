@@ -2,17 +2,18 @@
 //! monitor said that the cage stood. Neighbours share most of their blocks, so no interval goes with it.
 
 use crate::monitor::{Event, Kind, Observation, State};
-use crate::signal::Phase;
+use serde::Serialize;
 use std::collections::VecDeque;
 
 /// Decisions forwards while the cage stood.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct AtRest {
     /// All of them.
     pub decisions: u64,
     /// Those for motion.
-    pub alarms: u64,
+    pub false_alarms: u64,
     /// Those that a start, reported late, may still turn out to have been part of.
+    #[serde(skip)]
     recent: VecDeque<Recent>,
 }
 
@@ -29,7 +30,7 @@ const LATEST_REPORT: f64 = 30.0;
 impl AtRest {
     /// Takes a block and the state it was seen in.
     pub(super) fn block(&mut self, block: &Observation, state: State) {
-        let Some(moves) = block.moves.filter(|_| state == State::Known(Phase::Rest)) else {
+        let Some(moves) = block.moves.filter(|_| state == State::REST) else {
             return;
         };
         let to = block.times.1;
@@ -42,7 +43,7 @@ impl AtRest {
     /// What was reported as a start, or as doubt, was no rest from then on.
     pub(super) fn event(&mut self, event: &Event) {
         if let Kind::Change { state, .. } = event.kind
-            && state != State::Known(Phase::Rest)
+            && state != State::REST
         {
             self.recent.retain(|decision| decision.to < event.time);
             self.end();
@@ -59,7 +60,7 @@ impl AtRest {
     fn count_oldest(&mut self) {
         if let Some(decision) = self.recent.pop_front() {
             self.decisions += 1;
-            self.alarms += u64::from(decision.moves);
+            self.false_alarms += u64::from(decision.moves);
         }
     }
 }

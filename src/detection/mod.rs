@@ -4,12 +4,16 @@
 //! ([`Knowledge::from_record`]). A monitor that is given the same knowledge and the same samples says the same.
 
 mod at_rest;
-mod ride;
+mod columns;
+mod report;
 mod trace;
+mod trip;
 
 pub use at_rest::AtRest;
-pub use ride::{End, Ride};
+pub use columns::columns;
+pub use report::{DetectReport, Recorded, Warning};
 pub use trace::{Column, Trace};
+pub use trip::{End, Trip};
 
 use crate::monitor::{Design, Event, Knowledge, Monitor};
 use crate::signal::recording::Sample;
@@ -24,7 +28,7 @@ pub struct Detection {
     /// All that the monitor said, in the order in which it said it.
     pub events: Vec<Event>,
     /// The motions.
-    pub rides: Vec<Ride>,
+    pub trips: Vec<Trip>,
     /// How often a decision at rest was for motion.
     pub at_rest: AtRest,
     /// Whether the sensor seems to be behind a high-pass filter.
@@ -48,7 +52,7 @@ impl Detection {
             design: design.clone(),
             knowledge,
             events: Vec::new(),
-            rides: Vec::new(),
+            trips: Vec::new(),
             at_rest: AtRest::default(),
             is_high_passed: false,
             trace: Trace::default(),
@@ -57,7 +61,7 @@ impl Detection {
             let sample = sample?;
             for event in monitor.step(sample, None) {
                 found.at_rest.event(event);
-                ride::take(&mut found.rides, event);
+                trip::take(&mut found.trips, event);
                 found.events.push(*event);
             }
             if let Some(block) = monitor.newest() {

@@ -5,7 +5,9 @@
 
 mod claim;
 mod header;
+mod monitor_options;
 mod old_error;
+pub mod reference;
 mod ride;
 mod story;
 mod sweep;
@@ -14,7 +16,6 @@ mod tables;
 mod tests;
 mod trace;
 mod value;
-mod watch;
 
 pub use claim::{Claim, ClaimProblem, Contrast, Contrasts, Narrative, Test};
 pub use header::{DEFAULT_PILOT_TRIALS, Header, MOST_PILOT_TRIALS};
@@ -22,7 +23,7 @@ pub use ride::{Measure, RideCurve, RidePoint, RideProblem, RideStudy};
 pub use sweep::{Config, Curve};
 pub use tables::{ExhibitKind, Search};
 pub use trace::{Part, Trace};
-pub use watch::WatchConfig;
+pub use monitor_options::MonitorOptions;
 
 pub use crate::config::{Axis, AxisValue, ConfigError};
 use crate::config::{Conflict, Node, Source, Unfit};

@@ -6,8 +6,6 @@ use super::ride::RideProblem;
 use super::source::{ConfigError, Source};
 use crate::chain::RecordTooLong;
 use crate::detect::{RegionError, SamplesError};
-use crate::monitor::SettingsError;
-use crate::signal::recording::UnitError;
 use crate::signal::{
     DigitiserError, DisturbanceError, ImpulsesError, LawError, MotionError, SensorError,
 };
@@ -251,9 +249,6 @@ pub enum Problem {
     /// Samples that cannot be.
     #[error("samples: {0}")]
     Samples(#[from] SamplesError),
-    /// What a monitor cannot be told.
-    #[error(transparent)]
-    Watch(#[from] SettingsError),
     /// A region that cannot be designed.
     #[error("detector: {0}")]
     Region(#[from] RegionError),
@@ -261,11 +256,8 @@ pub enum Problem {
     #[error("samples: {0}")]
     Record(#[from] RecordTooLong),
     /// Rides that cannot be made or watched.
-    #[error("ride: {0}")]
+    #[error(transparent)]
     Ride(#[from] RideProblem),
-    /// A unit that no recording has.
-    #[error("recording.{0}")]
-    Unit(UnitError),
     /// A claim that cannot be tested.
     #[error("{0}")]
     Claim(#[from] ClaimProblem),

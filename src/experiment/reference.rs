@@ -51,7 +51,7 @@ pub fn schema() -> Value {
 }
 
 /// The keys of a type, each with its schema.
-fn properties<T: JsonSchema>(generator: &mut SchemaGenerator) -> Map<String, Value> {
+pub(super) fn properties<T: JsonSchema>(generator: &mut SchemaGenerator) -> Map<String, Value> {
     let schema = T::json_schema(generator).to_value();
     match schema.get("properties") {
         Some(Value::Object(properties)) => properties.clone(),

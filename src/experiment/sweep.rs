@@ -225,13 +225,7 @@ fn check_free(source: &Source, sections: &Node, axis: &Axis) -> Result<(), Confi
     let parameter = parameter(&axis.name).expect("the axis has been checked");
     let set = parameter.paths.iter().find_map(|path| sections.get(path));
     match set {
-        Some(node) => {
-            let name = parameter.name;
-            let message = format!(
-                "the axis sweeps {name}, so it cannot be set here too (take it out here, or sweep another)"
-            );
-            Err(source.at(Some(node.span.clone()), message))
-        }
+        Some(node) => Err(source.at(Some(node.span.clone()), axis.swept_and_set())),
         None => Ok(()),
     }
 }

@@ -206,7 +206,7 @@ impl ExhibitKind {
                 let OperatingPointTable { sizes, power, delta } = table;
                 Self::OperatingPoint(Search { sizes, power, delta: [delta.from, delta.to] })
             }
-            _ => Self::Ride(ride::read(source)?),
+            _ => Self::Ride(ride::read(source, root)?),
         })
     }
 

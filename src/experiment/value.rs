@@ -1,8 +1,7 @@
 //! Values with the limits that hold wherever they stand: finite numbers, whole numbers.
 
 use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};
-use std::fmt::{self, Display};
-use std::str::FromStr;
+use std::fmt;
 
 /// A finite number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,10 +14,6 @@ pub(super) struct Whole(pub u64);
 /// C_W(T) for one T: a rank sum, or "never".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Critical(pub Option<u64>);
-
-/// What its own type reads from a name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Named<T>(pub T);
 
 impl Whole {
     /// As a size of something in memory.
@@ -118,12 +113,5 @@ impl<'de> Deserialize<'de> for Whole {
 impl<'de> Deserialize<'de> for Critical {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(CriticalVisitor)
-    }
-}
-
-impl<'de, T: FromStr<Err: Display>> Deserialize<'de> for Named<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let name = String::deserialize(deserializer)?;
-        name.parse().map(Self).map_err(D::Error::custom)
     }
 }

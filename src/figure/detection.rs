@@ -173,7 +173,7 @@ fn caption(detection: &Detection, name: &str) -> Vec<String> {
         format!("{:.1} Hz", design.rate),
         format!("blocks of {:.0} ms", 1000.0 * design.block),
         format!("N/M_1/M_2 = {}", design.samples),
-        format!("α = {}", design.settings.alpha),
+        format!("α = {}", design.settings.detector.alpha),
     ];
     if let Some(reference) = &detection.knowledge.reference {
         parts.push(format!("filter of order {}", reference.coefficients.len()));

@@ -35,34 +35,36 @@
 //! [^1]: see [`crate::signal`].
 
 mod blocks;
-mod briefing;
-mod cage;
+mod decide;
+mod design;
 mod event;
-mod hindsight;
 mod history;
-mod judge;
+mod learn;
+mod lift_state;
 mod pulse;
 mod reference;
-mod scene;
+mod saved_state;
 mod settings;
+mod step_input;
 #[cfg(test)]
 mod tests;
 
 pub use blocks::STRONGEST;
-pub use briefing::{Briefing, BriefingError};
-pub use event::{Alarm, Decision, Direction, Event, Kind, State};
-pub use hindsight::NoRest;
+pub use design::{Design, SettingsError};
+pub use event::{Alarm, Decision, Direction, Event, Kind, Span, State};
+pub use learn::NoRest;
 pub use reference::Reference;
-pub use settings::{Design, MOST_ORDER, Settings, SettingsError};
+pub use saved_state::{SavedState, SavedStateError};
+pub use settings::{Level, Limits, MOST_ORDER, Settings, Sizes, Whitening};
 
 use crate::signal::recording::Sample;
 use blocks::{Block, Blocks};
-use cage::Cage;
+use decide::{Decider, Windows};
 use history::History;
-use judge::{Judge, Places};
+use lift_state::LiftState;
 use pulse::{Cusum, is_level};
-use scene::Scene;
 use serde::{Deserialize, Serialize};
+use step_input::StepInput;
 
 /// What is known of a cage before its record begins.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -102,10 +104,10 @@ pub struct Monitor {
     motion_shows: bool,
     blocks: Blocks,
     history: History,
-    judge: Judge,
+    decider: Decider,
     /// Up and down.
     cusums: [Cusum; 2],
-    cage: Cage,
+    cage: LiftState,
     /// The first block that the next reference may be learnt from.
     learns_from: u64,
     /// How many motions in a row have looked different from rest.
@@ -133,10 +135,10 @@ impl Monitor {
             begins_at_rest,
             motion_shows,
         } = knowledge;
-        let drift = design.settings.least_acceleration / 2.0;
+        let drift = design.settings.monitor.least_acceleration / 2.0;
         let patience = design.samples.shift();
         let cusum = |sign| Cusum::new(sign, drift, patience);
-        let learnt = design.settings.training + design.samples.reference() + patience;
+        let learnt = design.settings.whitening.training + design.samples.reference() + patience;
         let looked_back = 4 * design.samples.span() + (LONGEST_PULSE / design.block) as usize;
         Self {
             is_rest: reference.is_some(),
@@ -145,9 +147,9 @@ impl Monitor {
             motion_shows,
             blocks: Blocks::new(design.samples.decimation(), design.block),
             history: History::new(learnt.max(looked_back)),
-            judge: Judge::new(&design),
+            decider: Decider::new(&design),
             cusums: [cusum(1.0), cusum(-1.0)],
-            cage: Cage::unknown(0),
+            cage: LiftState::unknown(0),
             learns_from: 0,
             shown: 0,
             is_high_passed: false,
@@ -212,7 +214,7 @@ impl Monitor {
         self.learns_from = 0;
         self.begins_at_rest = false;
         let state = self.cage.state();
-        self.cage = Cage::unknown(0);
+        self.cage = LiftState::unknown(0);
         if state != State::Unknown {
             self.events.push(self.cage.change(time, time, None));
         }
@@ -222,23 +224,23 @@ impl Monitor {
         self.history.push(block, self.reference.as_ref());
         let now = self.history.end();
         if self.reference.is_some() {
-            self.judge_block(now, &block);
+            self.decide_block(now, &block);
             self.doubt_level(now, &block);
         }
         self.learn(now);
     }
 
     /// The decision at a block, the pulses, and what they make of the state.
-    fn judge_block(&mut self, now: u64, block: &Block) {
+    fn decide_block(&mut self, now: u64, block: &Block) {
         let Some(reference) = &self.reference else {
             return;
         };
         let excess = block.mean - reference.level;
         let ended =
             (self.cusums.each_mut()).map(|cusum| cusum.step(now - 1, excess, block.seconds));
-        let places = Places::forwards(&self.design, now);
-        let verdict = places.as_ref().and_then(|places| {
-            (self.judge).verdict(&self.design, reference, &self.history, places)
+        let windows = Windows::forwards(&self.design, now);
+        let verdict = windows.as_ref().and_then(|windows| {
+            (self.decider).decide(&self.design, reference, &self.history, windows)
         });
         self.newest = Some(Observation {
             times: (block.from, block.to),
@@ -246,25 +248,25 @@ impl Monitor {
             whitened: self.history.newest(),
             moves: verdict.map(|verdict| verdict.moves),
         });
-        let (Some(places), Some(verdict)) = (places, verdict) else {
+        let (Some(windows), Some(verdict)) = (windows, verdict) else {
             return;
         };
-        let mut scene = Scene {
+        let mut input = StepInput {
             design: &self.design,
             history: &self.history,
             reference,
             calm_is_rest: self.is_rest && self.motion_shows,
             begins_at_rest: self.is_rest && self.begins_at_rest,
-            judge: &mut self.judge,
+            decider: &mut self.decider,
             cusums: &self.cusums,
             ended,
-            places,
+            windows,
             verdict,
             now,
             time: block.to,
         };
         let was = self.cage;
-        self.cage = was.step(&mut scene, &mut self.events);
+        self.cage = was.step(&mut input, &mut self.events);
         self.remember(was, now);
     }
 
@@ -280,12 +282,12 @@ impl Monitor {
     }
 
     /// What a change of state tells of this cage.
-    fn remember(&mut self, was: Cage, now: u64) {
+    fn remember(&mut self, was: LiftState, now: u64) {
         self.is_high_passed |= self.cage.decays();
         if self.cage.state() != was.state() {
             self.learns_from = now;
         }
-        if self.cage != Cage::Rest {
+        if self.cage != LiftState::Rest {
             return;
         }
         self.begins_at_rest = false;
@@ -300,7 +302,7 @@ impl Monitor {
     /// cage stands, or, for want of better, while nothing is known.
     fn learn(&mut self, now: u64) {
         let samples = &self.design.samples;
-        let needed = (self.design.settings.training + samples.reference()) as u64;
+        let needed = (self.design.settings.whitening.training + samples.reference()) as u64;
         // A start that has not been noticed yet must not get into the reference.
         let lag = samples.shift() as u64;
         if now < self.learns_from + needed + lag || self.cage.state().moves() {
@@ -310,7 +312,7 @@ impl Monitor {
         if self.cusums.iter().any(|cusum| cusum.pulse().is_some()) {
             return;
         }
-        let stands = self.cage == Cage::Rest;
+        let stands = self.cage == LiftState::Rest;
         let blocks = now - lag - needed..now - lag;
         let Some(record) = self.history.blocks(blocks.clone()) else {
             return;
@@ -318,8 +320,8 @@ impl Monitor {
         let record: Vec<f64> = record.iter().map(|block| block.mean).collect();
         // Not at every block, if this record is none to learn from.
         self.learns_from += needed / 4;
-        let drift = self.design.settings.least_acceleration / 2.0;
-        let bound = self.design.settings.least_speed / 2.0;
+        let drift = self.design.settings.monitor.least_acceleration / 2.0;
+        let bound = self.design.settings.monitor.least_speed / 2.0;
         if !is_level(&record, drift, self.design.block, bound) {
             return;
         }
@@ -342,9 +344,9 @@ impl Monitor {
 
     /// The alarm of a cage that stands while the rope is paid out.
     fn watch_drum(&mut self, time: f64, drum_turns: Option<bool>) {
-        let is_slack = drum_turns == Some(true) && self.cage == Cage::Rest;
+        let is_slack = drum_turns == Some(true) && self.cage == LiftState::Rest;
         self.slack = if is_slack { self.slack + 1 } else { 0 };
-        let longest = self.design.settings.longest_slack;
+        let longest = self.design.settings.monitor.longest_slack;
         if self.slack == (longest / self.design.block).ceil() as u64 {
             self.events.push(Event {
                 time: time - longest,

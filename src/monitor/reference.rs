@@ -1,6 +1,6 @@
 //! What a monitor knows of rest: the level, the whitening filter and the sample X.
 
-use super::settings::Design;
+use super::design::Design;
 use crate::whiten::{self, Chosen, Fit, LjungBox, Order};
 use serde::{Deserialize, Serialize};
 
@@ -66,7 +66,7 @@ impl Filter {
     /// would turn the sign of a start.
     fn fit(stretches: &[&[f64]], design: &Design) -> Self {
         let joined = stretches.concat();
-        let coefficients = match design.settings.order {
+        let coefficients = match design.settings.whitening.order {
             Order::Fixed(order) => whiten::coefficients(&joined, order, Fit::Burg),
             Order::Auto => {
                 let most = Order::Auto.highest(joined.len());

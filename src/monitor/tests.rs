@@ -102,7 +102,7 @@ fn alarms(events: &[Event]) -> Vec<Alarm> {
     events.iter().filter_map(alarm).collect()
 }
 
-const REST: State = State::Known(Phase::Rest);
+const REST: State = State::REST;
 const ACCELERATING: State = State::Known(Phase::Accelerating);
 const INERTIAL: State = State::Known(Phase::Inertial);
 const BRAKING: State = State::Known(Phase::Braking);
@@ -140,10 +140,8 @@ fn a_ride_is_followed_phase_by_phase() {
 /// of five, no filter, ranks by sorting.
 #[test]
 fn decisions_are_those_of_a_recount() {
-    let settings = Settings {
-        order: Order::Fixed(0),
-        ..Settings::default()
-    };
+    let mut settings = Settings::default();
+    settings.whitening.order = Order::Fixed(0);
     let record = Record::quiet()
         .rest(8.0)
         .trip(1.0)
@@ -175,7 +173,8 @@ fn decisions_are_those_of_a_recount() {
         else {
             continue;
         };
-        let [x, y1, y2] = decision.samples.map(|span| at(span.unwrap()));
+        let x = at(decision.reference.unwrap());
+        let [y1, y2] = [decision.shift, decision.scale].map(at);
         // X is the end of what the reference was learnt from.
         let x = x[x.len() - 24..].to_vec();
         assert_eq!([x.len(), y1.len(), y2.len()], [24, 12, 12]);
@@ -188,8 +187,10 @@ fn decisions_are_those_of_a_recount() {
             rank_sum: 78 + won.sum::<u64>(),
             exceedances: y2.iter().filter(|y| **y < low || **y > high).count(),
         };
-        assert_eq!(decision.statistics, naive, "{event:?}");
-        let (lower, upper) = decision.threshold;
+        let statistics = (decision.rank_sum, decision.exceedances);
+        let expected = (naive.rank_sum, naive.exceedances);
+        assert_eq!(statistics, expected, "{event:?}");
+        let Decision { lower, upper, .. } = decision;
         let moves = lower.is_some_and(|w| naive.rank_sum <= w)
             || upper.is_some_and(|w| naive.rank_sum >= w);
         assert!(moves, "{decision:?}");
@@ -202,11 +203,9 @@ fn decisions_are_those_of_a_recount() {
 /// level is exact. Two-sided, 1e-6.
 #[test]
 fn a_decision_at_rest_has_its_exact_size() {
-    let settings = Settings {
-        order: Order::Fixed(0),
-        alpha: 0.01,
-        ..Settings::default()
-    };
+    let mut settings = Settings::default();
+    settings.whitening.order = Order::Fixed(0);
+    settings.detector.alpha = 0.01;
     let design = settings.at(20.0).unwrap();
     let trials = 40_000;
     let mut alarms = 0;
@@ -291,10 +290,8 @@ fn calm_is_no_rest_unless_motion_shows() {
 
 #[test]
 fn what_is_quiet_for_longer_than_any_motion_is_rest() {
-    let settings = Settings {
-        longest_motion: 30.0,
-        ..Settings::default()
-    };
+    let mut settings = Settings::default();
+    settings.monitor.longest_motion = 30.0;
     let mut monitor = Monitor::new(settings.at(RATE).unwrap(), Knowledge::default());
     let events = Record::quiet().rest(45.0).watch(&mut monitor);
     assert_eq!(states(&events), [REST]);
@@ -468,7 +465,7 @@ fn every_rest_is_learnt_anew() {
 fn a_briefing_comes_back_as_it_was() {
     let mut monitor = told();
     Record::quiet().rest(12.0).watch(&mut monitor);
-    let briefing = Briefing {
+    let saved = SavedState {
         settings: Settings::default(),
         rate: RATE,
         first_sample: None,
@@ -478,8 +475,8 @@ fn a_briefing_comes_back_as_it_was() {
             motion_shows: false,
         },
     };
-    let read: Briefing = serde_json::from_str(&briefing.to_json()).unwrap();
-    assert_eq!(read, briefing);
+    let read: SavedState = serde_json::from_str(&saved.to_json()).unwrap();
+    assert_eq!(read, saved);
 }
 
 /// Equal values cannot be told apart by rank: a pool without any order comes to no decision about half

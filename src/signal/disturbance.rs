@@ -21,13 +21,13 @@ use std::fmt;
 #[serde(default, deny_unknown_fields)]
 pub struct Disturbance {
     /// Drift of the sensor, σ_ξ per raw sample.
-    drift: Drift,
+    pub drift: Drift,
     /// Factor of the sensor's output after X.
-    swell: Swell,
+    pub swell: Swell,
     /// Probability of a footfall per raw sample after X.
-    footfalls: Probability,
+    pub footfalls: Probability,
     /// Strength of a footfall, σ_ξ.
-    jolt: Jolt,
+    pub jolt: Jolt,
 }
 
 bounded_f64! {

@@ -19,11 +19,11 @@ use std::fmt;
 #[serde(default, deny_unknown_fields)]
 pub struct Impulses {
     /// ν, probability of an impulse per raw sample.
-    nu: Probability,
+    pub nu: Probability,
     /// θ/σ_ξ, strength of an impulse.
-    theta: NonNegative,
+    pub theta: NonNegative,
     /// From when on impulses act.
-    during: During,
+    pub during: During,
 }
 
 /// From when on impulses act.

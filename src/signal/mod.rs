@@ -18,7 +18,7 @@ mod ride;
 mod sensor;
 
 pub use digitiser::{Digitiser, Quantum};
-pub use disturbance::Disturbance;
+pub use disturbance::{Disturbance, Jolt};
 pub use impulses::{During, ImpulseMemory, Impulses};
 pub use motion::{DeltaAt, Motion, MotionError, Profile};
 pub use noise::{Law, LawError, Noise};

@@ -1,7 +1,7 @@
 //! What else users type.
 
 use super::{liftsim, outcome, project};
-use liftsim::config::{Config, Experiment, WatchConfig};
+use liftsim::config::{Config, Experiment, MonitorOptions};
 use std::fs;
 
 fn run(arguments: &[&str]) -> String {
@@ -238,8 +238,9 @@ fn readme_shows_the_defaults() {
         block
     });
     let watched = blocks.next().unwrap();
-    let read = WatchConfig::parse("README.md", watched).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(read, WatchConfig::default());
+    let read =
+        MonitorOptions::parse("README.md", watched).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(read, MonitorOptions::default());
     let block = blocks.next().unwrap();
     let (explained, curve) = block.split_once("[[curve]]").unwrap();
     let minimal =

@@ -145,13 +145,13 @@ fn sightings(events: &[Event]) -> Vec<Sighting> {
         else {
             continue;
         };
-        match state {
+        match *state {
             State::Known(Phase::Accelerating) => sightings.push(Sighting {
                 direction: *direction,
                 start: (*time, *reported),
                 stop: None,
             }),
-            State::Known(Phase::Rest) if moves => {
+            State::REST if moves => {
                 if let Some(last) = sightings.last_mut() {
                     last.stop = Some((*time, *reported));
                 }
@@ -183,7 +183,7 @@ impl Said {
             let Kind::Change { state, .. } = event.kind else {
                 continue;
             };
-            match (state == State::Known(Phase::Rest), since) {
+            match (state == State::REST, since) {
                 (true, None) => since = Some(event.reported),
                 (false, Some(from)) => {
                     said.push((from, event.reported));

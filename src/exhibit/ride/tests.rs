@@ -49,7 +49,7 @@ fn change(time: f64, reported: f64, state: State, direction: Option<Direction>) 
 }
 
 fn rest(time: f64, reported: f64) -> Event {
-    change(time, reported, State::Known(Phase::Rest), None)
+    change(time, reported, State::REST, None)
 }
 
 fn start(time: f64, reported: f64, direction: Direction) -> Event {

@@ -112,7 +112,8 @@ impl<'a> Watch<'a> {
     /// A rest that is long enough to learn from, should a part of it be none to learn from.
     fn lesson(&self) -> Ride {
         let settings = &self.design.settings;
-        let blocks = settings.training + settings.reference + settings.shift;
+        let blocks =
+            settings.whitening.training + settings.samples.reference + settings.samples.shift;
         let seconds = 3.0 * blocks as f64 * self.design.block;
         Ride::still(self.point.rate, seconds).expect(CHECKED)
     }

@@ -1,109 +1,154 @@
-//! `[ride]` as it stands in the file. Its keys may be changed by `[[ride.curve]]`, and one of them is swept by
-//! `[ride.axis]`; nothing here has a default.
+//! The keys of `[ride]`. Those of the ride and its sensor are the fields of [`RideKeys`]; those of the monitor are all
+//! of [`Settings`], by the last word of their path.
 
-use super::Measure;
-use crate::config::file::{AxisTable, section};
-use crate::config::value::{Number, Whole};
-use crate::whiten::Order;
-use serde::Deserialize;
-use std::ops::Range;
-use toml::Spanned;
+use super::{Measure, RideProblem};
+use crate::config::{Conflict, Node, Refusal};
+use crate::fields::names;
+use crate::monitor::Settings;
+use crate::signal::{Disturbance, Impulses, Jolt, Quantum};
+use crate::suggest::among;
+use crate::values::{NonNegative, Probability};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-/// The keys, on their own and beside what only the table or a curve has. (`flatten` would lose the place of
-/// an error.)
-macro_rules! keys {
-    ($($key:ident: $kind:ty),* $(,)?) => {
-        section! {
-            /// The keys that a curve may change.
-            RideKeys { $($key: $kind),* }
-        }
-
-        impl RideKeys {
-            /// Their names.
-            pub const NAMES: &[&'static str] = &[$(stringify!($key)),*];
-        }
-
-        /// `[ride]`
-        #[derive(Clone, Debug, Deserialize)]
-        #[serde(deny_unknown_fields)]
-        pub(in crate::config) struct RideTable {
-            pub measure: Measure,
-            pub axis: AxisTable,
-            #[serde(default)]
-            pub curve: Vec<CurveTable>,
-            $($key: Option<Spanned<$kind>>,)*
-        }
-
-        /// `[[ride.curve]]`
-        #[derive(Clone, Debug, Default, Deserialize)]
-        #[serde(deny_unknown_fields)]
-        pub(in crate::config) struct CurveTable {
-            pub label: Option<Spanned<String>>,
-            $($key: Option<Spanned<$kind>>,)*
-        }
-
-        impl RideTable {
-            pub(super) fn keys(&self) -> RideKeys {
-                RideKeys { $($key: self.$key.clone()),* }
-            }
-        }
-
-        impl CurveTable {
-            pub(super) fn keys(&self) -> RideKeys {
-                RideKeys { $($key: self.$key.clone()),* }
-            }
-        }
-    };
+/// The keys of the ride and its sensor, with their defaults.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RideKeys {
+    /// Of every trip, m; up and down in turn.
+    pub distance: f64,
+    /// The top speed of a trip, m/s.
+    pub speed: f64,
+    /// Of a start and a stop, m/s².
+    pub acceleration: f64,
+    /// Of a start and a stop, m/s³.
+    pub jerk: f64,
+    /// How many there are in a ride.
+    pub trips: usize,
+    /// The shortest and the longest rest before, between and after trips, s; uniformly random.
+    pub rest: [f64; 2],
+    /// How long a rest is that is watched for itself, s.
+    pub length: f64,
+    /// In how many s a jam brings the cage to a stand.
+    pub jam_within: f64,
+    /// How far from the truth the time of a start, a stop or a jam may lie, s.
+    pub tolerance: f64,
+    /// Samples per second.
+    pub rate: f64,
+    /// Deviation of the noise of a sample, m/s²; one of three ways to say how strong it is, 0.012 where none is given.
+    pub sigma: Option<f64>,
+    /// One-sided root density of the noise, m/s²/√Hz: sigma = density √(rate/2).
+    pub density: Option<f64>,
+    /// The acceleration in units of sigma.
+    pub delta_over_sigma: Option<f64>,
+    /// φ₁, φ₂, … of the sensor; none for white noise.
+    pub ar: Vec<f64>,
+    /// Deviation of the white noise added in motion.
+    pub vibration: f64,
+    /// ν, probability of an impulse per sample in motion.
+    pub nu: Probability,
+    /// θ, strength of an impulse.
+    pub theta: NonNegative,
+    /// The step of the converter.
+    pub quantum: Option<Quantum>,
+    /// Probability of a footfall per sample.
+    pub footfalls: Probability,
+    /// Strength of a footfall.
+    pub jolt: Jolt,
+    /// Whether the monitor has learnt what rest is like, from another rest.
+    pub learnt: bool,
+    /// Whether the monitor is told that the record begins at rest, which need not be true; by default it is, but for `switched_on`.
+    pub begins_at_rest: Option<bool>,
+    /// Whether the monitor is told that motion shows.
+    pub motion_shows: bool,
 }
 
-keys! {
-    distance: Number,
-    speed: Number,
-    acceleration: Number,
-    jerk: Number,
-    trips: Whole,
-    rest: [Number; 2],
-    length: Number,
-    jam_within: Number,
-    tolerance: Number,
-    rate: Number,
-    sigma: Number,
-    density: Number,
-    delta_over_sigma: Number,
-    ar: Vec<Number>,
-    vibration: Number,
-    nu: Number,
-    theta: Number,
-    quantum: Number,
-    footfalls: Number,
-    jolt: Number,
-    block: Number,
-    reference: Whole,
-    shift: Whole,
-    scale: Whole,
-    gap: Whole,
-    alpha: Number,
-    training: Whole,
-    order: Order,
-    least_speed: Number,
-    least_acceleration: Number,
-    most_acceleration: Number,
-    learnt: bool,
-    begins_at_rest: bool,
-    motion_shows: bool,
+impl Default for RideKeys {
+    fn default() -> Self {
+        Self {
+            distance: 12.0,
+            speed: 1.0,
+            acceleration: 0.6,
+            jerk: 0.8,
+            trips: 2,
+            rest: [10.0, 20.0],
+            length: 600.0,
+            jam_within: 0.1,
+            tolerance: 0.5,
+            rate: 100.0,
+            sigma: None,
+            density: None,
+            delta_over_sigma: None,
+            ar: Vec::new(),
+            vibration: 0.0,
+            nu: Probability::default(),
+            theta: Impulses::default().theta,
+            quantum: None,
+            footfalls: Probability::default(),
+            jolt: Disturbance::default().jolt,
+            learnt: false,
+            begins_at_rest: None,
+            motion_shows: false,
+        }
+    }
 }
 
 /// Three ways to say one thing: how strong the noise is.
 pub(super) const STRENGTH: [&str; 3] = ["sigma", "density", "delta_over_sigma"];
 
-impl RideKeys {
-    /// These keys where they say something, `base` where they do not. The strength of the noise is one
-    /// choice: naming any replaces the others.
-    pub fn laid_over(&self, base: &Self) -> Self {
-        let mut base = base.clone();
-        if STRENGTH.iter().any(|key| self.span(key).is_some()) {
-            (base.sigma, base.density, base.delta_over_sigma) = (None, None, None);
+/// All keys that a curve may change and an axis may sweep.
+pub(super) fn all() -> impl Iterator<Item = &'static str> + Clone {
+    let own = names::<RideKeys>().iter().copied();
+    own.chain(Settings::names())
+}
+
+/// The values of a `[ride]` or `[[ride.curve]]` table; beside them it may have the keys of `more`.
+pub(super) fn values(table: &Node, more: &[&'static str]) -> Result<Node, Conflict> {
+    let known = more.iter().copied().chain(all());
+    let mut entries = table.table().into_iter().flatten();
+    if let Some((key, (span, _))) = entries.find(|(key, _)| !known.clone().any(|name| name == *key))
+    {
+        let problem = RideProblem::UnknownKey(among(key, known));
+        return Err(Conflict::at(span, problem));
+    }
+    Ok(table.only(|key| !more.contains(&key)))
+}
+
+/// The keys with their values, of the ride and of the monitor.
+pub(super) fn read(values: &Node) -> Result<(RideKeys, Settings), Conflict> {
+    let mut settings = Node::empty(values.span.clone());
+    for (key, (_, node)) in values.table().into_iter().flatten() {
+        if let Some(path) = Settings::path(key) {
+            settings.set(path, node.clone());
         }
-        self.over(&base)
+    }
+    let own = values.only(|key| Settings::path(key).is_none());
+    Ok((
+        RideKeys::deserialize(&own).map_err(refused)?,
+        Settings::deserialize(&settings).map_err(refused)?,
+    ))
+}
+
+fn refused(mut refusal: Refusal) -> Conflict {
+    // The monitor's keys stand here without their tables.
+    let (_, key) = refusal.path.rsplit_once('.').unwrap_or(("", &refusal.path));
+    refusal.path = key.to_owned();
+    let span = refusal.span.clone();
+    let conflict = Conflict::of([""; 0], RideProblem::from(refusal.within("ride")));
+    Conflict { span, ..conflict }
+}
+
+/// The first key that means nothing to what is measured.
+pub(super) fn check_used(measure: Measure, values: &Node) -> Result<(), Conflict> {
+    let mut entries = values.table().into_iter().flatten();
+    match entries.find(|(key, _)| measure.unused().contains(&&key[..])) {
+        Some((key, (_, node))) => {
+            let problem = RideProblem::Unused {
+                key: key.clone(),
+                measure,
+            };
+            Err(Conflict::at(&node.span, problem))
+        }
+        None => Ok(()),
     }
 }

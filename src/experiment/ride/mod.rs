@@ -14,18 +14,14 @@ mod tests;
 pub use point::RidePoint;
 pub use problem::RideProblem;
 
-pub(super) use keys::RideTable;
-
-use super::axis::{self, AxisValue};
-use super::drawing::Refused;
-use super::error::{Problem, Refusal};
-use super::exhibit::ExhibitKind;
-use keys::{CurveTable, RideKeys, STRENGTH};
+use crate::config::{Axis, AxisValue, ConfigError, Conflict, Node, Source, Unfit, Value};
+use keys::{RideKeys, STRENGTH};
+use schemars::{JsonSchema, SchemaGenerator};
 use serde::Deserialize;
 use std::ops::Range;
 
 /// What is asked of each trial.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Measure {
     /// A ride: are its trips found, and how late?
@@ -47,7 +43,7 @@ pub struct RideStudy {
     /// What is asked of each trial.
     pub measure: Measure,
     /// The key that is swept.
-    pub axis: &'static str,
+    pub axis: String,
     /// At least one.
     pub curves: Vec<RideCurve>,
 }
@@ -87,7 +83,7 @@ impl Measure {
     }
 
     /// The keys that change nothing in it.
-    fn unheeded(self) -> &'static [&'static str] {
+    fn unused(self) -> &'static [&'static str] {
         match self {
             Self::Rides => &["length", "jam_within"],
             Self::Rest => &[
@@ -107,66 +103,65 @@ impl Measure {
             Self::SwitchedOn => &["length", "jam_within"],
         }
     }
-
-    fn check_heeded(self, keys: &RideKeys) -> Result<(), Refused> {
-        let mut written = keys.written().into_iter();
-        match written.find(|(key, _)| self.unheeded().contains(key)) {
-            Some((key, span)) => {
-                let measure = self;
-                Err((Some(span), RideProblem::Unheeded { key, measure }.into()))
-            }
-            None => Ok(()),
-        }
-    }
 }
 
-/// The axis and where it stands.
-struct Axis {
-    name: &'static str,
-    values: Vec<AxisValue>,
-    span: Range<usize>,
+/// What must be there; everything else is read from the tree.
+#[derive(Deserialize)]
+struct Required {
+    measure: Measure,
+    #[serde(rename = "axis")]
+    _axis: serde::de::IgnoredAny,
 }
 
-/// What the table comes to.
-pub(super) fn study(table: &RideTable) -> Result<ExhibitKind, Refused> {
-    let (measure, base) = (table.measure, table.keys());
-    let axis = Axis::new(table)?;
-    axis.check_free(&base)?;
-    measure.check_heeded(&base)?;
+/// The study of the `[ride]` table.
+pub(super) fn read(source: &Source, root: &Node) -> Result<RideStudy, ConfigError> {
+    let table = root.get("ride").expect("it is asked for");
+    let required = table.only(|key| ["measure", "axis"].contains(&key));
+    let Required { measure, .. } = source.read(&required, "ride")?;
+    study(measure, table).map_err(|conflict| source.conflict(root, conflict, &table.span))
+}
+
+fn study(measure: Measure, table: &Node) -> Result<RideStudy, Conflict> {
+    let base = keys::values(table, &["measure", "axis", "curve"])?;
+    let axis = Axis::read(table.get("axis").expect("it is required"), keys::all())?;
+    check_axis(measure, &axis)?;
+    check_free(&axis, &base)?;
+    keys::check_used(measure, &base)?;
     let mut curves: Vec<RideCurve> = Vec::new();
     for (index, curve) in tables(table).iter().enumerate() {
-        let keys = curve.keys();
-        axis.check_free(&keys)?;
-        measure.check_heeded(&keys)?;
+        let values = keys::values(curve, &["label"])?;
+        check_free(&axis, &values)?;
+        keys::check_used(measure, &values)?;
         let label = label(curve, index, &curves)?;
-        let points = axis.points(measure, &keys.laid_over(&base))?;
+        let values = values.over(&base, &[&STRENGTH]);
+        let points = axis.values.iter().map(|value| point(measure, &axis, value, &values));
+        let points = points.collect::<Result<_, _>>()?;
         curves.push(RideCurve { label, points });
     }
-    Ok(ExhibitKind::Ride(RideStudy {
-        measure,
-        axis: axis.name,
-        curves,
-    }))
+    Ok(RideStudy { measure, axis: axis.name, curves })
 }
 
 /// The curves, or the one that a table without any stands for.
-fn tables(table: &RideTable) -> Vec<CurveTable> {
-    match table.curve.is_empty() {
-        true => vec![CurveTable::default()],
-        false => table.curve.clone(),
+fn tables(table: &Node) -> Vec<Node> {
+    match table.get("curve").map(|curves| &curves.value) {
+        Some(Value::List(curves)) if !curves.is_empty() => curves.clone(),
+        _ => vec![Node::empty(table.span.clone())],
     }
 }
 
 /// A label of its own, also when it is part of a quantity's name.
-fn label(table: &CurveTable, index: usize, before: &[RideCurve]) -> Result<String, Refused> {
-    let given = table.label.as_ref();
-    let label = given.map_or((index + 1).to_string(), |label| label.get_ref().clone());
+fn label(table: &Node, index: usize, before: &[RideCurve]) -> Result<String, Conflict> {
+    let given = table.get("label");
+    let span = given.map_or(&table.span, |node| &node.span);
+    let label = given.map(String::deserialize).transpose();
+    let label = label.map_err(|refusal| Conflict::at(span, refusal.within("ride.curve.label")))?;
+    let label = label.unwrap_or((index + 1).to_string());
     let name = RideCurve::name_of(&label);
-    let is_taken = before.iter().any(|other| other.name() == name);
-    match name.is_empty() || is_taken {
-        true => Err((given.map(toml::Spanned::span), Problem::Label(label))),
-        false => Ok(label),
+    if name.is_empty() || before.iter().any(|other| other.name() == name) {
+        let (path, rule) = (format!("ride.curve[{index}].label"), "be there and differ from every other");
+        return Err(Conflict::at(span, Unfit::new(path, rule, format_args!("\"{label}\""))));
     }
+    Ok(label)
 }
 
 impl RideCurve {
@@ -183,71 +178,75 @@ impl RideCurve {
     }
 }
 
-impl Axis {
-    fn new(table: &RideTable) -> Result<Self, Refused> {
-        let (key, value) = axis::only(&table.axis)?;
-        let known = RideKeys::NAMES.iter().copied();
-        let Some(name) = known.clone().find(|name| name == key.get_ref()) else {
-            return Err(axis::unknown(key, known));
-        };
-        if table.measure.unheeded().contains(&name) {
-            let measure = table.measure;
-            let problem = RideProblem::Unheeded { key: name, measure };
-            return Err((Some(key.span()), problem.into()));
-        }
-        let span = value.span();
-        let values =
-            axis::values(name, value.get_ref()).map_err(|problem| (Some(span.clone()), problem))?;
-        Ok(Self { name, values, span })
+fn check_axis(measure: Measure, axis: &Axis) -> Result<(), Conflict> {
+    if measure.unused().contains(&axis.name.as_str()) {
+        let key = axis.name.clone();
+        return Err(Conflict::at(&axis.key_span, RideProblem::Unused { key, measure }));
     }
+    Ok(())
+}
 
-    /// What is swept must not be set as well.
-    fn check_free(&self, keys: &RideKeys) -> Result<(), Refused> {
-        let rivals: &[&str] = match STRENGTH.contains(&self.name) {
-            true => &STRENGTH,
-            false => &[self.name],
-        };
-        match rivals.iter().find_map(|key| keys.span(key)) {
-            Some(span) => Err((Some(span), Problem::FixedAndSwept(self.name))),
-            None => Ok(()),
-        }
-    }
-
-    /// What each value comes to.
-    fn points(&self, measure: Measure, keys: &RideKeys) -> Result<Vec<(f64, RidePoint)>, Refused> {
-        let at = |problem: Problem| (Some(self.span.clone()), problem);
-        let point = |value: &AxisValue| {
-            let no_number = || at(RideProblem::NoNumber(self.name).into());
-            let number = value.number().ok_or_else(no_number)?;
-            let mut keys = keys.clone();
-            let set = keys.set(self.name, value.written(), self.span.clone());
-            set.map_err(|error| {
-                at(Problem::AxisValue {
-                    name: self.name,
-                    refusal: Refusal::new("", error),
-                })
-            })?;
-            let point = RidePoint::new(measure, &keys);
-            let point = point.map_err(|problem| (keys.blamed(&problem), problem.into()))?;
-            Ok((number, point))
-        };
-        self.values.iter().map(point).collect()
+/// What is swept must not be set as well.
+fn check_free(axis: &Axis, values: &Node) -> Result<(), Conflict> {
+    match place(values, &axis.name) {
+        Some(span) => Err(Conflict::at(&span, axis.swept_and_set())),
+        None => Ok(()),
     }
 }
 
-impl RideKeys {
-    /// Where the value stands that a problem is about: most begin with its key.
-    fn blamed(&self, problem: &RideProblem) -> Option<Range<usize>> {
-        let words = problem.to_string();
-        let mut words = words.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-        let key = match problem {
-            RideProblem::Settings(error) => error.key(),
-            _ => words.next().unwrap_or_default(),
-        };
-        let rivals: &[&str] = match STRENGTH.contains(&key) {
-            true => &STRENGTH,
-            false => &[key],
-        };
-        rivals.iter().find_map(|key| self.span(key))
+/// A value of the axis and its point.
+fn point(
+    measure: Measure,
+    axis: &Axis,
+    value: &AxisValue,
+    values: &Node,
+) -> Result<(f64, RidePoint), Conflict> {
+    let no_number = || Conflict::at(&value.0.span, RideProblem::NoNumber(axis.name.clone()));
+    let number = value.number().ok_or_else(no_number)?;
+    let mut values = values.clone();
+    values.set(&axis.name, value.0.clone());
+    let (keys, settings) = keys::read(&values)?;
+    let point = RidePoint::new(measure, &keys, settings).map_err(|problem| {
+        let span = problem.key().and_then(|key| place(&values, key));
+        Conflict { span, ..Conflict::of([""; 0], problem) }
+    })?;
+    Ok((number, point))
+}
+
+/// Where the value of a key stands, or that of a key that says the same in another way.
+fn place(values: &Node, key: &str) -> Option<Range<usize>> {
+    let own = [key];
+    let rivals: &[&str] = if STRENGTH.contains(&key) { &STRENGTH } else { &own };
+    let mut found = rivals.iter().filter_map(|key| values.get(key));
+    found.next().map(|node| node.span.clone())
+}
+
+/// What the table may say, as a JSON Schema.
+pub(super) fn schema(generator: &mut SchemaGenerator) -> serde_json::Value {
+    let own = super::reference::properties::<RideKeys>(generator);
+    let tables = super::reference::properties::<crate::monitor::Settings>(generator);
+    let mut keys = own;
+    for table in tables.values() {
+        keys.extend(table["properties"].as_object().cloned().unwrap_or_default());
     }
+    let axis = super::reference::axis(keys.iter().map(|(key, schema)| (key.as_str(), schema.clone())));
+    let mut curve = keys.clone();
+    curve.insert("label".to_owned(), serde_json::json!({ "type": "string" }));
+    keys.insert("measure".to_owned(), Measure::json_schema(generator).to_value());
+    keys.insert("axis".to_owned(), axis);
+    keys.insert(
+        "curve".to_owned(),
+        serde_json::json!({
+            "type": "array",
+            "items": { "type": "object", "properties": curve, "additionalProperties": false },
+        }),
+    );
+    serde_json::json!({
+        "description": "Whole simulated rides before the monitor, counted along `axis` for each `curve`. \
+            Lengths in m, times in s; vibration, theta, quantum and jolt in units of sigma.",
+        "type": "object",
+        "properties": keys,
+        "required": ["measure", "axis"],
+        "additionalProperties": false,
+    })
 }

@@ -2,12 +2,11 @@
 
 use super::keys::RideKeys;
 use super::{MOST_TRIPS, Measure, RideProblem};
-use crate::config::value::{Number, Whole};
 use crate::monitor::Settings;
+use crate::rule::{OutOfRange, Rule};
 use crate::signal::{
     Digitiser, Disturbance, Drive, During, Ending, Impulses, Pickup, Ride, RideError, Sensor, Trip,
 };
-use toml::Spanned;
 
 /// All that a trial needs beside its draws.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,24 +45,32 @@ pub struct RidePoint {
 const SIGMA: f64 = 0.012;
 
 impl RidePoint {
-    pub(super) fn new(measure: Measure, keys: &RideKeys) -> Result<Self, RideProblem> {
-        let drive = keys.drive()?;
-        let rate = number(&keys.rate, 100.0);
+    pub(super) fn new(
+        measure: Measure,
+        keys: &RideKeys,
+        settings: Settings,
+    ) -> Result<Self, RideProblem> {
+        keys.check()?;
+        let drive = Drive {
+            speed: keys.speed,
+            acceleration: keys.acceleration,
+            jerk: keys.jerk,
+        };
         let point = Self {
             measure,
-            distance: positive("distance", &keys.distance, 12.0)?,
-            trips: keys.trips()?,
-            rest: keys.rest()?,
-            length: positive("length", &keys.length, 600.0)?,
-            jam_within: positive("jam_within", &keys.jam_within, 0.1)?,
-            tolerance: positive("tolerance", &keys.tolerance, 0.5)?,
-            pickup: keys.pickup(&drive, rate)?,
-            settings: keys.settings(),
-            learnt: flag(&keys.learnt, false),
-            begins_at_rest: flag(&keys.begins_at_rest, measure != Measure::SwitchedOn),
-            motion_shows: flag(&keys.motion_shows, false),
+            distance: keys.distance,
+            trips: keys.trips,
+            rest: keys.rest,
+            length: keys.length,
+            jam_within: keys.jam_within,
+            tolerance: keys.tolerance,
+            pickup: keys.pickup(&drive)?,
+            settings,
+            learnt: keys.learnt,
+            begins_at_rest: (keys.begins_at_rest).unwrap_or(measure != Measure::SwitchedOn),
+            motion_shows: keys.motion_shows,
             drive,
-            rate,
+            rate: keys.rate,
         };
         point.check()?;
         Ok(point)
@@ -71,7 +78,8 @@ impl RidePoint {
 
     /// Whatever is drawn, a trial can be run: the longest can.
     fn check(&self) -> Result<(), RideProblem> {
-        self.settings.at(self.rate)?;
+        let in_ride = |path: &str| format!("ride.{}", path.rsplit('.').next().unwrap_or(path));
+        (self.settings.at(self.rate)).map_err(|error| error.called(in_ride))?;
         if self.measure.rests() {
             self.still()?;
         }
@@ -127,108 +135,49 @@ impl RidePoint {
 }
 
 impl RideKeys {
-    fn drive(&self) -> Result<Drive, RideProblem> {
-        Ok(Drive {
-            speed: positive("speed", &self.speed, 1.0)?,
-            acceleration: positive("acceleration", &self.acceleration, 0.6)?,
-            jerk: positive("jerk", &self.jerk, 0.8)?,
-        })
-    }
-
-    fn trips(&self) -> Result<usize, RideProblem> {
-        match whole(&self.trips, 2) {
-            trips @ 1..=MOST_TRIPS => Ok(trips),
-            trips => Err(RideProblem::Trips(trips)),
+    fn check(&self) -> Result<(), RideProblem> {
+        for (key, value) in [
+            ("ride.speed", Some(self.speed)),
+            ("ride.acceleration", Some(self.acceleration)),
+            ("ride.jerk", Some(self.jerk)),
+            ("ride.distance", Some(self.distance)),
+            ("ride.length", Some(self.length)),
+            ("ride.jam_within", Some(self.jam_within)),
+            ("ride.tolerance", Some(self.tolerance)),
+            ("ride.density", self.density),
+            ("ride.delta_over_sigma", self.delta_over_sigma),
+        ] {
+            Rule::Positive.check(key, &value)?;
         }
-    }
-
-    fn rest(&self) -> Result<[f64; 2], RideProblem> {
-        let given = self.rest.as_ref().map(|rest| *rest.get_ref());
-        let [shortest, longest] = given.map_or([10.0, 20.0], |rest| rest.map(|length| length.0));
-        match 0.0 < shortest && shortest <= longest {
-            true => Ok([shortest, longest]),
-            false => Err(RideProblem::Rests(shortest, longest)),
+        Rule::Within(1.0, MOST_TRIPS as f64, "").check("ride.trips", &self.trips)?;
+        let [shortest, longest] = self.rest;
+        if !(0.0 < shortest && shortest <= longest) {
+            let rule = "be two lengths in s, [shortest, longest]";
+            let got = format_args!("[{shortest}, {longest}]");
+            return Err(OutOfRange::new("ride.rest", rule, got).into());
         }
+        Ok(())
     }
 
-    fn sigma(&self, drive: &Drive, rate: f64) -> Result<f64, RideProblem> {
-        let given = |key: &Option<Spanned<Number>>| key.as_ref().map(|key| key.get_ref().0);
-        match (
-            given(&self.sigma),
-            given(&self.density),
-            given(&self.delta_over_sigma),
-        ) {
+    fn sigma(&self, drive: &Drive) -> Result<f64, RideProblem> {
+        match (self.sigma, self.density, self.delta_over_sigma) {
             (None, None, None) => Ok(SIGMA),
             (Some(sigma), None, None) => Ok(sigma),
-            (None, Some(_), None) => {
-                let density = positive("density", &self.density, 0.0)?;
-                Ok(density * libm::sqrt(rate / 2.0))
-            }
-            (None, None, Some(_)) => {
-                let ratio = positive("delta_over_sigma", &self.delta_over_sigma, 0.0)?;
-                Ok(drive.acceleration / ratio)
-            }
+            (None, Some(density), None) => Ok(density * libm::sqrt(self.rate / 2.0)),
+            (None, None, Some(ratio)) => Ok(drive.acceleration / ratio),
             _ => Err(RideProblem::Strength),
         }
     }
 
-    fn pickup(&self, drive: &Drive, rate: f64) -> Result<Pickup, RideProblem> {
-        let ar = self.ar.as_ref().map(|ar| ar.get_ref().as_slice());
-        let ar = ar.unwrap_or_default().iter().map(|phi| phi.0).collect();
-        let quantum = self.quantum.as_ref().map(|quantum| quantum.get_ref().0);
-        let (nu, theta) = (number(&self.nu, 0.0), number(&self.theta, 2.0));
-        let (footfalls, jolt) = (number(&self.footfalls, 0.0), number(&self.jolt, 10.0));
+    fn pickup(&self, drive: &Drive) -> Result<Pickup, RideProblem> {
         Ok(Pickup {
-            sensor: Sensor::from_ar(ar)?,
-            digitiser: Digitiser::new(quantum, None)?,
-            vibration: number(&self.vibration, 0.0),
-            impulses: Impulses::new(nu, theta, During::Motion)?,
-            disturbance: Disturbance::new(0.0, 1.0, footfalls, jolt)?,
-            ..Pickup::white(self.sigma(drive, rate)?)
+            sensor: Sensor::from_ar(self.ar.clone())?,
+            digitiser: Digitiser::from((self.quantum, None)),
+            vibration: self.vibration,
+            impulses: Impulses { nu: self.nu, theta: self.theta, during: During::Motion },
+            disturbance: Disturbance { footfalls: self.footfalls, jolt: self.jolt, ..Disturbance::default() },
+            ..Pickup::white(self.sigma(drive)?)
         }
         .checked()?)
     }
-
-    fn settings(&self) -> Settings {
-        let usual = Settings::default();
-        Settings {
-            block: number(&self.block, usual.block),
-            reference: whole(&self.reference, usual.reference),
-            shift: whole(&self.shift, usual.shift),
-            scale: whole(&self.scale, usual.scale),
-            gap: whole(&self.gap, usual.gap),
-            alpha: number(&self.alpha, usual.alpha),
-            training: whole(&self.training, usual.training),
-            order: (self.order.as_ref()).map_or(usual.order, |order| *order.get_ref()),
-            least_speed: number(&self.least_speed, usual.least_speed),
-            least_acceleration: number(&self.least_acceleration, usual.least_acceleration),
-            most_acceleration: number(&self.most_acceleration, usual.most_acceleration),
-            ..usual
-        }
-    }
-}
-
-fn number(given: &Option<Spanned<Number>>, default: f64) -> f64 {
-    given.as_ref().map_or(default, |value| value.get_ref().0)
-}
-
-fn positive(
-    key: &'static str,
-    given: &Option<Spanned<Number>>,
-    default: f64,
-) -> Result<f64, RideProblem> {
-    match number(given, default) {
-        value if value > 0.0 => Ok(value),
-        value => Err(RideProblem::NotPositive { key, value }),
-    }
-}
-
-fn whole(given: &Option<Spanned<Whole>>, default: usize) -> usize {
-    given
-        .as_ref()
-        .map_or(default, |value| value.get_ref().size())
-}
-
-fn flag(given: &Option<Spanned<bool>>, default: bool) -> bool {
-    given.as_ref().map_or(default, |value| *value.get_ref())
 }

@@ -1,67 +1,61 @@
 //! Why rides were refused.
 
 use super::Measure;
+use crate::config::Refusal;
 use crate::monitor::SettingsError;
-use crate::signal::{
-    DigitiserError, DisturbanceError, ImpulsesError, PickupError, RideError, SensorError, TripError,
-};
+use crate::rule::OutOfRange;
+use crate::signal::{PickupError, RideError, SensorError, TripError};
 
 /// Why rides were refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "the messages say it")]
 pub enum RideProblem {
-    /// A key that this measurement has no use for.
-    #[error("{key} means nothing to measure = \"{}\" (take it out)", measure.name())]
-    Unheeded {
-        /// As written.
-        key: &'static str,
-        /// What is measured.
-        measure: Measure,
-    },
-    /// A value that is no number.
-    #[error("axis.{0}: must be numbers (a picture has them on its axis)")]
-    NoNumber(&'static str),
-    /// The noise said to be of several strengths.
-    #[error("sigma, density and delta_over_sigma all say how strong the noise is (leave one)")]
+    #[error(transparent)]
+    Read(#[from] Refusal),
+    #[error("ride: unknown key {0}")]
+    UnknownKey(String),
+    #[error("ride.{key}: means nothing to measure = \"{}\" (take it out)", measure.name())]
+    Unused { key: String, measure: Measure },
+    #[error("ride.axis.{0}: must be numbers (a picture has them on its axis)")]
+    NoNumber(String),
+    #[error(
+        "ride: sigma, density and delta_over_sigma all say how strong the noise is (leave one)"
+    )]
     Strength,
-    /// A number that is not above zero.
-    #[error("{key} must be positive, got {value}")]
-    NotPositive {
-        /// Which.
-        key: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// Rests from long to short.
-    #[error("rest must be two lengths in s, [shortest, longest], got [{0}, {1}]")]
-    Rests(f64, f64),
-    /// No trip, or too many.
-    #[error("trips must lie in 1 to {most}, got {0}", most = super::MOST_TRIPS)]
-    Trips(usize),
-    /// Uniform motion where there is none.
-    #[error("a trip of {0} m never moves uniformly (lengthen distance, or lower speed)")]
+    #[error(transparent)]
+    Value(#[from] OutOfRange),
+    #[error("ride: a trip of {0} m never moves uniformly (lengthen distance, or lower speed)")]
     NeverUniform(f64),
-    /// A trip that cannot be made.
-    #[error(transparent)]
+    #[error("ride: {0}")]
     Trip(#[from] TripError),
-    /// A ride that cannot be made.
-    #[error(transparent)]
+    #[error("ride: {0}")]
     Ride(#[from] RideError),
-    /// A sensor that cannot be.
-    #[error("ar: {0}")]
+    #[error("ride.ar: {0}")]
     Sensor(#[from] SensorError),
-    /// Impulses that cannot be.
-    #[error(transparent)]
-    Impulses(#[from] ImpulsesError),
-    /// A converter that cannot be.
-    #[error(transparent)]
-    Digitiser(#[from] DigitiserError),
-    /// Footfalls that cannot be.
-    #[error(transparent)]
-    Disturbance(#[from] DisturbanceError),
-    /// A pickup that cannot be.
-    #[error(transparent)]
+    #[error("ride: {0}")]
     Pickup(#[from] PickupError),
-    /// Settings that cannot be.
     #[error(transparent)]
     Settings(#[from] SettingsError),
+}
+
+impl RideProblem {
+    /// The key to change, where it is one.
+    pub(super) fn key(&self) -> Option<&str> {
+        Some(match self {
+            Self::Value(OutOfRange { key, .. }) => last_word(key),
+            Self::Settings(error) => last_word(error.key()),
+            Self::Strength => "sigma",
+            Self::Sensor(_) => "ar",
+            Self::Trip(TripError::NotPositive { name, .. }) => name,
+            Self::Trip(_) => "distance",
+            Self::Ride(RideError::Rate(_)) => "rate",
+            Self::Pickup(PickupError::Vibration(_)) => "vibration",
+            Self::Pickup(_) => "sigma",
+            _ => return None,
+        })
+    }
+}
+
+fn last_word(path: &str) -> &str {
+    path.rsplit('.').next().unwrap_or(path)
 }

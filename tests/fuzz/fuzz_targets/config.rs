@@ -3,9 +3,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use liftsim::config::WatchConfig;
+use liftsim::config::MonitorOptions;
 use liftsim::monitor::{Monitor, Settings};
-use liftsim::whiten::Order;
 
 fuzz_target!(|bytes: &[u8]| {
     let Some((&choice, bytes)) = bytes.split_first() else {
@@ -13,7 +12,7 @@ fuzz_target!(|bytes: &[u8]| {
     };
     if choice % 2 == 0 {
         let text = String::from_utf8_lossy(bytes);
-        match WatchConfig::parse("watch.toml", &text) {
+        match MonitorOptions::parse("watch.toml", &text) {
             Ok(config) => begin(&config.settings, 100.0),
             Err(error) => assert!(!error.to_string().is_empty()),
         }
@@ -31,21 +30,20 @@ fuzz_target!(|bytes: &[u8]| {
     let default = Settings::default();
     let size = |given: Option<u64>, default| given.map_or(default, |given| given as usize);
     let number = |given: Option<u64>, default| given.map_or(default, f64::from_bits);
-    let settings = Settings {
-        reference: size(next(), default.reference),
-        shift: size(next(), default.shift),
-        scale: size(next(), default.scale),
-        gap: size(next(), default.gap),
-        training: size(next(), default.training),
-        order: next().map_or(Order::Auto, |order| Order::Fixed(order as usize)),
-        block: number(next(), default.block),
-        alpha: number(next(), default.alpha),
-        least_speed: number(next(), default.least_speed),
-        least_acceleration: number(next(), default.least_acceleration),
-        most_acceleration: number(next(), default.most_acceleration),
-        longest_motion: number(next(), default.longest_motion),
-        longest_slack: number(next(), default.longest_slack),
-    };
+    let mut settings = Settings::default();
+    settings.samples.reference = size(next(), default.samples.reference);
+    settings.samples.shift = size(next(), default.samples.shift);
+    settings.samples.scale = size(next(), default.samples.scale);
+    settings.samples.gap = size(next(), default.samples.gap);
+    settings.whitening.training = size(next(), default.whitening.training);
+    settings.whitening.order = next().map(|order| order as usize);
+    settings.monitor.block = number(next(), default.monitor.block);
+    settings.detector.alpha = number(next(), default.detector.alpha);
+    settings.monitor.least_speed = number(next(), default.monitor.least_speed);
+    settings.monitor.least_acceleration = number(next(), default.monitor.least_acceleration);
+    settings.monitor.most_acceleration = number(next(), default.monitor.most_acceleration);
+    settings.monitor.longest_motion = number(next(), default.monitor.longest_motion);
+    settings.monitor.longest_slack = number(next(), default.monitor.longest_slack);
     begin(&settings, rate);
 });
 

@@ -149,16 +149,14 @@ impl Watch {
 
 /// Small samples, a block a reading.
 fn small() -> Design {
-    let settings = Settings {
-        reference: 8,
-        shift: 4,
-        scale: 4,
-        gap: 1,
-        alpha: 0.01,
-        training: 40,
-        longest_motion: 30.0,
-        longest_slack: 1.0,
-        ..Settings::default()
-    };
+    let mut settings = Settings::default();
+    settings.samples.reference = 8;
+    settings.samples.shift = 4;
+    settings.samples.scale = 4;
+    settings.samples.gap = 1;
+    settings.detector.alpha = 0.01;
+    settings.whitening.training = 40;
+    settings.monitor.longest_motion = 30.0;
+    settings.monitor.longest_slack = 1.0;
     settings.at(20.0).expect("they can be used")
 }

@@ -7,7 +7,6 @@ use libfuzzer_sys::fuzz_target;
 use liftsim::detection::Detection;
 use liftsim::monitor::{Knowledge, Settings};
 use liftsim::signal::recording::{Axis, Reading, Recording, TimeUnit, Unit};
-use liftsim::whiten::Order;
 
 fuzz_target!(|bytes: &[u8]| {
     let Some((&choice, bytes)) = bytes.split_first() else {
@@ -48,79 +47,24 @@ fn detect(recording: &Recording, choice: u8) {
         assert!(said <= event.reported, "{event:?} after {said}");
         said = event.reported;
     }
-    for ride in &found.rides {
+    for ride in &found.trips {
         assert!(
             ride.speed.is_finite() && ride.stop.is_none_or(|stop| ride.start <= stop),
             "{ride:?}"
         );
     }
-    assert!(found.at_rest.alarms <= found.at_rest.decisions);
+    assert!(found.at_rest.false_alarms <= found.at_rest.decisions);
 }
 
 /// Small samples, so that a short recording reaches all of the monitor.
 fn settings(choice: u8) -> Settings {
-    Settings {
-        block: [0.05, 0.1, 0.25][usize::from(choice / 16) % 3],
-        reference: 8,
-        shift: 4,
-        scale: 4,
-        alpha: 0.01,
-        training: 40,
-        order: [Order::Auto, Order::Fixed(0), Order::Fixed(8)][usize::from(choice / 64) % 3],
-        ..Settings::default()
-    }
-}
-
-fn reading(choice: u8) -> Reading {
-    let plain = Reading::default();
-    match choice % 16 {
-        0 => Reading {
-            axis: Axis::Gravity,
-            ..plain
-        },
-        1 => Reading {
-            axis: Axis::Z,
-            ..plain
-        },
-        2 => Reading {
-            resample: Some(20.0),
-            ..plain
-        },
-        3 => Reading {
-            resample: Some(0.7),
-            time_unit: Some(TimeUnit::Milliseconds),
-            ..plain
-        },
-        4 => Reading {
-            time_unit: Some(TimeUnit::Nanoseconds),
-            ..plain
-        },
-        5 => Reading {
-            unit: Unit::Counts {
-                scale: -1e12,
-                offset: 1e15,
-            },
-            ..plain
-        },
-        6 => Reading {
-            time: Some("1".into()),
-            acceleration: Some("2".into()),
-            ..plain
-        },
-        7 => Reading {
-            unit: Unit::Milligravity,
-            time_unit: Some(TimeUnit::Milliseconds),
-            ..plain
-        },
-        8 => Reading {
-            member: Some("a.csv".into()),
-            ..plain
-        },
-        9 => Reading {
-            acceleration: Some("acc".into()),
-            resample: Some(1e6),
-            ..plain
-        },
-        _ => plain,
-    }
+    let mut settings = Settings::default();
+    settings.monitor.block = [0.05, 0.1, 0.25][usize::from(choice / 16) % 3];
+    settings.samples.reference = 8;
+    settings.samples.shift = 4;
+    settings.samples.scale = 4;
+    settings.detector.alpha = 0.01;
+    settings.whitening.training = 40;
+    settings.whitening.order = [None, Some(0), Some(8)][usize::from(choice / 64) % 3];
+    settings
 }

@@ -4,7 +4,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use liftsim::monitor::{Briefing, Monitor};
+use liftsim::monitor::{SavedState, Monitor};
 use liftsim::signal::recording::Sample;
 
 fuzz_target!(|bytes: &[u8]| {
@@ -15,15 +15,15 @@ fuzz_target!(|bytes: &[u8]| {
         0 => String::from_utf8_lossy(bytes).into_owned(),
         _ => damaged(bytes),
     };
-    let briefing = match Briefing::from_json("state.json", &text) {
-        Ok(briefing) => briefing,
+    let saved = match SavedState::from_json("state.json", &text) {
+        Ok(saved) => saved,
         Err(refusal) => return assert!(!refusal.to_string().is_empty()),
     };
-    let design = briefing.design().expect("a briefing can be used");
-    let again = Briefing::from_json("again.json", &briefing.to_json());
-    assert_eq!(again.expect("what is written can be read"), briefing);
+    let design = saved.design().expect("a saved can be used");
+    let again = SavedState::from_json("again.json", &saved.to_json());
+    assert_eq!(again.expect("what is written can be read"), saved);
     let rate = design.rate;
-    let mut monitor = Monitor::new(design, briefing.knowledge);
+    let mut monitor = Monitor::new(design, saved.knowledge);
     for number in 0..2000u32 {
         let time = f64::from(number) / rate;
         let noise = f64::from(number.wrapping_mul(2_654_435_769) >> 16) / 1e6;

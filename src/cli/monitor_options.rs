@@ -3,21 +3,29 @@
 use super::Failure;
 use anyhow::anyhow;
 use clap::Args;
-use liftsim::config::WatchConfig;
-use liftsim::monitor::{Briefing, MOST_ORDER, STRONGEST, Settings};
+use liftsim::config::MonitorOptions;
+use liftsim::monitor::{MOST_ORDER, STRONGEST, SavedState};
+use serde::Serialize;
 use liftsim::whiten::Order;
 use std::path::PathBuf;
 
 /// How the monitor is set up. Flags go over the config, the config over the defaults.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "The monitor")]
-pub struct Watch {
+pub struct MonitorArguments {
     /// Settings, a TOML file; see README.md for its keys.
     #[arg(long, value_name = "CONFIG")]
     config: Option<PathBuf>,
     /// Start from a state that `detect --save-state` wrote, settings included.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["config", "alpha", "order", "block", "least_speed"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["config", "SettingFlags"])]
     state: Option<PathBuf>,
+    #[command(flatten)]
+    flags: SettingFlags,
+}
+
+/// Settings that have a flag, by the last words of their keys.
+#[derive(Debug, Args, Serialize)]
+struct SettingFlags {
     /// The level of each decision [default: 0.001].
     #[arg(long, value_name = "A")]
     alpha: Option<f64>,
@@ -32,12 +40,12 @@ pub struct Watch {
     least_speed: Option<f64>,
 }
 
-/// What the command line, the config or a saved state come to.
-pub struct Told {
+/// How the recording is read and the monitor set up.
+pub struct Setup {
     /// From the config and the flags.
-    pub config: WatchConfig,
-    /// From a saved state, which goes before the settings of the config.
-    pub briefing: Option<Briefing>,
+    pub config: MonitorOptions,
+    /// Its settings go before those of the config.
+    pub saved: Option<SavedState>,
 }
 
 /// Refuses an acceleration that a monitor would take for a weaker one.
@@ -60,26 +68,20 @@ fn order(text: &str) -> Result<Order, String> {
     }
 }
 
-impl Watch {
+impl MonitorArguments {
     /// Reads what it names.
-    pub fn told(&self) -> Result<Told, Failure> {
+    pub fn setup(&self) -> Result<Setup, Failure> {
         let mut config = match &self.config {
-            Some(path) => WatchConfig::load(path).map_err(Failure::input)?,
-            None => WatchConfig::default(),
+            Some(path) => MonitorOptions::load(path).map_err(Failure::input)?,
+            None => MonitorOptions::default(),
         };
-        let settings = &mut config.settings;
-        *settings = Settings {
-            alpha: self.alpha.unwrap_or(settings.alpha),
-            order: self.order.unwrap_or(settings.order),
-            block: self.block.unwrap_or(settings.block),
-            least_speed: self.least_speed.unwrap_or(settings.least_speed),
-            ..settings.clone()
-        };
-        settings.check().map_err(Failure::input)?;
-        let briefing = self.state.as_deref().map(Briefing::load);
-        Ok(Told {
+        let given = toml::Table::try_from(&self.flags).map_err(Failure::run)?;
+        let flag = |key: &str| format!("--{}", key.replace('_', "-"));
+        config.settings = (config.settings.with(&given, flag)).map_err(Failure::input)?;
+        let saved = self.state.as_deref().map(SavedState::load);
+        Ok(Setup {
             config,
-            briefing: briefing.transpose().map_err(Failure::input)?,
+            saved: saved.transpose().map_err(Failure::input)?,
         })
     }
 }

@@ -4,10 +4,10 @@
 //! every block. A stop is a start reversed in time: X is the newest blocks, Y₁ the middle of the braking and
 //! Y₂ the motion before it.
 
+use super::design::Design;
 use super::history::History;
 use super::pulse::Pulse;
 use super::reference::Reference;
-use super::settings::Design;
 use crate::detect::{Pooled, Statistics};
 use crate::rng::Stream;
 use rand::Rng;
@@ -25,7 +25,7 @@ pub(super) struct Verdict {
 
 /// Where the three samples lie; X is the reference where it has no place.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Places {
+pub(super) struct Windows {
     pub reference: Option<Range<u64>>,
     pub shift: Range<u64>,
     pub scale: Range<u64>,
@@ -33,12 +33,12 @@ pub(super) struct Places {
 
 /// Decides, with random keys for ties.
 #[derive(Clone, Debug)]
-pub(super) struct Judge {
+pub(super) struct Decider {
     ties: Stream,
     keys: Vec<u64>,
 }
 
-impl Places {
+impl Windows {
     /// The newest blocks before `end` against the reference.
     pub fn forwards(design: &Design, end: u64) -> Option<Self> {
         let samples = &design.samples;
@@ -73,7 +73,7 @@ impl Places {
     }
 }
 
-impl Judge {
+impl Decider {
     pub fn new(design: &Design) -> Self {
         let samples = &design.samples;
         let pooled = samples.reference() + samples.shift() + samples.scale();
@@ -83,21 +83,21 @@ impl Judge {
         }
     }
 
-    /// W and T at these places; `None` where blocks are no longer or not yet held.
-    pub fn verdict(
+    /// W and T at these windows; `None` where blocks are no longer or not yet held.
+    pub fn decide(
         &mut self,
         design: &Design,
         reference: &Reference,
         history: &History,
-        places: &Places,
+        windows: &Windows,
     ) -> Option<Verdict> {
         let pooled = Pooled {
-            reference: match &places.reference {
+            reference: match &windows.reference {
                 Some(blocks) => history.whitened(blocks.clone())?,
                 None => &reference.sample,
             },
-            shift: history.whitened(places.shift.clone())?,
-            scale: history.whitened(places.scale.clone())?,
+            shift: history.whitened(windows.shift.clone())?,
+            scale: history.whitened(windows.scale.clone())?,
         };
         let (ties, keys) = (&self.ties, &mut self.keys);
         let statistics = pooled.statistics(|| {

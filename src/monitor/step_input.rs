@@ -2,19 +2,19 @@
 //! and what can be looked up in the blocks before.
 
 use super::blocks::Block;
+use super::decide::{Decider, Verdict, Windows};
+use super::design::Design;
 use super::event::Decision;
 use super::history::History;
-use super::judge::{Judge, Places, Verdict};
 use super::pulse::{Cusum, Pulse};
 use super::reference::Reference;
-use super::settings::Design;
 use std::ops::Range;
 
 /// What pulses of real rides leave of the speed, at most.
 const ROUNDING: f64 = 0.1;
 
 /// The view from the newest block.
-pub(super) struct Scene<'a> {
+pub(super) struct StepInput<'a> {
     pub design: &'a Design,
     pub history: &'a History,
     pub reference: &'a Reference,
@@ -22,12 +22,12 @@ pub(super) struct Scene<'a> {
     pub calm_is_rest: bool,
     /// Whether they are as long as no pulse has been seen.
     pub begins_at_rest: bool,
-    pub judge: &'a mut Judge,
+    pub decider: &'a mut Decider,
     pub cusums: &'a [Cusum; 2],
     /// Pulses that the newest block has ended.
     pub ended: [Option<Pulse>; 2],
     /// Of the decision forwards.
-    pub places: Places,
+    pub windows: Windows,
     pub verdict: Verdict,
     /// The number of blocks so far.
     pub now: u64,
@@ -35,13 +35,13 @@ pub(super) struct Scene<'a> {
     pub time: f64,
 }
 
-impl Scene<'_> {
+impl StepInput<'_> {
     pub fn least_speed(&self) -> f64 {
-        self.design.settings.least_speed
+        self.design.settings.monitor.least_speed
     }
 
     pub fn longest_motion(&self) -> f64 {
-        self.design.settings.longest_motion
+        self.design.settings.monitor.longest_motion
     }
 
     /// N.
@@ -68,7 +68,7 @@ impl Scene<'_> {
 
     /// Whether a pulse is stronger than any acceleration of a lift.
     pub fn is_violent(&self, pulse: &Pulse) -> bool {
-        pulse.peak > self.design.settings.most_acceleration
+        pulse.peak > self.design.settings.monitor.most_acceleration
     }
 
     /// How long a pulse has lasted, s.
@@ -124,34 +124,36 @@ impl Scene<'_> {
 
     /// The decision at the newest block, in full.
     pub fn forward_decision(&self) -> Decision {
-        self.decision(&self.places, &self.verdict)
+        self.decision(&self.windows, &self.verdict)
     }
 
     /// The decision that a pulse was a stop, where it is one.
     pub fn backward_decision(&mut self, pulse: &Pulse) -> Option<Decision> {
-        let places = Places::backwards(self.design, pulse, self.now)?;
-        let verdict = self.judge(&places)?;
+        let windows = Windows::backwards(self.design, pulse, self.now)?;
+        let verdict = self.decide(&windows)?;
         let is_stop = verdict.moves && verdict.sign == pulse.sign;
-        is_stop.then(|| self.decision(&places, &verdict))
+        is_stop.then(|| self.decision(&windows, &verdict))
     }
 
-    fn decision(&self, places: &Places, verdict: &Verdict) -> Decision {
+    fn decision(&self, windows: &Windows, verdict: &Verdict) -> Decision {
         let span = |blocks: &Range<u64>| (self.starts(blocks.start), self.ends(blocks.end));
-        let reference = places.reference.as_ref();
+        let reference = windows.reference.as_ref();
+        let exceedances = verdict.statistics.exceedances;
+        let (lower, upper) = self.design.region.critical_values()[exceedances];
         Decision {
-            statistics: verdict.statistics,
-            threshold: self.design.region.critical_values()[verdict.statistics.exceedances],
-            alpha: self.design.settings.alpha,
-            samples: [
-                reference.map(span).or(self.reference.span),
-                Some(span(&places.shift)),
-                Some(span(&places.scale)),
-            ],
+            rank_sum: verdict.statistics.rank_sum,
+            exceedances,
+            lower,
+            upper,
+            alpha: self.design.settings.detector.alpha,
+            reference: reference.map(span).or(self.reference.span),
+            shift: span(&windows.shift),
+            scale: span(&windows.scale),
         }
     }
 
-    fn judge(&mut self, places: &Places) -> Option<Verdict> {
-        self.judge
-            .verdict(self.design, self.reference, self.history, places)
+    fn decide(&mut self, windows: &Windows) -> Option<Verdict> {
+        self.decider
+            .decide(self.design, self.reference, self.history, windows)
     }
 }

@@ -38,23 +38,23 @@
 
 use super::event::{Alarm, Decision, Direction, Event, Kind, State};
 use super::pulse::Pulse;
-use super::scene::Scene;
-use crate::signal::Phase;
+use super::step_input::StepInput;
+use crate::signal;
 
 /// Longer than this, s, a shock is somebody handling the sensor.
 const LONGEST_SHOCK: f64 = 0.5;
 
 /// What the cage does, with what must be remembered of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Cage {
-    Unknown(Doubt),
+pub(super) enum LiftState {
+    Unknown(Unknown),
     Rest,
     Moving(Motion),
 }
 
 /// Why it is not known what the cage does, and what may tell.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Doubt {
+pub(super) struct Unknown {
     /// The first block without a pulse.
     still_since: u64,
     /// The block after the last one whose decision forwards was H₁*.
@@ -84,12 +84,12 @@ pub(super) struct Motion {
     first: Option<Pulse>,
     /// Whether its pulses are those of a sensor behind a high-pass filter.
     decays: bool,
-    leg: Leg,
+    phase: Phase,
 }
 
 /// The part of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Leg {
+enum Phase {
     Accelerating,
     Inertial,
     Braking,
@@ -97,10 +97,10 @@ enum Leg {
     Stopping(Pulse),
 }
 
-impl Cage {
+impl LiftState {
     /// Nothing is known from block `now` on.
     pub fn unknown(now: u64) -> Self {
-        Self::Unknown(Doubt {
+        Self::Unknown(Unknown {
             still_since: now,
             calm_since: now,
             pulses: [None; 2],
@@ -111,11 +111,11 @@ impl Cage {
     pub fn state(&self) -> State {
         match self {
             Self::Unknown(_) => State::Unknown,
-            Self::Rest => State::Known(Phase::Rest),
-            Self::Moving(motion) => State::Known(match motion.leg {
-                Leg::Accelerating => Phase::Accelerating,
-                Leg::Inertial => Phase::Inertial,
-                Leg::Braking | Leg::Stopping(_) => Phase::Braking,
+            Self::Rest => State::Known(signal::Phase::Rest),
+            Self::Moving(motion) => State::Known(match motion.phase {
+                Phase::Accelerating => signal::Phase::Accelerating,
+                Phase::Inertial => signal::Phase::Inertial,
+                Phase::Braking | Phase::Stopping(_) => signal::Phase::Braking,
             }),
         }
     }
@@ -155,101 +155,105 @@ impl Cage {
     }
 
     /// What comes after the newest block; what happened is said in `events`.
-    pub fn step(self, scene: &mut Scene, events: &mut Vec<Event>) -> Self {
+    pub fn step(self, input: &mut StepInput, events: &mut Vec<Event>) -> Self {
         let (next, time, decision) = match self {
-            Self::Unknown(doubt) => doubt.step(scene, events),
-            Self::Rest => start(scene),
-            Self::Moving(motion) => motion.step(scene, events),
+            Self::Unknown(unknown) => unknown.step(input, events),
+            Self::Rest => start(input),
+            Self::Moving(motion) => motion.step(input, events),
         };
         if next.state() != self.state() {
-            events.push(next.change(time, scene.time, decision));
+            events.push(next.change(time, input.time, decision));
         }
         next
     }
 }
 
 /// The next state, when it began, and what decided it.
-type Next = (Cage, f64, Option<Decision>);
+type Next = (LiftState, f64, Option<Decision>);
 
-impl Doubt {
-    fn step(mut self, scene: &Scene, events: &mut Vec<Event>) -> Next {
-        if scene.verdict.moves {
-            self.calm_since = scene.now;
+impl Unknown {
+    fn step(mut self, input: &StepInput, events: &mut Vec<Event>) -> Next {
+        if input.verdict.moves {
+            self.calm_since = input.now;
         }
-        let calm = scene.now - self.calm_since;
-        let stands_still = scene.begins_at_rest && self.pulses == [None; 2];
-        if (scene.calm_is_rest || stands_still) && calm >= scene.reference_length() {
-            let seen = self.calm_since.saturating_sub(scene.scale_length());
-            return (Cage::Rest, scene.starts(seen), None);
+        let calm = input.now - self.calm_since;
+        let stands_still = input.begins_at_rest && self.pulses == [None; 2];
+        if (input.calm_is_rest || stands_still) && calm >= input.reference_length() {
+            let seen = self.calm_since.saturating_sub(input.scale_length());
+            return (LiftState::Rest, input.starts(seen), None);
         }
-        for pulse in scene.ended.into_iter().flatten() {
-            if let Some(next) = self.take(&pulse, scene, events) {
+        for pulse in input.ended.into_iter().flatten() {
+            if let Some(next) = self.take(&pulse, input, events) {
                 return next;
             }
         }
-        let still = (scene.now - self.still_since) as f64 * scene.design.block;
-        match still > scene.longest_motion() {
-            true => (Cage::Rest, scene.time, None),
-            false => (Cage::Unknown(self), scene.time, None),
+        let still = (input.now - self.still_since) as f64 * input.design.block;
+        match still > input.longest_motion() {
+            true => (LiftState::Rest, input.time, None),
+            false => (LiftState::Unknown(self), input.time, None),
         }
     }
 
     /// What a pulse that has ended tells together with those before it.
-    fn take(&mut self, pulse: &Pulse, scene: &Scene, events: &mut Vec<Event>) -> Option<Next> {
-        let c = scene.whole(pulse);
-        if c.speed < scene.least_speed() / 2.0 {
+    fn take(&mut self, pulse: &Pulse, input: &StepInput, events: &mut Vec<Event>) -> Option<Next> {
+        let c = input.whole(pulse);
+        if c.speed < input.least_speed() / 2.0 {
             return None;
         }
-        self.still_since = scene.now;
-        if !Self::is_significant(&c, scene) {
+        self.still_since = input.now;
+        if !Self::is_significant(&c, input) {
             self.pulses = [None; 2];
             return None;
         }
         let cancel = |a: &Pulse, b: &Pulse| {
             let largest = a.speed.max(b.speed);
-            (a.change() + b.change()).abs() <= scene.rounding(largest)
+            (a.change() + b.change()).abs() <= input.rounding(largest)
         };
         let [before, last] = self.pulses;
         self.pulses = [last, Some(c)];
         let (a, b) = (before?, last?);
         if b.sign == c.sign && cancel(&a, &b) && c.speed >= b.speed / 2.0 {
-            let motion = Motion::from_pulse(&c, scene.starts(c.onset));
-            events.push(Cage::Moving(motion).change(motion.start, scene.time, None));
-            return Some(motion.on(Leg::Inertial, scene.ends(c.end)));
+            let motion = Motion::from_pulse(&c, input.starts(c.onset));
+            events.push(LiftState::Moving(motion).change(motion.start, input.time, None));
+            return Some(motion.on(Phase::Inertial, input.ends(c.end)));
         }
         let stands = a.sign == b.sign && cancel(&b, &c) && a.speed >= b.speed / 2.0;
-        stands.then(|| (Cage::Rest, scene.ends(c.end), None))
+        stands.then(|| (LiftState::Rest, input.ends(c.end), None))
     }
 
     /// Whether a pulse that has ended is more than noise, sway or a shock.
-    fn is_significant(pulse: &Pulse, scene: &Scene) -> bool {
-        let is_decided = scene.verdict.moves && scene.verdict.sign == pulse.sign;
-        is_decided && pulse.speed >= scene.least_speed() && !scene.is_violent(pulse)
+    fn is_significant(pulse: &Pulse, input: &StepInput) -> bool {
+        let is_decided = input.verdict.moves && input.verdict.sign == pulse.sign;
+        is_decided && pulse.speed >= input.least_speed() && !input.is_violent(pulse)
     }
 }
 
 /// From rest.
-fn start(scene: &mut Scene) -> Next {
-    let stay = (Cage::Rest, scene.time, None);
-    let under_way = [1.0, -1.0].into_iter().filter_map(|sign| scene.pulse(sign));
+fn start(input: &mut StepInput) -> Next {
+    let stay = (LiftState::Rest, input.time, None);
+    let under_way = [1.0, -1.0].into_iter().filter_map(|sign| input.pulse(sign));
     let Some(pulse) = under_way
-        .filter(|pulse| pulse.speed >= scene.least_speed())
+        .filter(|pulse| pulse.speed >= input.least_speed())
         .max_by(|a, b| a.speed.total_cmp(&b.speed))
     else {
         return stay;
     };
-    let start = scene.starts(pulse.onset);
-    if scene.is_violent(&pulse) {
-        return match scene.lasts(&pulse) > LONGEST_SHOCK {
-            true => (Cage::unknown(scene.now), start, None),
+    let start = input.starts(pulse.onset);
+    if input.is_violent(&pulse) {
+        return match input.lasts(&pulse) > LONGEST_SHOCK {
+            true => (LiftState::unknown(input.now), start, None),
             false => stay,
         };
     }
-    if !(scene.verdict.moves && scene.verdict.sign == pulse.sign) {
+    if !(input.verdict.moves && input.verdict.sign == pulse.sign) {
         return stay;
     }
     let motion = Motion::from_pulse(&pulse, start);
-    (Cage::Moving(motion), start, Some(scene.forward_decision()))
+    (
+        LiftState::Moving(motion),
+        start,
+        Some(input.forward_decision()),
+    )
 }
 
 impl Motion {
@@ -265,128 +269,128 @@ impl Motion {
             looks_like_rest: false,
             first: None,
             decays: false,
-            leg: Leg::Accelerating,
+            phase: Phase::Accelerating,
         }
     }
 
-    fn step(self, scene: &mut Scene, events: &mut Vec<Event>) -> Next {
-        if scene.time - self.start > scene.longest_motion() {
-            return (Cage::unknown(scene.now), scene.time, None);
+    fn step(self, input: &mut StepInput, events: &mut Vec<Event>) -> Next {
+        if input.time - self.start > input.longest_motion() {
+            return (LiftState::unknown(input.now), input.time, None);
         }
-        match self.leg {
-            Leg::Accelerating => self.accelerate(scene),
-            Leg::Inertial => self.go_on(scene),
-            Leg::Braking => self.brake(scene),
-            Leg::Stopping(pulse) => self.stop(&pulse, scene, events),
+        match self.phase {
+            Phase::Accelerating => self.accelerate(input),
+            Phase::Inertial => self.go_on(input),
+            Phase::Braking => self.brake(input),
+            Phase::Stopping(pulse) => self.stop(&pulse, input, events),
         }
     }
 
-    fn on(self, leg: Leg, time: f64) -> Next {
-        (Cage::Moving(Self { leg, ..self }), time, None)
+    fn on(self, phase: Phase, time: f64) -> Next {
+        (LiftState::Moving(Self { phase, ..self }), time, None)
     }
 
-    fn stay(self, scene: &Scene) -> Next {
-        self.on(self.leg, scene.time)
+    fn stay(self, input: &StepInput) -> Next {
+        self.on(self.phase, input.time)
     }
 
     /// The pulse under way against the motion, when it is no mere sway.
-    fn against(&self, scene: &Scene) -> Option<Pulse> {
-        let enough = scene.least_speed().min(self.speed / 2.0);
-        scene
+    fn against(&self, input: &StepInput) -> Option<Pulse> {
+        let enough = input.least_speed().min(self.speed / 2.0);
+        input
             .pulse(-self.sign)
             .filter(|pulse| pulse.speed >= enough)
     }
 
     /// The acceleration ends by itself, or a braking cuts it short.
-    fn accelerate(mut self, scene: &Scene) -> Next {
-        let cut_short = || self.against(scene).and(scene.pulse(self.sign));
-        let Some(pulse) = scene.ended(self.sign).or_else(cut_short) else {
-            return self.stay(scene);
+    fn accelerate(mut self, input: &StepInput) -> Next {
+        let cut_short = || self.against(input).and(input.pulse(self.sign));
+        let Some(pulse) = input.ended(self.sign).or_else(cut_short) else {
+            return self.stay(input);
         };
-        if scene.is_violent(&pulse) && scene.lasts(&pulse) > LONGEST_SHOCK {
-            return (Cage::unknown(scene.now), scene.time, None);
+        if input.is_violent(&pulse) && input.lasts(&pulse) > LONGEST_SHOCK {
+            return (LiftState::unknown(input.now), input.time, None);
         }
-        self.speed = scene.whole(&pulse).speed;
+        self.speed = input.whole(&pulse).speed;
         self.top_speed = self.speed;
         self.first = Some(pulse);
-        self.on(Leg::Inertial, scene.ends(pulse.end))
+        self.on(Phase::Inertial, input.ends(pulse.end))
     }
 
-    fn go_on(mut self, scene: &Scene) -> Next {
-        self.calm = if scene.verdict.moves {
+    fn go_on(mut self, input: &StepInput) -> Next {
+        self.calm = if input.verdict.moves {
             0
         } else {
             self.calm + 1
         };
-        self.looks_like_rest |= self.calm >= scene.reference_length();
+        self.looks_like_rest |= self.calm >= input.reference_length();
         // A pulse that a braking cut short ends only now, and has been counted.
         let is_new = |pulse: &Pulse| self.first.is_none_or(|first| pulse.onset >= first.end);
-        if let Some(pulse) = scene.ended(self.sign).filter(is_new)
-            && pulse.speed >= scene.least_speed() / 2.0
+        if let Some(pulse) = input.ended(self.sign).filter(is_new)
+            && pulse.speed >= input.least_speed() / 2.0
         {
-            self.speed += scene.whole(&pulse).speed;
+            self.speed += input.whole(&pulse).speed;
             self.top_speed = self.top_speed.max(self.speed);
         }
-        match self.against(scene) {
-            Some(pulse) => self.on(Leg::Braking, scene.starts(pulse.onset)),
-            None => self.stay(scene),
+        match self.against(input) {
+            Some(pulse) => self.on(Phase::Braking, input.starts(pulse.onset)),
+            None => self.stay(input),
         }
     }
 
     /// What does not take all of the speed leaves a creeping cage, and what takes more than all of it was
     /// no braking of this motion.
-    fn brake(mut self, scene: &Scene) -> Next {
-        let Some(pulse) = scene.ended(-self.sign) else {
-            return self.stay(scene);
+    fn brake(mut self, input: &StepInput) -> Next {
+        let Some(pulse) = input.ended(-self.sign) else {
+            return self.stay(input);
         };
-        let at_once = scene.blocks(LONGEST_SHOCK);
+        let at_once = input.blocks(LONGEST_SHOCK);
         let decays = |first: Pulse| first.decays_into(&pulse, at_once);
         self.decays = self.first.is_some_and(decays);
-        if scene.is_violent(&pulse) {
-            return self.on(Leg::Stopping(pulse), scene.time);
+        if input.is_violent(&pulse) {
+            return self.on(Phase::Stopping(pulse), input.time);
         }
-        let left = self.speed - scene.whole(&pulse).speed;
-        let rounding = scene.rounding(self.top_speed);
+        let left = self.speed - input.whole(&pulse).speed;
+        let rounding = input.rounding(self.top_speed);
         match left {
             _ if left > rounding => {
                 self.speed = left;
-                self.on(Leg::Inertial, scene.ends(pulse.end))
+                self.on(Phase::Inertial, input.ends(pulse.end))
             }
-            _ if left < -rounding => (Cage::unknown(scene.now), scene.time, None),
-            _ => self.on(Leg::Stopping(pulse), scene.time),
+            _ if left < -rounding => (LiftState::unknown(input.now), input.time, None),
+            _ => self.on(Phase::Stopping(pulse), input.time),
         }
     }
 
     /// N blocks after the last pulse it shows what it was.
-    fn stop(self, pulse: &Pulse, scene: &mut Scene, events: &mut Vec<Event>) -> Next {
-        if !scene.is_after(pulse) {
-            return self.stay(scene);
+    fn stop(self, pulse: &Pulse, input: &mut StepInput, events: &mut Vec<Event>) -> Next {
+        if !input.is_after(pulse) {
+            return self.stay(input);
         }
-        let decision = scene.backward_decision(pulse);
-        let stopped = (Cage::Rest, scene.ends(pulse.end), decision);
-        if scene.is_violent(pulse) {
-            if decision.is_none() && !self.is_spent(pulse, scene) {
-                return self.on(Leg::Inertial, scene.time);
+        let decision = input.backward_decision(pulse);
+        let stopped = (LiftState::Rest, input.ends(pulse.end), decision);
+        if input.is_violent(pulse) {
+            if decision.is_none() && !self.is_spent(pulse, input) {
+                return self.on(Phase::Inertial, input.time);
             }
             events.push(Event {
-                time: scene.starts(pulse.onset),
-                reported: scene.time,
+                time: input.starts(pulse.onset),
+                reported: input.time,
                 kind: Kind::Alarm(Alarm::Jam),
             });
             return stopped;
         }
-        let is_late = scene.now > pulse.end + 3 * scene.reference_length();
+        let is_late = input.now > pulse.end + 3 * input.reference_length();
         match decision {
             Some(_) => stopped,
-            None if is_late => (Cage::unknown(scene.now), scene.time, None),
-            None => self.stay(scene),
+            None if is_late => (LiftState::unknown(input.now), input.time, None),
+            None => self.stay(input),
         }
     }
 
     /// Whether a shock has taken half of the speed. One at a joint of the rails takes none: it swings back.
-    fn is_spent(&self, pulse: &Pulse, scene: &Scene) -> bool {
-        let end = pulse.end + scene.blocks(LONGEST_SHOCK).min(scene.reference_length());
-        let change = scene.change_of_speed(pulse.onset..end);
+    fn is_spent(&self, pulse: &Pulse, input: &StepInput) -> bool {
+        let end = pulse.end + input.blocks(LONGEST_SHOCK).min(input.reference_length());
+        let change = input.change_of_speed(pulse.onset..end);
         change.is_some_and(|change| -self.sign * change > self.speed / 2.0)
     }
 }

@@ -6,10 +6,11 @@
 //! rest and not the inside is an assumption, given up only if the inside is clearly the quieter.
 
 use super::blocks::Blocks;
+use super::design::Design;
 use super::event::{Event, Kind, State};
 use super::pulse::is_level;
 use super::reference::Reference;
-use super::settings::{Design, LEAST_TRAINING, MOST_ORDER};
+use super::settings::{LEAST_TRAINING, MOST_ORDER};
 use super::{Knowledge, Monitor};
 use crate::signal::Phase;
 use crate::signal::recording::Sample;
@@ -144,8 +145,8 @@ impl Windows {
     /// Keeps a window that stays at one level, if its turn has come.
     fn close(&mut self, window: Window) {
         let settings = &self.design.settings;
-        let drift = settings.least_acceleration / 2.0;
-        let bound = settings.least_speed / 2.0;
+        let drift = settings.monitor.least_acceleration / 2.0;
+        let bound = settings.monitor.least_speed / 2.0;
         self.seen += 1;
         if !self.seen.is_multiple_of(self.stride)
             || !is_level(&window.means, drift, self.design.block, bound)
@@ -195,7 +196,7 @@ impl Windows {
         let Some(level) = median(self.kept.iter().map(Window::level)) else {
             return Vec::new();
         };
-        let drift = self.design.settings.least_acceleration / 2.0;
+        let drift = self.design.settings.monitor.least_acceleration / 2.0;
         let is_near = |window: &&Window| (window.level() - level).abs() <= drift;
         let near: Vec<&Window> = self.kept.iter().filter(is_near).collect();
         let noise = median(near.iter().map(|w| w.deviation())).unwrap_or(0.0);

@@ -1,0 +1,164 @@
+//! What `liftsim detect` reports: JSON shows all of it, CSV and the table its trips, under the same names.
+
+#![allow(missing_docs, reason = "what a name says is not said again")]
+
+use super::{AtRest, Detection, End, Trip, columns};
+use crate::monitor::{Event, Knowledge, Settings};
+use crate::signal::recording::Recording;
+use serde::Serialize;
+use serde_json::Value;
+
+/// A recording and what was found in it.
+#[derive(Debug, Serialize)]
+pub struct DetectReport<'a> {
+    pub recording: Recorded,
+    pub warnings: Vec<String>,
+    pub settings: &'a Settings,
+    /// Length of a block at the rate of the recording, s.
+    pub block: f64,
+    pub knowledge: &'a Knowledge,
+    pub at_rest: &'a AtRest,
+    pub rides: &'a [Trip],
+    pub events: &'a [Event],
+}
+
+/// How a recording was read.
+#[derive(Debug, Serialize)]
+pub struct Recorded {
+    pub file: String,
+    pub format: String,
+    /// The column.
+    pub time: String,
+    #[serde(skip)]
+    pub time_unit: String,
+    /// The columns.
+    pub acceleration: Vec<String>,
+    pub unit: String,
+    pub vertical: String,
+    pub samples: u64,
+    /// s
+    pub start: f64,
+    /// s
+    pub end: f64,
+    /// Hz
+    pub rate: f64,
+    pub jitter: f64,
+    pub quantum: Option<f64>,
+    pub has_gravity: bool,
+    pub high_passed: bool,
+}
+
+/// What should be known before the trips are trusted.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Warning {
+    #[error(
+        "this looks like a sensor behind a high-pass filter: pulses of acceleration decay and overshoot, so \
+         speeds and stops cannot be trusted (record the raw accelerometer, with g)"
+    )]
+    HighPassed,
+    #[error(
+        "the state was learnt at {learnt:.1} Hz, this recording has {got:.1} Hz (use --resample {learnt:.1})"
+    )]
+    Rate { learnt: f64, got: f64 },
+    #[error(
+        "rest reads {0:.3} m/s^2, neither 0 nor the 9.8 of gravity (is the unit right? --unit g, mg, or counts \
+         with --scale)"
+    )]
+    Level(f64),
+    #[error("{0} rides were lost from sight: no stop was found that fits their start")]
+    Lost(usize),
+}
+
+impl<'a> DetectReport<'a> {
+    /// Of a recording called `file`.
+    pub fn new(file: String, recording: &Recording, detection: &'a Detection) -> Self {
+        let facts = recording.facts();
+        let (time, time_unit) = recording.time_column();
+        let of_recording = recording.warnings().iter().map(ToString::to_string);
+        let of_detection = detection.warnings(recording.rate());
+        Self {
+            warnings: of_recording
+                .chain(of_detection.iter().map(ToString::to_string))
+                .collect(),
+            recording: Recorded {
+                file,
+                format: recording.format().to_string(),
+                time: time.to_owned(),
+                time_unit: time_unit.to_string(),
+                acceleration: (recording.acceleration_columns().into_iter())
+                    .map(str::to_owned)
+                    .collect(),
+                unit: recording.unit().to_string(),
+                vertical: recording.vertical().to_string(),
+                samples: facts.samples,
+                start: facts.start,
+                end: facts.end,
+                rate: facts.rate,
+                jitter: facts.jitter,
+                quantum: facts.quantum,
+                has_gravity: facts.has_gravity,
+                high_passed: detection.is_high_passed,
+            },
+            settings: &detection.design.settings,
+            block: detection.design.block,
+            knowledge: &detection.knowledge,
+            at_rest: &detection.at_rest,
+            rides: &detection.trips,
+            events: &detection.events,
+        }
+    }
+
+    pub fn json(&self) -> String {
+        let json = serde_json::to_string_pretty(self);
+        json.expect("a report is plain data") + "\n"
+    }
+
+    /// One row a trip.
+    pub fn csv(&self) -> Vec<u8> {
+        let columns = columns();
+        let alpha = self.settings.detector.alpha.to_string();
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let mut write = |row: Vec<String>| writer.write_record(row).expect("a vector takes it");
+        write([&columns[..], &["alpha".to_owned()]].concat());
+        for trip in self.rides {
+            let cells = columns.iter().map(|name| cell(&trip.column(name)));
+            write(cells.chain([alpha.clone()]).collect());
+        }
+        writer.into_inner().expect("a vector takes every byte")
+    }
+}
+
+fn cell(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        value => value.to_string(),
+    }
+}
+
+impl Detection {
+    /// Warnings about a recording of this rate, Hz.
+    pub fn warnings(&self, rate: f64) -> Vec<Warning> {
+        let learnt = self.design.rate;
+        let level = self.knowledge.reference.as_ref().map(|rest| rest.level);
+        let lost = self.trips.iter().filter(|trip| trip.ended == End::Lost);
+        let lost = lost.count();
+        [
+            self.is_high_passed.then_some(Warning::HighPassed),
+            ((rate / learnt - 1.0).abs() > 0.05).then_some(Warning::Rate { learnt, got: rate }),
+            level
+                .filter(|level| !is_level_of_rest(*level))
+                .map(Warning::Level),
+            (lost > 0).then_some(Warning::Lost(lost)),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+}
+
+/// Whether a sensor may read this at rest, m/s²: nothing or gravity, and its own offset.
+fn is_level_of_rest(level: f64) -> bool {
+    const OFFSET: f64 = 1.5;
+    level.abs() < OFFSET || (level.abs() - 9.81).abs() < OFFSET
+}

@@ -1,0 +1,177 @@
+//! The file of `detect --config` and `monitor --config`: how a recording is read, and the settings of the monitor.
+//!
+//! Every key has a default; an unknown one is refused.
+
+use crate::config::{ConfigError, Node, Source};
+use crate::monitor::{Level, Limits, Settings, Sizes, Whitening};
+use crate::signal::recording::{Axis, Reading, TimeUnit, Unit};
+use serde::Deserialize;
+use serde::de::{Deserializer, Error};
+use std::fmt::Display;
+use std::path::Path;
+use std::str::FromStr;
+
+/// How a recording is read, and how it is watched.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[allow(missing_docs, reason = "what a name says is not said again")]
+pub struct MonitorOptions {
+    pub reading: Reading,
+    pub settings: Settings,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct OptionsFile {
+    recording: RecordingTable,
+    samples: Sizes,
+    whitening: Whitening,
+    detector: Level,
+    monitor: Limits,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct RecordingTable {
+    time: Option<String>,
+    acceleration: Option<String>,
+    #[serde(deserialize_with = "named")]
+    time_unit: Option<TimeUnit>,
+    unit: Option<String>,
+    scale: Option<f64>,
+    offset: Option<f64>,
+    #[serde(deserialize_with = "named")]
+    axis: Option<Axis>,
+    resample: Option<f64>,
+    member: Option<String>,
+}
+
+impl MonitorOptions {
+    /// Reads and checks a file.
+    ///
+    /// # Errors
+    /// Where it cannot be read, is not TOML, or has an unknown key or a value out of its range.
+    pub fn load(path: &Path) -> Result<Self, ConfigError> {
+        Self::from_source(&Source::load(path)?)
+    }
+
+    /// Checks a file's text; `name` is what messages call it.
+    ///
+    /// # Errors
+    /// As [`MonitorOptions::load`].
+    pub fn parse(name: &str, text: &str) -> Result<Self, ConfigError> {
+        Self::from_source(&Source::new(name, text))
+    }
+
+    fn from_source(source: &Source) -> Result<Self, ConfigError> {
+        let tree = source.parse()?;
+        let file: OptionsFile = source.read(&tree, "")?;
+        let span = |path: &str| tree.get(path).map(|node| node.span.clone());
+        let settings = Settings {
+            samples: file.samples,
+            whitening: file.whitening,
+            detector: file.detector,
+            monitor: file.monitor,
+        };
+        (settings.check()).map_err(|error| source.at(span(error.key()), error))?;
+        Ok(Self {
+            reading: file.recording.reading(source, &tree)?,
+            settings,
+        })
+    }
+}
+
+impl RecordingTable {
+    fn reading(self, source: &Source, tree: &Node) -> Result<Reading, ConfigError> {
+        let unit = Unit::told(self.unit.as_deref(), self.scale, self.offset);
+        let unit = unit.map_err(|error| {
+            let mut keys = [error.key(), "unit", "offset"].into_iter();
+            let place = keys.find_map(|key| tree.get(&format!("recording.{key}")));
+            source.at(
+                place.map(|node| node.span.clone()),
+                format!("recording.{error}"),
+            )
+        })?;
+        Ok(Reading {
+            unit: unit.unwrap_or_default(),
+            time: self.time,
+            acceleration: self.acceleration,
+            time_unit: self.time_unit,
+            axis: self.axis.unwrap_or_default(),
+            resample: self.resample,
+            member: self.member,
+        })
+    }
+}
+
+/// What its own type reads from a name.
+fn named<'de, T: FromStr<Err: Display>, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<T>, D::Error> {
+    let name = String::deserialize(deserializer)?;
+    name.parse().map(Some).map_err(D::Error::custom)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn reading(lines: &str) -> Result<Reading, String> {
+        let read = MonitorOptions::parse("lift.toml", &format!("[recording]\n{lines}"));
+        read.map(|config| config.reading)
+            .map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn names_are_those_of_the_recording() {
+        let read = reading(
+            "time_unit = \"ms\"\nunit = \"counts\"\nscale = 0.5\noffset = 9\naxis = \"gravity\"",
+        );
+        let expected = Reading {
+            time_unit: Some(TimeUnit::Milliseconds),
+            unit: Unit::Counts {
+                scale: 0.5,
+                offset: 9.0,
+            },
+            axis: Axis::Gravity,
+            ..Reading::default()
+        };
+        assert_eq!(read, Ok(expected));
+    }
+
+    #[test]
+    fn refusals_point_at_the_value() {
+        for (lines, message) in [
+            (
+                "unit = \"g\"\nscale = 0.5",
+                "lift.toml:3:9: recording.scale: is for counts alone, the unit is g",
+            ),
+            (
+                "offset = 9.0",
+                "lift.toml:2:10: recording.unit: counts need a scale",
+            ),
+            (
+                "unit = \"counts\"",
+                "lift.toml:2:8: recording.unit: counts need a scale",
+            ),
+            (
+                "unit = \"ft\"",
+                "lift.toml:2:8: recording.unit: must be m/s^2, g, mg or counts, got \"ft\"",
+            ),
+            (
+                "scale = 0.0",
+                "lift.toml:2:9: recording.unit: scale must be between",
+            ),
+            (
+                "time_unit = \"h\"",
+                "lift.toml:2:13: recording.time_unit: must be s, ms, us or ns, got \"h\"",
+            ),
+            (
+                "axis = \"up\"",
+                "lift.toml:2:8: recording.axis: must be auto, x, y, z or gravity, got \"up\"",
+            ),
+        ] {
+            let refused = reading(lines).unwrap_err();
+            assert!(refused.contains(message), "{lines}: {refused}");
+        }
+    }
+}

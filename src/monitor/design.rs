@@ -1,0 +1,105 @@
+//! Settings at one sampling rate: blocks of whole samples, the region of the decisions.
+
+use super::settings::{LONGEST_BLOCK, Settings};
+use crate::detect::{
+    Alternative, NullLawError, NullLaws, Region, RegionError, Rule, Samples, SamplesError,
+};
+use crate::rule::{self, OutOfRange};
+
+/// Settings at one sampling rate.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "what a name says is not said again")]
+pub struct Design {
+    pub settings: Settings,
+    /// Sizes, and how many samples there are in a block.
+    pub samples: Samples,
+    /// ϑ, for Δ of either sign.
+    pub region: Region,
+    /// Seconds from one block to the next.
+    pub block: f64,
+    /// Samples per second.
+    pub rate: f64,
+}
+
+/// Why settings were refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "the messages say it")]
+pub enum SettingsError {
+    #[error(transparent)]
+    Value(#[from] OutOfRange),
+    #[error(transparent)]
+    Samples(#[from] SamplesError),
+    #[error(transparent)]
+    Law(#[from] NullLawError),
+    #[error(transparent)]
+    Region(#[from] RegionError),
+}
+
+impl SettingsError {
+    /// The path of the setting to change, or `rate`.
+    pub fn key(&self) -> &str {
+        match self {
+            Self::Value(error) => &error.key,
+            Self::Samples(_) | Self::Law(_) => "samples.reference",
+            Self::Region(_) => "detector.alpha",
+        }
+    }
+
+    /// The same of a key that the user writes in another way than as a path.
+    #[must_use]
+    pub fn called(mut self, name: impl Fn(&str) -> String) -> Self {
+        if let Self::Value(error) = &mut self {
+            error.key = name(&error.key);
+        }
+        self
+    }
+}
+
+impl Settings {
+    /// Whether they can be used, whatever the rate.
+    ///
+    /// # Errors
+    /// As [`Settings::at`].
+    pub fn check(&self) -> Result<(), SettingsError> {
+        self.at(1.0 / self.monitor.block.clamp(1e-6, 1.0)).map(drop)
+    }
+
+    /// The same at `rate` samples per second.
+    ///
+    /// # Errors
+    /// Where a value is out of its range, or no region has the level asked for.
+    pub fn at(&self, rate: f64) -> Result<Design, SettingsError> {
+        self.check_each()?;
+        let (least, most) = (
+            self.monitor.least_acceleration,
+            self.monitor.most_acceleration,
+        );
+        if most <= least {
+            let rule = format_args!("exceed least_acceleration = {least}");
+            return Err(OutOfRange::new("monitor.most_acceleration", rule, most).into());
+        }
+        rule::Rule::Within(1.0, 1e6, "Hz").check("rate", &rate)?;
+        // Rounded down up to three quarters, so that 10, 30 and 50 Hz are not on the edge between two lengths.
+        let decimation = (self.monitor.block * rate + 0.25).floor().max(1.0) as usize;
+        if decimation as f64 / rate > LONGEST_BLOCK {
+            let rule = "be at least 2 Hz, for a lift gains speed in about a second";
+            return Err(OutOfRange::new("rate", rule, rate).into());
+        }
+        let sizes = &self.samples;
+        let samples = Samples::new(
+            sizes.reference,
+            sizes.shift,
+            sizes.scale,
+            sizes.gap,
+            decimation,
+        )?;
+        let laws = NullLaws::new(Alternative::TwoSided, &samples)?;
+        Ok(Design {
+            region: laws.region(&Rule::Product, self.detector.alpha)?,
+            block: decimation as f64 / rate,
+            settings: self.clone(),
+            samples,
+            rate,
+        })
+    }
+}
