@@ -98,7 +98,7 @@ fn family(criterion: &mut Criterion) {
     let decisions = Pilots::new(&plan).and_then(|pilots| pilots.decide(|_| {}));
     let decisions = decisions.expect("exact regions");
     let mut short = plan.clone();
-    short.ensemble.trials = 64;
+    short.schedule.trials = 64;
     criterion.bench_function("64 trials of Fig. 6, 156 points", |b| {
         b.iter(|| run::run(black_box(&short), &decisions, &[], |_| {}));
     });

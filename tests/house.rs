@@ -10,7 +10,7 @@ const FLOORS: [&[&str]; 9] = [
     &["ledger"],
     &["signal", "whiten", "detect"],
     &["chain", "monitor"],
-    &["config", "ensemble", "detection"],
+    &["config", "schedule", "detection"],
     &["plan"],
     &["pilot", "run", "gate", "results"],
     &["exhibit", "claim"],

@@ -298,7 +298,7 @@ fn discordant_trials_are_those_on_which_two_points_differ() {
         .collect();
     let outcome = run::run(&plan, &decisions, &pairs, |_| {});
     let mut decided = vec![vec![false; 3000]; places];
-    for family in &plan.ensemble.families {
+    for family in &plan.schedule.families {
         let mut trial = Trial::new(family);
         for index in 0..3000 {
             trial.run(index, &mut |place: usize, observation: &mut Observation| {

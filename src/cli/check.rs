@@ -124,7 +124,7 @@ fn p_value(p: f64) -> String {
 fn scenario(config: &Config, row: &Row) -> String {
     use Parameter as P;
     let parameter = config.axis.parameter;
-    match (parameter, row.on_axis(parameter)) {
+    match (parameter, row.on_axis(parameter.name())) {
         (P::Alpha | P::Delta | P::Duration | P::Offset | P::Nu | P::Theta, _) | (_, None) => {
             row.label.clone()
         }

@@ -28,6 +28,7 @@ pub use ride::{Measure, RideCurve, RidePoint, RideProblem, RideStudy};
 pub use trace::{Part, Trace};
 pub use watch::WatchConfig;
 
+use crate::schedule::DEFAULT_PILOT_TRIALS;
 use crate::stats::tally;
 use error::Source;
 use file::{AxisTable, File, Sections};
@@ -212,9 +213,6 @@ impl File {
 
 /// Trials per point where the file says nothing.
 const DEFAULT_TRIALS: u64 = 200_000;
-
-/// Trials of a pilot run where neither the file nor the command line says anything.
-pub const DEFAULT_PILOT_TRIALS: u64 = 200_000;
 
 /// A pilot keeps what it has seen in memory.
 pub const MOST_PILOT_TRIALS: u64 = 10_000_000;

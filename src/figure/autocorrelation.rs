@@ -7,11 +7,11 @@ use super::look::Look;
 use super::sheet::{Picture, Sheet};
 use super::text::literal;
 use super::words::wrap;
-use crate::config::ExhibitConfig;
-use crate::exhibit::autocorrelation::Row;
+use crate::chain::Scenario;
 use crate::format::thousands;
 use crate::results::Manifest;
 use crate::signal::Sensor;
+use crate::study::rows::Autocorrelation as Row;
 use plotters::prelude::{Color, DrawingBackend};
 
 const UPPER: f64 = 160.0;
@@ -33,7 +33,8 @@ pub(super) struct Lags<'a> {
 
 impl<'a> Lags<'a> {
     pub fn new(
-        config: &ExhibitConfig,
+        scenario: &Scenario,
+        confidence: f64,
         length: usize,
         rows: &'a [Row],
         manifest: &Manifest,
@@ -54,14 +55,14 @@ impl<'a> Lags<'a> {
             },
             Scale::linear(-1.1 * widest, 1.1 * widest, 6),
         ];
-        let is_adxl105 = config.scenario.sensor == Sensor::adxl105();
+        let is_adxl105 = scenario.sensor == Sensor::adxl105();
         Self {
             frames: Frame::stack(10.0, [(UPPER, upper), (LOWER, lower)], &x),
             x_label: match is_adxl105 {
                 true => "lag k, samples (T_0 = 62.5 µs)",
                 false => "lag k, samples",
             },
-            caption: caption(config, length, manifest),
+            caption: caption(scenario, confidence, length, manifest),
             rows,
         }
     }
@@ -152,21 +153,25 @@ fn deviations(row: &Row) -> [f64; 3] {
     [row.low, row.high, row.exact_transfer].map(|value| value - row.theory)
 }
 
-fn caption(config: &ExhibitConfig, length: usize, manifest: &Manifest) -> Vec<String> {
-    let scenario = &config.scenario;
+fn caption(
+    scenario: &Scenario,
+    confidence: f64,
+    length: usize,
+    manifest: &Manifest,
+) -> Vec<String> {
     let parts = [
         literal(&scenario.sensor.to_string()).replace('-', "−"),
         format!("{} noise", literal(&scenario.noise.to_string())),
         format!(
             "{} records of {} samples",
-            thousands(manifest.trials),
+            thousands(manifest.origin.trials),
             thousands(length as u64)
         ),
         "mean product over the known variance of x".to_owned(),
-        format!("seed {}", manifest.seed),
+        format!("seed {}", manifest.origin.seed),
         format!(
             "bars: pointwise normal {} % intervals of the mean",
-            100.0 * config.confidence
+            100.0 * confidence
         ),
     ];
     wrap(&parts, WIDTH - 2.0 * CAPTION_LEFT)

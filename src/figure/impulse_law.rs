@@ -6,9 +6,9 @@ use super::legend::{Entry, Key, Legend};
 use super::look::Look;
 use super::sheet::{Picture, Sheet};
 use super::words::wrap;
-use crate::exhibit::impulse_law::Row;
 use crate::format::thousands;
 use crate::results::Manifest;
+use crate::study::rows::ImpulseLaw as Row;
 use plotters::prelude::{Color, DrawingBackend};
 
 const UPPER: f64 = 150.0;
@@ -135,7 +135,7 @@ fn caption(trials: u64, manifest: &Manifest, confidence: f64) -> Vec<String> {
         "lines: P(S_i = 0) = (1 + (1 − 2ν)ⁱ)/2 and P(λ_i = +θ) = ν/2".to_owned(),
         "dashed: the limit ½ of (6)".to_owned(),
         format!("markers: {} realisations", thousands(trials)),
-        format!("seed {}", manifest.seed),
+        format!("seed {}", manifest.origin.seed),
         format!("bars: pointwise exact {} % intervals", 100.0 * confidence),
     ];
     wrap(&parts, WIDTH - 2.0 * CAPTION_LEFT)

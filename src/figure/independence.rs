@@ -6,8 +6,8 @@ use super::legend::{Entry, Key, Legend};
 use super::look::Look;
 use super::sheet::{Picture, Sheet};
 use super::words::wrap;
-use crate::exhibit::independence::{Row, findings};
 use crate::format::thousands;
+use crate::study::rows::{Independence as Row, findings};
 use plotters::prelude::{BLACK, Color, DrawingBackend};
 
 const HEIGHT: f64 = 280.0;

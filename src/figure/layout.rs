@@ -7,9 +7,9 @@ use super::phases::{draw_limit, phase_colour, phase_words};
 use super::sheet::{Picture, Sheet};
 use super::text::{Align, Style, text_width};
 use super::words::wrap;
-use crate::config::ExhibitConfig;
-use crate::exhibit::layout::Row;
+use crate::chain::Scenario;
 use crate::signal::{Motion, Profile};
+use crate::study::rows::Layout as Row;
 use plotters::prelude::{Color, DrawingBackend, RGBColor};
 
 const UPPER: f64 = 84.0;
@@ -24,8 +24,8 @@ pub(super) struct Layout<'a> {
 }
 
 impl<'a> Layout<'a> {
-    pub fn new(config: &ExhibitConfig, rows: &'a [Row]) -> Self {
-        let samples = &config.scenario.samples;
+    pub fn new(scenario: &Scenario, rows: &'a [Row]) -> Self {
+        let samples = &scenario.samples;
         let end = rows.iter().map(|row| row.end).max().unwrap_or(0) as f64;
         let first = rows.iter().map(|row| row.start).min().unwrap_or(0) as f64;
         let reference = samples.reference() as f64;
@@ -50,8 +50,8 @@ impl<'a> Layout<'a> {
         ];
         Self {
             frames: Frame::stack(18.0, [(UPPER, upper), (LOWER, lower)], &x),
-            motion: config.scenario.motion,
-            caption: caption(config),
+            motion: scenario.motion,
+            caption: caption(scenario),
             rows,
         }
     }
@@ -222,8 +222,7 @@ impl Block {
     }
 }
 
-fn caption(config: &ExhibitConfig) -> Vec<String> {
-    let scenario = &config.scenario;
+fn caption(scenario: &Scenario) -> Vec<String> {
     let (samples, motion) = (&scenario.samples, &scenario.motion);
     let parts = [
         format!("N = {}", samples.reference()),

@@ -25,12 +25,12 @@ mod text;
 mod trace;
 mod words;
 
-use crate::config::{Config, ExhibitConfig};
+use crate::chain::Scenario;
+use crate::config::{Config, RideStudy, Trace};
 use crate::detect::{Alternative, NullLawError, NullLaws, Region, Rule, Samples};
 use crate::detection::Detection;
-use crate::exhibit::Rows;
-use crate::exhibit::region::boundary;
 use crate::results::{Manifest, Row};
+use crate::study::rows::{self, boundary};
 
 /// A picture in both its forms.
 #[derive(Clone, Debug)]
@@ -82,52 +82,113 @@ pub fn sweep(config: &Config, rows: &[Row], manifest: &Manifest) -> Result<Drawi
     sheet::render(&picture, &provenance(manifest))
 }
 
-/// Draws an experiment that is no sweep, from its rows.
+/// Draws an autocorrelation of records of `length` samples.
 ///
 /// # Errors
-/// Where the rows are not those of the config's kind, or drawing fails.
-pub fn exhibit(
-    config: &ExhibitConfig,
-    rows: &Rows,
+/// Where drawing fails; so with every picture here.
+pub fn autocorrelation(
+    scenario: &Scenario,
+    confidence: f64,
+    length: usize,
+    rows: &[rows::Autocorrelation],
     manifest: &Manifest,
 ) -> Result<Drawing, FigureError> {
-    use crate::config::ExhibitKind as Kind;
-    let from = provenance(manifest);
-    match (&config.kind, rows) {
-        _ if rows.is_empty() => Err(FigureError::NoRows(config.kind.name())),
-        (Kind::Autocorrelation { length, .. }, Rows::Autocorrelation(rows)) => {
-            let picture = autocorrelation::Lags::new(config, *length, rows, manifest);
-            sheet::render(&picture, &from)
-        }
-        (Kind::Trace(trace), Rows::Trace(rows)) => {
-            let picture = trace::Ride::new(config, trace, rows, manifest);
-            sheet::render(&picture, &from)
-        }
-        (_, Rows::Layout(rows)) => sheet::render(&layout::Layout::new(config, rows), &from),
-        (_, Rows::Region(rows)) => {
-            let scenario = &config.scenario;
-            let laws = NullLaws::new(scenario.detector.alternative, &scenario.samples)?;
-            let title = region_title(
-                &scenario.samples,
-                scenario.detector.alternative,
-                scenario.detector.alpha,
-            );
-            sheet::render(&region::Plane::new(&laws, rows, title), &from)
-        }
-        (_, Rows::Independence(rows)) => sheet::render(&independence::Diagonal::new(rows), &from),
-        (_, Rows::OperatingPoint(rows)) => sheet::render(
-            &operating_point::Points::new(config, rows, manifest),
-            &provenance(manifest),
-        ),
-        (Kind::Ride(study), Rows::Ride(rows)) => {
-            sheet::render(&ride::Rides::new(study, rows, manifest), &from)
-        }
-        (_, Rows::ImpulseLaw(rows)) => sheet::render(
-            &impulse_law::Laws::new(rows, manifest, config.confidence),
-            &from,
-        ),
-        _ => Err(FigureError::NoRows(config.kind.name())),
-    }
+    let picture = autocorrelation::Lags::new(scenario, confidence, length, rows, manifest);
+    sheet::render(&picture, &provenance(manifest))
+}
+
+/// Draws one realisation of a ride.
+///
+/// # Errors
+/// Where drawing fails.
+pub fn trace(
+    scenario: &Scenario,
+    trace: &Trace,
+    rows: &[rows::Trace],
+    manifest: &Manifest,
+) -> Result<Drawing, FigureError> {
+    let picture = trace::Ride::new(scenario, trace, rows, manifest);
+    sheet::render(&picture, &provenance(manifest))
+}
+
+/// Draws where the samples of a trial lie.
+///
+/// # Errors
+/// Where drawing fails.
+pub fn layout(
+    scenario: &Scenario,
+    rows: &[rows::Layout],
+    manifest: &Manifest,
+) -> Result<Drawing, FigureError> {
+    sheet::render(&layout::Layout::new(scenario, rows), &provenance(manifest))
+}
+
+/// Draws the plane of W and T with the boundaries of several rules.
+///
+/// # Errors
+/// Where drawing fails, or the laws do not fit in memory.
+pub fn regions(
+    scenario: &Scenario,
+    rows: &[rows::Region],
+    manifest: &Manifest,
+) -> Result<Drawing, FigureError> {
+    let Scenario {
+        samples, detector, ..
+    } = scenario;
+    let laws = NullLaws::new(detector.alternative, samples)?;
+    let title = region_title(samples, detector.alternative, detector.alpha);
+    let picture = region::Plane::new(&laws, rows, title);
+    sheet::render(&picture, &provenance(manifest))
+}
+
+/// Draws joint probabilities against products.
+///
+/// # Errors
+/// Where drawing fails.
+pub fn independence(
+    rows: &[rows::Independence],
+    manifest: &Manifest,
+) -> Result<Drawing, FigureError> {
+    sheet::render(&independence::Diagonal::new(rows), &provenance(manifest))
+}
+
+/// Draws the operating point against the size.
+///
+/// # Errors
+/// Where drawing fails.
+pub fn operating_point(
+    scenario: &Scenario,
+    rows: &[rows::OperatingPoint],
+    manifest: &Manifest,
+) -> Result<Drawing, FigureError> {
+    let picture = operating_point::Points::new(scenario, rows, manifest);
+    sheet::render(&picture, &provenance(manifest))
+}
+
+/// Draws the outcomes of rides.
+///
+/// # Errors
+/// Where drawing fails.
+pub fn rides(
+    study: &RideStudy,
+    rows: &[rows::Ride],
+    manifest: &Manifest,
+) -> Result<Drawing, FigureError> {
+    let picture = ride::Rides::new(study, rows, manifest);
+    sheet::render(&picture, &provenance(manifest))
+}
+
+/// Draws the laws of impulses.
+///
+/// # Errors
+/// Where drawing fails.
+pub fn impulse_law(
+    rows: &[rows::ImpulseLaw],
+    manifest: &Manifest,
+    confidence: f64,
+) -> Result<Drawing, FigureError> {
+    let picture = impulse_law::Laws::new(rows, manifest, confidence);
+    sheet::render(&picture, &provenance(manifest))
 }
 
 /// Draws a recording, whose name is `name`, and what was found in it.
@@ -166,10 +227,10 @@ pub fn region_title(samples: &Samples, alternative: Alternative, alpha: f64) -> 
 fn provenance(manifest: &Manifest) -> String {
     format!(
         "liftsim {}, config {} ({}), seed {}, {} trials per point",
-        manifest.version,
-        manifest.config_name,
+        manifest.origin.version,
+        manifest.origin.config_name,
         manifest.short_hash(),
-        manifest.seed,
-        manifest.trials
+        manifest.origin.seed,
+        manifest.origin.trials
     )
 }

@@ -6,10 +6,10 @@ use super::legend::{Entry, Key, Legend};
 use super::look::Look;
 use super::sheet::{Picture, Sheet};
 use super::words::wrap;
-use crate::config::ExhibitConfig;
-use crate::exhibit::operating_point::Row;
+use crate::chain::Scenario;
 use crate::format::thousands;
 use crate::results::Manifest;
+use crate::study::rows::OperatingPoint as Row;
 use plotters::prelude::{Color, DrawingBackend};
 
 const HEIGHT: f64 = 240.0;
@@ -24,7 +24,7 @@ pub(super) struct Points<'a> {
 }
 
 impl<'a> Points<'a> {
-    pub fn new(config: &ExhibitConfig, rows: &'a [Row], manifest: &Manifest) -> Self {
+    pub fn new(scenario: &Scenario, rows: &'a [Row], manifest: &Manifest) -> Self {
         let mut curves: Vec<Vec<&Row>> = Vec::new();
         for row in rows {
             match curves.iter_mut().find(|curve| curve[0].power == row.power) {
@@ -53,7 +53,7 @@ impl<'a> Points<'a> {
                 },
                 y: Scale::linear(0.0, 1.08 * top, 6),
             },
-            caption: caption(config, &rows[0], manifest),
+            caption: caption(scenario, &rows[0], manifest),
         }
     }
 
@@ -119,8 +119,7 @@ fn ticks(rows: &[Row]) -> Vec<(f64, String)> {
     sizes.into_iter().map(tick).collect()
 }
 
-fn caption(config: &ExhibitConfig, row: &Row, manifest: &Manifest) -> Vec<String> {
-    let scenario = &config.scenario;
+fn caption(scenario: &Scenario, row: &Row, manifest: &Manifest) -> Vec<String> {
     let parts = [
         format!("α = {}", row.alpha),
         format!("rule {}", scenario.detector.method),
@@ -131,7 +130,7 @@ fn caption(config: &ExhibitConfig, row: &Row, manifest: &Manifest) -> Vec<String
         format!("order {}", scenario.whitening.order()),
         format!("training {}", scenario.whitening.training()),
         format!("{} trials at every Δ", thousands(row.trials)),
-        format!("seed {}", manifest.seed),
+        format!("seed {}", manifest.origin.seed),
         format!(
             "bars: exact {} % intervals, inverted",
             100.0 * row.confidence

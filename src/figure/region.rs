@@ -9,7 +9,7 @@ use super::sheet::{Picture, Sheet};
 use super::text::{Align, Style};
 use super::words::wrap;
 use crate::detect::{Alternative, NullLaws, Samples};
-use crate::exhibit::region::Row;
+use crate::study::rows::Region as Row;
 use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor};
 
 const HEIGHT: f64 = 238.0;

@@ -58,7 +58,9 @@ impl<'a> Ruler<'a> {
         }
         let value = match rows.len() == values.len() {
             true => values[index].number().unwrap_or(0.0),
-            false => row.on_axis(self.config.axis.parameter).unwrap_or(0.0),
+            false => row
+                .on_axis(self.config.axis.parameter.name())
+                .unwrap_or(0.0),
         };
         if self.is_logarithmic {
             libm::log10(value)

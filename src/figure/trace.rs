@@ -9,9 +9,10 @@ use super::phases::{draw_dense, draw_limit, phase_colour, phase_words};
 use super::sheet::{Picture, Sheet};
 use super::text::{Align, Style, literal, text_width};
 use super::words::wrap;
-use crate::config::{ExhibitConfig, Trace};
-use crate::exhibit::trace::Row;
+use crate::chain::Scenario;
+use crate::config::Trace;
 use crate::results::Manifest;
+use crate::study::rows::Trace as Row;
 use plotters::prelude::{BLACK, Color, DrawingBackend};
 
 const SINGLE: f64 = 190.0;
@@ -36,7 +37,7 @@ pub(super) struct Ride<'a> {
 
 impl<'a> Ride<'a> {
     pub fn new(
-        config: &ExhibitConfig,
+        scenario: &Scenario,
         trace: &'a Trace,
         rows: &'a [Row],
         manifest: &Manifest,
@@ -64,7 +65,7 @@ impl<'a> Ride<'a> {
         };
         Self {
             frames,
-            caption: caption(config, trace, manifest),
+            caption: caption(scenario, trace, manifest),
             trace,
             rows,
             unit,
@@ -249,8 +250,7 @@ fn unit_words(unit: &str) -> String {
     }
 }
 
-fn caption(config: &ExhibitConfig, trace: &Trace, manifest: &Manifest) -> Vec<String> {
-    let scenario = &config.scenario;
+fn caption(scenario: &Scenario, trace: &Trace, manifest: &Manifest) -> Vec<String> {
     let unit = unit_words(&trace.unit);
     let delta = scenario.motion.record_delta(scenario.sensor.step_gain());
     let measured = |name: &str, value: f64| {
@@ -283,6 +283,6 @@ fn caption(config: &ExhibitConfig, trace: &Trace, manifest: &Manifest) -> Vec<St
         parts.push(format!("training {}", whitening.training()));
         parts.push(format!("N/M_1/M_2 = {samples}"));
     }
-    parts.push(format!("seed {}", manifest.seed));
+    parts.push(format!("seed {}", manifest.origin.seed));
     wrap(&parts, WIDTH - 2.0 * CAPTION_LEFT)
 }

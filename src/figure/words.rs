@@ -209,7 +209,7 @@ pub(super) fn caption(
         "bands"
     };
     parts.push(format!("{} trials per point", thousands(row.trials)));
-    parts.push(format!("seed {}", manifest.seed));
+    parts.push(format!("seed {}", manifest.origin.seed));
     parts.push(format!(
         "{band}: pointwise exact {} % intervals, at times narrower than a line",
         100.0 * row.confidence

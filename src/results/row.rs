@@ -1,10 +1,8 @@
 //! `points.csv`: one row per point and hypothesis.
 
-use super::RESULTS;
-use crate::chain::Decision;
-use crate::config::Parameter;
-use crate::ledger::Key;
-use crate::plan::{Hypothesis, Point};
+use crate::chain::{Decision, Scenario};
+use crate::counts::DecisionSummary;
+use crate::plan::{Design, Hypothesis, Point};
 use crate::signal::{Impulses, Motion};
 use crate::stats::tally::Tally;
 use serde::{Deserialize, Serialize};
@@ -55,15 +53,6 @@ pub struct Row {
     pub calibrate: String,
     pub stated: String,
     pub pilot: u64,
-    pub threshold: Option<f64>,
-    pub reachable: Option<f64>,
-}
-
-/// What a row says of how its point decides.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[allow(missing_docs, reason = "the columns are the row's own")]
-pub struct Told {
-    pub size: Option<f64>,
     pub threshold: Option<f64>,
     pub reachable: Option<f64>,
 }
@@ -126,60 +115,52 @@ impl Row {
         }
     }
 
-    /// The row of a point whose decision is known by what was told of it.
-    pub fn retold(point: &Point, told: &Told, tally: Tally, confidence: f64) -> Self {
+    /// The row of a point whose decision is known by its summary.
+    pub fn summarised(
+        point: &Point,
+        decision: &DecisionSummary,
+        tally: Tally,
+        confidence: f64,
+    ) -> Self {
         Self {
-            size: told.size,
-            threshold: told.threshold,
-            reachable: told.reachable,
+            size: decision.size,
+            threshold: decision.threshold,
+            reachable: decision.reachable,
             ..Self::new(point, None, tally, confidence)
         }
     }
 
     /// What it says of the decision.
-    pub fn told(&self) -> Told {
-        Told {
+    pub fn decision(&self) -> DecisionSummary {
+        DecisionSummary {
             size: self.size,
             threshold: self.threshold,
             reachable: self.reachable,
         }
     }
 
-    /// What the counts here are known by: every parameter that they depend on, which its place among
-    /// the curves is none of.
-    pub fn key(&self, seed: u64, common_random_numbers: bool) -> Key {
-        let mut text =
-            format!("results {RESULTS} seed {seed} common_random_numbers {common_random_numbers}");
-        for (name, value) in self.parameters() {
-            if name != "curve" && name != "hypothesis" {
-                text += &format!(" {name} {value}");
-            }
-        }
-        Key::of(&text)
-    }
-
-    /// The number that an axis of this parameter would have here; none where there is none.
-    pub fn on_axis(&self, parameter: Parameter) -> Option<f64> {
+    /// The number that an axis of this name would have here; none where it has none.
+    pub fn on_axis(&self, parameter: &str) -> Option<f64> {
         Some(match parameter {
-            Parameter::Delta => self.delta,
-            Parameter::Duration => self.duration as f64,
-            Parameter::Offset => self.offset as f64,
-            Parameter::Nu => self.nu,
-            Parameter::Theta => self.theta,
-            Parameter::Quantum => self.quantum?,
-            Parameter::Range => self.range?,
-            Parameter::Drift => self.drift,
-            Parameter::Swell => self.swell,
-            Parameter::Footfalls => self.footfalls,
-            Parameter::Training => self.training as f64,
-            Parameter::Order => self.order as f64,
-            Parameter::AllSamples | Parameter::Shift => self.shift as f64,
-            Parameter::ReferenceAndScale | Parameter::Reference => self.reference as f64,
-            Parameter::Scale => self.scale as f64,
-            Parameter::Gap => self.gap as f64,
-            Parameter::Decimation => self.decimation as f64,
-            Parameter::Alpha => self.alpha,
-            Parameter::Rule => return None,
+            "delta" => self.delta,
+            "duration" => self.duration as f64,
+            "offset" => self.offset as f64,
+            "nu" => self.nu,
+            "theta" => self.theta,
+            "quantum" => self.quantum?,
+            "range" => self.range?,
+            "drift" => self.drift,
+            "swell" => self.swell,
+            "footfalls" => self.footfalls,
+            "training" => self.training as f64,
+            "order" => self.order as f64,
+            "all_samples" | "shift" => self.shift as f64,
+            "reference_and_scale" | "reference" => self.reference as f64,
+            "scale" => self.scale as f64,
+            "gap" => self.gap as f64,
+            "decimation" => self.decimation as f64,
+            "alpha" => self.alpha,
+            _ => return None,
         })
     }
 
@@ -202,7 +183,7 @@ impl Row {
     }
 
     /// The parameters alone, by column.
-    pub fn parameters(&self) -> Vec<(String, String)> {
+    fn parameters(&self) -> Vec<(String, String)> {
         const DERIVED: [&str; 10] = [
             "label",
             "trials",
@@ -226,6 +207,23 @@ impl Row {
             .map(|(name, value)| (name, value.to_string()))
             .collect()
     }
+}
+
+/// Every parameter of a scenario by its column.
+pub fn parameters(scenario: &Scenario) -> Vec<(String, String)> {
+    let point = Point {
+        curve: 0,
+        label: String::new(),
+        hypothesis: Hypothesis::H1,
+        scenario: scenario.clone(),
+        design: Design::Pilot,
+    };
+    let nothing = Tally { hits: 0, trials: 1 };
+    let parameters = Row::new(&point, None, nothing, 0.5)
+        .parameters()
+        .into_iter();
+    let is_place = |name: &str| name == "curve" || name == "hypothesis";
+    parameters.filter(|(name, _)| !is_place(name)).collect()
 }
 
 /// The motion that a method is made for.

@@ -2,10 +2,10 @@
 
 use super::shown::{Kind, Shown};
 use crate::config::{Measure, RideStudy};
-use crate::exhibit::ride::Row;
 use crate::figure::frame::Scale;
 use crate::figure::panel::{Panel, Point};
 use crate::figure::ruler::{around, is_long};
+use crate::study::rows::Ride as Row;
 
 /// Where rows stand.
 pub(super) struct Places<'a> {

@@ -1,12 +1,12 @@
 //! What the picture of rides says beside its curves.
 
 use crate::config::{Measure, RideStudy};
-use crate::exhibit::ride::Row;
 use crate::figure::frame::{CAPTION_LEFT, WIDTH};
 use crate::figure::text::literal;
 use crate::figure::words::wrap;
 use crate::format::thousands;
 use crate::results::Manifest;
+use crate::study::rows::Ride as Row;
 
 /// The axis in words.
 pub(super) fn axis_label(study: &RideStudy) -> String {
@@ -45,7 +45,7 @@ pub(super) fn caption(study: &RideStudy, rows: &[Row], manifest: &Manifest) -> V
     let mut parts: Vec<String> = common.filter(|fact| !fact.is_empty()).collect();
     let percent = 100.0 * rows[0].confidence;
     parts.push(format!("{} trials per point", thousands(rows[0].trials)));
-    parts.push(format!("seed {}", manifest.seed));
+    parts.push(format!("seed {}", manifest.origin.seed));
     if study.measure == Measure::Tradeoff {
         let (first, last) = (rows[0].x, rows[rows.len() - 1].x);
         let key = key_in_words(study.axis);
