@@ -3,7 +3,7 @@
 //! `cargo bench` prints each; the goals are for one core of a recent x86-64 machine.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use liftsim::config::Config;
+use liftsim::experiment::Config;
 use liftsim::detect::{Alternative, Crossings, Lines, NullLaws, Pooled, Rule, Samples};
 use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
@@ -98,7 +98,7 @@ fn family(criterion: &mut Criterion) {
     let decisions = Pilots::new(&plan).and_then(|pilots| pilots.decide(|_| {}));
     let decisions = decisions.expect("exact regions");
     let mut short = plan.clone();
-    short.ensemble.trials = 64;
+    short.schedule.trials = 64;
     criterion.bench_function("64 trials of Fig. 6, 156 points", |b| {
         b.iter(|| run::run(black_box(&short), &decisions, &[], |_| {}));
     });

@@ -113,7 +113,7 @@ pub fn overall(findings: &[Finding]) -> Verdict {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::Config;
+    use crate::experiment::Config;
     use crate::plan::Plan;
 
     const THREE: &str =

@@ -36,7 +36,7 @@
 //! | 1 | [`ledger`]: which trials have been counted |
 //! | 2 | [`signal`]: sensor, noise, impulses, motion, rides · [`whiten`]: filters · [`detect`]: W, T, their laws, regions |
 //! | 3 | [`chain`]: one trial, every stage · [`monitor`]: one lift, sample by sample |
-//! | 4 | [`config`]: what the author wrote · [`ensemble`]: blocks of trials in parallel · [`detection`]: what a monitor finds in a recording |
+//! | 4 | [`config`]: what the author wrote · [`schedule`]: blocks of trials in parallel · [`detection`]: what a monitor finds in a recording |
 //! | 5 | [`plan`]: what it comes to |
 //! | 6 | [`pilot`]: decisions that no law gives · [`run`]: counts · [`gate`]: the false-alarm test · [`results`]: files |
 //! | 7 | [`exhibit`]: experiments that are no sweep · [`claim`]: verdicts |
@@ -73,20 +73,18 @@
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
-pub mod campaign;
 pub mod chain;
 pub mod claim;
 pub mod config;
+pub mod counts;
 pub mod detect;
 pub mod detection;
-pub mod ensemble;
-pub mod exhibit;
+pub mod experiment;
 pub mod fields;
 pub mod figure;
 pub mod files;
 pub mod format;
 pub mod gate;
-pub mod ledger;
 pub mod monitor;
 pub mod pilot;
 pub mod plan;
@@ -97,9 +95,11 @@ pub mod rng;
 pub mod rule;
 pub mod run;
 pub mod scenario;
+pub mod schedule;
 pub mod signal;
 pub mod simd;
 pub mod stats;
+pub mod study;
 pub mod suggest;
 pub mod values;
 pub mod whiten;

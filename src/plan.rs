@@ -2,9 +2,9 @@
 //! noise. Whatever can go wrong goes wrong here, before the first trial.
 
 use crate::chain::{Detector, Purpose, Scenario};
-use crate::config::{AxisValue, Config, ConfigError, Problem};
+use crate::experiment::{AxisValue, Config, ConfigError, Problem};
 use crate::detect::{Alternative, Method, NullLaws, Region, Rule, Samples};
-use crate::ensemble::Ensemble;
+use crate::schedule::Schedule;
 use std::sync::Arc;
 
 /// Every point of an experiment, ready to run.
@@ -19,7 +19,7 @@ pub struct Plan {
     /// Trials of each pilot run.
     pub pilot: u64,
     /// The points again, arranged by the noise they share.
-    pub ensemble: Ensemble,
+    pub schedule: Schedule,
 }
 
 /// One point of one curve under one hypothesis.
@@ -90,16 +90,16 @@ impl Plan {
     /// The same with some of its points alone.
     pub fn subset(&self, points: &[usize]) -> Self {
         let points: Vec<Point> = points.iter().map(|&at| self.points[at].clone()).collect();
-        let ensemble = Ensemble::new(
+        let schedule = Schedule::new(
             points.iter().map(|point| &point.scenario),
-            self.ensemble.trials,
+            self.schedule.trials,
             self.seed,
             Purpose::Results,
             self.common_random_numbers,
         );
         Self {
             points,
-            ensemble: ensemble.expect("the records fitted in memory with more points"),
+            schedule: schedule.expect("the records fitted in memory with more points"),
             ..*self
         }
     }
@@ -107,7 +107,7 @@ impl Plan {
     /// Of every point the family it belongs to: points of one family share their noise.
     pub fn families(&self) -> Vec<usize> {
         let mut family_of = vec![0; self.points.len()];
-        for (index, family) in self.ensemble.families.iter().enumerate() {
+        for (index, family) in self.schedule.families.iter().enumerate() {
             family.places().for_each(|place| family_of[place] = index);
         }
         family_of
@@ -142,7 +142,7 @@ impl Plan {
                 }
             }
         }
-        let ensemble = Ensemble::new(
+        let schedule = Schedule::new(
             points.iter().map(|point| &point.scenario),
             config.trials,
             config.seed,
@@ -158,7 +158,7 @@ impl Plan {
             seed: config.seed,
             common_random_numbers: config.common_random_numbers,
             pilot: config.pilot,
-            ensemble,
+            schedule,
         })
     }
 }

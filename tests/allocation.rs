@@ -2,7 +2,7 @@
 //! holds as much memory after a day as after a minute.
 
 use liftsim::chain::{Observation, Trial};
-use liftsim::config::Config;
+use liftsim::experiment::Config;
 use liftsim::monitor::{Knowledge, Monitor, Settings};
 use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
@@ -87,7 +87,7 @@ fn trials_do_not_allocate() {
     let plan = Plan::new(&config).unwrap();
     let mut counts = vec![0; plan.points.len()];
     let decisions = Pilots::new(&plan).unwrap().decide(|_| {}).unwrap();
-    for family in &plan.ensemble.families {
+    for family in &plan.schedule.families {
         let mut allocations_of = |trials| {
             let before = allocations();
             let mut trial = Trial::new(family);

@@ -1,7 +1,7 @@
 //! Statistical tests of whole runs. Seeds are fixed; every test states its false-failure rate.
 
 use liftsim::chain::{Decision, Observation, Trial};
-use liftsim::config::Config;
+use liftsim::experiment::Config;
 use liftsim::detect::{NullLaw, Samples};
 use liftsim::pilot::Pilots;
 use liftsim::plan::{Design, Hypothesis, Plan};
@@ -298,7 +298,7 @@ fn discordant_trials_are_those_on_which_two_points_differ() {
         .collect();
     let outcome = run::run(&plan, &decisions, &pairs, |_| {});
     let mut decided = vec![vec![false; 3000]; places];
-    for family in &plan.ensemble.families {
+    for family in &plan.schedule.families {
         let mut trial = Trial::new(family);
         for index in 0..3000 {
             trial.run(index, &mut |place: usize, observation: &mut Observation| {

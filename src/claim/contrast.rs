@@ -2,7 +2,7 @@
 
 use super::words::{at, compared, curve as named, interval, ranges};
 use super::{ClaimError, Judgement, Verdict};
-use crate::config::{Axis, Claim, Contrast, Contrasts};
+use crate::experiment::{Axis, Claim, Contrast, Contrasts};
 use crate::results::Comparison;
 
 /// What is sure of a difference.

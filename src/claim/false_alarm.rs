@@ -3,7 +3,7 @@
 use super::place::placed;
 use super::words::{at, count, curve as named, exact, interval, ranges};
 use super::{ClaimError, Evidence, Judgement, Verdict};
-use crate::config::{Axis, Claim};
+use crate::experiment::{Axis, Claim};
 use crate::results::Row;
 use crate::stats::tally::holm;
 

@@ -14,7 +14,7 @@
 use super::place::placed;
 use super::words::{curve as named, decimals, exact, fixed};
 use super::{ClaimError, Evidence, Judgement, Verdict};
-use crate::config::{Claim, Test};
+use crate::experiment::{Claim, Test};
 use crate::results::{Quantity, Row, eight_digits};
 
 pub(super) fn judge(

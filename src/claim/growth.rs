@@ -2,7 +2,7 @@
 
 use super::words::{at, compared, curve as named, interval, range};
 use super::{ClaimError, Judgement, Verdict};
-use crate::config::{Axis, Claim};
+use crate::experiment::{Axis, Claim};
 use crate::results::Comparison;
 
 /// One curve's comparisons.

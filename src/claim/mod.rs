@@ -43,7 +43,7 @@ pub use pairs::{Pair, comparisons, confidence, pairs};
 pub use place::placed;
 pub use quantity::named_quantity;
 
-use crate::config::{Axis, Claim, Test};
+use crate::experiment::{Axis, Claim, Test};
 use crate::results::{Comparison, Quantity, Row};
 use contrast::Compared;
 

@@ -1,7 +1,7 @@
 //! The pairs of points that claims compare.
 
 use super::place::point_at;
-use crate::config::{Claim, Config, Contrast, Test};
+use crate::experiment::{Claim, Config, Contrast, Test};
 use crate::plan::Point;
 use crate::results::{Comparison, Place};
 use crate::stats::tally::Tally;

@@ -1,6 +1,6 @@
 //! Where points and rows stand on the axis.
 
-use crate::config::{Axis, Config, Parameter};
+use crate::experiment::{Axis, Config, Parameter};
 use crate::plan::{Hypothesis, Point};
 use crate::results::Row;
 
@@ -55,7 +55,7 @@ pub fn placed<'a>(
 
 /// The value of the axis at a row, as an axis prints it.
 fn column(row: &Row, parameter: Parameter) -> String {
-    match (parameter, row.on_axis(parameter)) {
+    match (parameter, row.on_axis(parameter.name())) {
         (Parameter::Rule, _) => row.rule_name().to_owned(),
         (_, Some(number)) => number.to_string(),
         (_, None) => "none".to_owned(),

@@ -2,7 +2,7 @@
 
 use super::gain::{first_after, first_reach, last_before};
 use super::*;
-use crate::config::Config;
+use crate::experiment::Config;
 use crate::plan::Plan;
 use crate::results::Place;
 use crate::stats::tally::Tally;

@@ -1,6 +1,6 @@
 //! Numbers and places in words.
 
-use crate::config::{Axis, Parameter};
+use crate::experiment::{Axis, Parameter};
 use crate::format::{minus, thousands};
 use crate::results::Comparison;
 

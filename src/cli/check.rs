@@ -5,7 +5,7 @@ use super::{Failure, Outcome, Simulation, print, table};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::chain::Decision;
-use liftsim::config::{Config, Parameter};
+use liftsim::experiment::{Config, Parameter};
 use liftsim::gate::{self, EXCESS, FAMILY_LEVEL, Finding, Verdict};
 use liftsim::plan::{Plan, Point};
 use liftsim::results::Row;
@@ -124,7 +124,7 @@ fn p_value(p: f64) -> String {
 fn scenario(config: &Config, row: &Row) -> String {
     use Parameter as P;
     let parameter = config.axis.parameter;
-    match (parameter, row.on_axis(parameter)) {
+    match (parameter, row.on_axis(parameter.name())) {
         (P::Alpha | P::Delta | P::Duration | P::Offset | P::Nu | P::Theta, _) | (_, None) => {
             row.label.clone()
         }

@@ -1,15 +1,15 @@
 //! `liftsim figures`: every config's results, and the report on all of them.
 
 use super::progress::{self, Progress, Reporter};
-use super::{Failure, Outcome, exhibit, print, say, store, sweep, table};
+use super::{Failure, Outcome, print, say, store, sweep, table};
 use anyhow::anyhow;
 use clap::Args;
-use liftsim::campaign::{Campaign, Terms};
-use liftsim::config::{Config, ExhibitConfig, Experiment};
-use liftsim::plan::Plan;
-use liftsim::report::{self, Section};
-use liftsim::results::{Directory, Lock, Manifest, Origin};
+use liftsim::config;
+use liftsim::report;
+use liftsim::results::Directory;
+use liftsim::run::{Experiment, Overwrite, Session};
 use liftsim::stats::tally::MOST_TRIALS;
+use liftsim::study::Loaded;
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -46,14 +46,8 @@ pub struct Figures {
 /// An experiment and where its results go.
 struct Entry {
     name: String,
-    experiment: Experiment,
+    study: Loaded,
     directory: Directory,
-}
-
-/// An experiment that must be written, ready to run.
-enum Task<'a> {
-    Sweep(&'a Config, Box<Campaign>),
-    Exhibit(&'a ExhibitConfig, Lock),
 }
 
 impl Figures {
@@ -66,12 +60,12 @@ impl Figures {
             .map(|(name, path)| self.entry(name, path))
             .collect::<Result<Vec<_>, _>>()?;
         // Everything that can be refused is refused before anything takes long.
-        let tasks = chosen.iter().map(|entry| self.task(entry));
-        let tasks = tasks.collect::<Result<Vec<_>, _>>()?;
-        let work = tasks.iter().flatten().count();
+        let sessions = chosen.iter().map(|entry| self.session(entry));
+        let sessions = sessions.collect::<Result<Vec<_>, _>>()?;
+        let work = sessions.iter().flatten().count();
         let (mut lines, mut done) = (Vec::new(), 0);
-        for (entry, task) in chosen.iter().zip(tasks) {
-            let Some(task) = task else {
+        for (entry, session) in chosen.iter().zip(sessions) {
+            let Some(session) = session else {
                 lines.push(vec![entry.name.clone(), "skipped".into(), "0.0".into()]);
                 continue;
             };
@@ -79,7 +73,7 @@ impl Figures {
             let start = Instant::now();
             let prefix = format!("{} ({done} of {work})  ", entry.name);
             let reporter = Reporter::new(quiet, &self.progress, &prefix);
-            let note = task.run(&entry.directory, &reporter)?;
+            let note = work_off(&entry.study, session, &reporter)?;
             let seconds = format!("{:.1}", start.elapsed().as_secs_f64());
             lines.push(vec![entry.name.clone(), note.into(), seconds]);
         }
@@ -118,59 +112,42 @@ impl Figures {
     }
 
     fn entry(&self, name: &str, path: &Path) -> Result<Entry, Failure> {
-        let mut experiment = Experiment::load(path).map_err(Failure::input)?;
+        let mut config = config::Experiment::load(path).map_err(Failure::input)?;
         if let Some(trials) = self.trials {
-            experiment = experiment.with_trials(trials).map_err(Failure::input)?;
+            config = config.with_trials(trials).map_err(Failure::input)?;
         }
         Ok(Entry {
             name: name.to_owned(),
-            experiment,
+            study: Loaded::new(&config).map_err(Failure::input)?,
             directory: Directory::new(self.results.join(name)),
         })
     }
 
     /// What there is to do; nothing where the results are complete.
-    fn task<'a>(&self, entry: &'a Entry) -> Result<Option<Task<'a>>, Failure> {
-        if !self.fresh && entry.complete().is_some() {
+    fn session<'a>(&self, entry: &'a Entry) -> Result<Option<Session<'a>>, Failure> {
+        if !self.fresh && entry.is_complete() {
             return Ok(None);
         }
-        if !self.fresh {
+        let overwrite = if self.fresh {
+            Overwrite::Fresh
+        } else {
             self.check_trials(entry)?;
-        }
-        let directory = &entry.directory;
-        match &entry.experiment {
-            Experiment::Sweep(config) => {
-                let plan = Plan::new(config).map_err(Failure::input)?;
-                sweep::rehearse(config, &plan)?;
-                let terms = match self.fresh {
-                    true => Terms::Fresh,
-                    false => Terms::Adopt,
-                };
-                let campaign = Campaign::open(config, plan, directory.clone(), None, terms);
-                let campaign = campaign.map_err(Failure::input)?;
-                Ok(Some(Task::Sweep(config, Box::new(campaign))))
-            }
-            Experiment::Exhibit(config) => {
-                let lock = directory.lock().map_err(Failure::input)?;
-                directory.check_writable().map_err(Failure::input)?;
-                if !self.fresh {
-                    directory.admit_any().map_err(Failure::input)?;
-                }
-                exhibit::rehearse(config)?;
-                Ok(Some(Task::Exhibit(config, lock)))
-            }
-        }
+            Overwrite::Adopt
+        };
+        entry.study.check().map_err(Failure::study)?;
+        let session = Session::open(&entry.study, entry.directory.clone(), None, overwrite);
+        session.map(Some).map_err(Failure::input)
     }
 
     /// A quick look, or a config cut short, must not cost a long run.
     fn check_trials(&self, entry: &Entry) -> Result<(), Failure> {
-        let asked = entry.origin().trials;
+        let asked = entry.study.origin().trials;
         match entry.directory.manifest() {
-            Ok(held) if held.trials > asked => Err(Failure::Input(anyhow!(
+            Ok(held) if held.origin.trials > asked => Err(Failure::Input(anyhow!(
                 "{}: holds {} trials per point, more than the {asked} asked for \
                  (give another --results, or --fresh to replace them)",
                 entry.directory.path().display(),
-                held.trials,
+                held.origin.trials,
             ))),
             _ => Ok(()),
         }
@@ -182,7 +159,7 @@ impl Figures {
         let mut missing: Vec<&str> = Vec::new();
         for (name, path) in others {
             match self.entry(name, path) {
-                Ok(entry) if entry.complete().is_some() => entries.push(entry),
+                Ok(entry) if entry.is_complete() => entries.push(entry),
                 _ => missing.push(name),
             }
         }
@@ -196,8 +173,11 @@ impl Figures {
             ));
             return Ok(());
         }
-        let sections = entries.iter().map(Entry::section);
-        let sections = sections.collect::<Result<_, _>>()?;
+        let sections = entries.iter();
+        let sections = sections
+            .map(|entry| entry.study.report(&entry.name, &entry.directory))
+            .collect::<Result<_, _>>()
+            .map_err(Failure::run)?;
         let configs = self.way_to_configs().map_err(Failure::run)?;
         // A config directory may say what the report is about.
         let preface = fs::read_to_string(self.configs.join("preface.md")).unwrap_or_default();
@@ -236,69 +216,24 @@ fn in_short(names: &[&str]) -> String {
 }
 
 impl Entry {
-    fn origin(&self) -> Origin {
-        match &self.experiment {
-            Experiment::Sweep(config) => Origin::from(&**config),
-            Experiment::Exhibit(config) => Origin::from(&**config),
-        }
-    }
-
-    /// What made the results here, if they are those of this config, whole.
-    fn complete(&self) -> Option<Manifest> {
-        let manifest = self.directory.manifest().ok()?;
-        let is_complete = self.origin().made(&manifest)
-            && self.directory.is_intact(&manifest)
-            && !self.directory.has_counts();
-        is_complete.then_some(manifest)
-    }
-
-    /// For the report, from the files.
-    fn section(&self) -> Result<Section, Failure> {
-        let directory = &self.directory;
-        let manifest = directory.manifest().map_err(Failure::run)?;
-        let (question, narrative, axis, rows) = match &self.experiment {
-            Experiment::Sweep(config) => {
-                let rows = directory.rows(&manifest).map_err(Failure::run)?;
-                let axis = Some(config.axis.clone());
-                (&config.question, &config.narrative, axis, rows)
-            }
-            Experiment::Exhibit(config) => (&config.question, &config.narrative, None, Vec::new()),
-        };
-        Ok(Section {
-            name: self.name.clone(),
-            config: manifest.config_name.clone(),
-            question: question.clone(),
-            narrative: narrative.clone(),
-            axis,
-            trials: manifest.trials,
-            rows,
-            comparisons: directory.comparisons(&manifest).map_err(Failure::run)?,
-            quantities: directory.quantities(&manifest).map_err(Failure::run)?,
-        })
+    /// Whether the results here are those of this config, whole.
+    fn is_complete(&self) -> bool {
+        self.directory.complete(self.study.origin()).is_some()
     }
 }
 
-impl Task<'_> {
-    /// Simulates what is missing, and writes.
-    fn run(self, directory: &Directory, reporter: &Reporter) -> Result<&'static str, Failure> {
-        let (config, mut campaign) = match self {
-            Self::Sweep(config, campaign) => (config, *campaign),
-            Self::Exhibit(config, _lock) => {
-                let (made, seconds) = exhibit::compute(config)?;
-                return Ok(exhibit::write(directory, config, &made, seconds)?.note());
-            }
-        };
-        progress::work_off(&mut campaign, reporter)?;
-        let held = campaign.made_by().cloned();
-        let is_redrawn = held.is_some();
-        // Until the last file vouches for the others, the counts are what a run goes on from.
-        campaign.save().map_err(Failure::run)?;
-        let (counts, _lock) = campaign.counts();
-        let written = sweep::write(directory, config, &counts, held)?;
-        Ok(if is_redrawn {
-            "redrawn"
-        } else {
-            written.note()
-        })
-    }
+/// Simulates what is missing, and writes.
+fn work_off(
+    study: &Loaded,
+    mut session: Session,
+    reporter: &Reporter,
+) -> Result<&'static str, Failure> {
+    progress::work_off(&mut session, reporter)?;
+    let is_redrawn = session.made_by().is_some();
+    let (_, written) = sweep::write(study, session)?;
+    Ok(if is_redrawn {
+        "redrawn"
+    } else {
+        written.note()
+    })
 }

@@ -2,8 +2,9 @@
 
 use super::{Failure, Outcome, print, sweep};
 use clap::Args;
-use liftsim::campaign::{self, MergeError, Missing};
 use liftsim::results::{Directory, Shard};
+use liftsim::run::{self, Absent, MergeError};
+use liftsim::study::Loaded;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -27,17 +28,19 @@ impl Merge {
     pub fn run(self) -> Outcome {
         let directories: Vec<Directory> =
             self.directories.into_iter().map(Directory::new).collect();
-        let joined = campaign::join(&directories).map_err(Failure::input)?;
-        let name = Path::new(&joined.state.origin.config_name);
+        let joined = run::join(&directories).map_err(Failure::input)?;
+        let origin = joined.state.origin.clone();
+        let name = Path::new(&origin.config_name);
         let out = self.out.unwrap_or_else(|| sweep::default_directory(name));
-        let missing = joined.missing.clone();
-        let command = joined.state.origin.command_line();
-        let (config, campaign) = joined.settle(Directory::new(&out)).map_err(failure)?;
-        if campaign.rest().is_none() {
-            print(&sweep::finish(&config, campaign, None)?)?;
+        let study = Loaded::again(&origin).map_err(Failure::input)?;
+        let absent = joined.absent.clone();
+        let settled = joined.settle(&study, Directory::new(&out));
+        let session = settled.map_err(failure)?;
+        if session.missing().is_none() {
+            print(&sweep::finish(&study, session, None)?)?;
             return Ok(ExitCode::SUCCESS);
         }
-        print(&incomplete(&missing, &command, &out))?;
+        print(&incomplete(&absent, &origin.command_line(), &out))?;
         Ok(ExitCode::SUCCESS)
     }
 }
@@ -50,14 +53,14 @@ fn failure(error: MergeError) -> Failure {
 }
 
 /// What is missing, in words.
-fn incomplete(missing: &Missing, command: &str, out: &Path) -> String {
+fn incomplete(absent: &Absent, command: &str, out: &Path) -> String {
     let mut text = String::from("incomplete:\n");
-    if !missing.absent.is_empty() {
-        let shards = missing.absent.iter().map(Shard::to_string);
+    if !absent.shards.is_empty() {
+        let shards = absent.shards.iter().map(Shard::to_string);
         let shards = shards.collect::<Vec<_>>().join(", ");
         text += &format!("  no directory of shard {shards}\n");
     }
-    for (directory, trials) in &missing.unfinished {
+    for (directory, trials) in &absent.unfinished {
         let directory = directory.display();
         text += &format!("  {directory}: {trials} trials of each point are missing\n");
     }

@@ -4,7 +4,6 @@
 mod check;
 mod completions;
 mod detect;
-mod exhibit;
 mod figures;
 mod found;
 mod keys;
@@ -29,10 +28,12 @@ mod threshold;
 use anyhow::Context;
 use clap::error::{ContextKind, ContextValue};
 use clap::{Args, Parser, Subcommand};
-use liftsim::config::{Config, ConfigError, ExhibitConfig, MOST_PILOT_TRIALS};
+use liftsim::experiment::{Config, ConfigError, Experiment, MOST_PILOT_TRIALS};
 use liftsim::format::shorten;
 use liftsim::plan::Plan;
+use liftsim::run::StudyError;
 use liftsim::stats::tally::MOST_TRIALS;
+use liftsim::study::Loaded;
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -96,6 +97,10 @@ type Outcome = Result<ExitCode, Failure>;
 impl Failure {
     fn input(error: impl Into<anyhow::Error>) -> Self {
         Self::Input(error.into())
+    }
+
+    fn study(error: StudyError) -> Self {
+        Self::Input(anyhow::anyhow!(error))
     }
 
     fn run(error: impl Into<anyhow::Error>) -> Self {
@@ -177,36 +182,37 @@ struct Simulation {
 }
 
 impl Simulation {
-    /// Reads the config, puts the command line in its place, and plans it.
+    /// Reads the config of a sweep, puts the command line in its place, and plans it.
     fn prepare(
         &self,
         plan: impl Fn(&Config) -> Result<Plan, ConfigError>,
     ) -> Result<(Config, Plan), Failure> {
-        self.plan(Config::load(&self.config).map_err(Failure::input)?, plan)
-    }
-
-    /// The same for a config that has been read.
-    fn plan(
-        &self,
-        mut config: Config,
-        plan: impl Fn(&Config) -> Result<Plan, ConfigError>,
-    ) -> Result<(Config, Plan), Failure> {
-        config.trials = self.trials.unwrap_or(config.trials);
-        config.seed = self.seed.unwrap_or(config.seed);
-        config.pilot = self.pilot.unwrap_or(config.pilot);
+        let mut config = Config::load(&self.config).map_err(Failure::input)?;
+        self.lay_over(&mut config);
         let plan = plan(&config).map_err(Failure::input)?;
         self.start_threads()?;
         Ok((config, plan))
     }
 
-    /// The same for a config that sweeps nothing.
-    fn exhibit(&self, mut config: ExhibitConfig) -> Result<ExhibitConfig, Failure> {
-        config.seed = self.seed.unwrap_or(config.seed);
+    /// The same for any config.
+    fn study(&self) -> Result<Loaded, Failure> {
+        let mut config = Experiment::load(&self.config).map_err(Failure::input)?;
         if let Some(trials) = self.trials {
             config = config.with_trials(trials).map_err(Failure::input)?;
         }
+        match &mut config {
+            Experiment::Sweep(config) => self.lay_over(config),
+            Experiment::Exhibit(config) => config.seed = self.seed.unwrap_or(config.seed),
+        }
+        let study = Loaded::new(&config).map_err(Failure::input)?;
         self.start_threads()?;
-        Ok(config)
+        Ok(study)
+    }
+
+    fn lay_over(&self, config: &mut Config) {
+        config.trials = self.trials.unwrap_or(config.trials);
+        config.seed = self.seed.unwrap_or(config.seed);
+        config.pilot = self.pilot.unwrap_or(config.pilot);
     }
 
     fn start_threads(&self) -> Result<(), Failure> {

@@ -3,7 +3,7 @@
 use super::Failure;
 use anyhow::anyhow;
 use clap::Args;
-use liftsim::config::MonitorOptions;
+use liftsim::experiment::MonitorOptions;
 use liftsim::monitor::{MOST_ORDER, STRONGEST, SavedState};
 use serde::Serialize;
 use liftsim::whiten::Order;

@@ -1,7 +1,7 @@
 //! Pictures of results: what a config and its rows say to the plots.
 
 use super::Failure;
-use liftsim::config::{Config, ExhibitConfig, ExhibitKind};
+use liftsim::experiment::{Config, ExhibitConfig, ExhibitKind};
 use liftsim::detect::NullLaws;
 use liftsim::exhibit::Rows;
 use liftsim::figure::autocorrelation::Records;
@@ -14,7 +14,7 @@ use liftsim::results::{Manifest, Row};
 /// Draws a sweep: power, or false-alarm rate where nothing moves, against the axis.
 pub fn sweep(config: &Config, rows: &[Row], manifest: &Manifest) -> Result<Drawing, Failure> {
     let values = &config.axis.values;
-    let curve = |(index, curve): (usize, &liftsim::config::Curve)| {
+    let curve = |(index, curve): (usize, &liftsim::experiment::Curve)| {
         let scenario = values
             .first()
             .and_then(|value| config.scenario(index, value).ok());

@@ -2,15 +2,12 @@
 
 use super::{Failure, Outcome, Simulation, print};
 use clap::Args;
-use liftsim::chain::Family;
-use liftsim::ensemble::BLOCK;
-use liftsim::pilot::Pilots;
-use liftsim::plan::{Hypothesis, Plan};
-use liftsim::run;
+use liftsim::run::{Estimate, Experiment};
 use liftsim::stats::tally::Tally;
+use liftsim::study::Loaded;
 use serde_json::json;
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Say what a sweep would do: points, trials, expected time, half-width. Writes nothing.
 #[derive(Debug, Args)]
@@ -25,79 +22,79 @@ pub struct PlanCommand {
 impl PlanCommand {
     /// Runs the command.
     pub fn run(self) -> Outcome {
-        let (config, plan) = self.simulation.prepare(Plan::new)?;
-        let trials = plan.ensemble.trials;
-        let at_rest = plan
-            .points
-            .iter()
-            .filter(|p| p.hypothesis == Hypothesis::H0)
-            .count();
-        let pilots = Pilots::new(&plan).map_err(Failure::input)?;
-        let tally = |hits| Tally { hits, trials };
-        let half_width = |hits| {
-            let (low, high) = tally(hits).interval(config.confidence);
-            (high - low) / 2.0
-        };
-        let time = expected_time(&plan, &pilots);
-        let families = plan.ensemble.families.iter();
-        let threads = rayon::current_num_threads();
-        let megabytes = 1e3 * threads as f64 * families.map(Family::gigabytes).fold(0.0, f64::max);
-        if self.json {
-            let facts = json!({
-                "question": config.question, "points": plan.points.len(), "at_rest": at_rest,
-                "trials": trials, "work": plan.ensemble.work(), "pilots": pilots.work(),
-                "families": plan.ensemble.families.len(),
-                "half_width": half_width(trials / 2), "confidence": config.confidence,
-                "seconds": time.as_secs_f64(), "threads": threads, "megabytes": megabytes,
-            });
-            print(&format!("{facts}\n"))?;
+        let study = self.simulation.study()?;
+        study.check().map_err(Failure::study)?;
+        let trials = study.origin().trials;
+        let Some(mut counted) = study.trials() else {
+            let (name, rows) = (study.name(), "computed, not counted: a moment");
+            let facts = json!({ "question": study.question(), "study": name });
+            print(&if self.json {
+                format!("{facts}\n")
+            } else {
+                format!("{}\n\n[{name}]  {rows}\n", study.question())
+            })?;
             return Ok(ExitCode::SUCCESS);
-        }
-        print(&format!(
-            "{}\n\n\
-             points       {} in motion, {at_rest} at rest, of {} curves\n\
-             trials       {trials} per point, {} trial-points in all\n\
-             noise        {} independent sets of realisations\n\
-             {}half-width   {:.5} at a rate of 1/2, {:.5} at 0.01, of the {} % interval\n\
-             memory       {megabytes:.1} MB for trials, beside what the program and its figure take\n\
-             time         about {} on {threads} threads\n",
-            config.question,
-            plan.points.len() - at_rest,
-            config.curves.len(),
-            plan.ensemble.work(),
-            plan.ensemble.families.len(),
-            match pilots.work() {
-                0 => String::new(),
-                work => format!("pilots       {work} trial-points more\n"),
-            },
-            half_width(trials / 2),
-            half_width(trials / 100),
-            config.confidence * 100.0,
-            in_words(time),
-        ))?;
+        };
+        let points = counted.points();
+        let estimate = Estimate::new(&mut *counted, trials).map_err(Failure::study)?;
+        let text = if self.json {
+            facts(&study, points, trials, &estimate)
+        } else {
+            words(&study, trials, &estimate)
+        };
+        print(&text)?;
         Ok(ExitCode::SUCCESS)
     }
 }
 
-/// Scales up the time of a short run of the same points, long enough to be measured; its counts are
-/// thrown away.
-fn expected_time(plan: &Plan, pilots: &Pilots) -> Duration {
-    const LONG_ENOUGH: Duration = Duration::from_millis(300);
-    let decisions = pilots.stand_ins();
-    let mut short = plan.clone();
-    let wanted = plan.ensemble.trials;
-    short.ensemble.trials = wanted.min(BLOCK * rayon::current_num_threads() as u64);
-    // A trial-point of a pilot costs about as much as one of the run.
-    let work = (plan.ensemble.work() + pilots.work()) as f64;
-    loop {
-        let start = Instant::now();
-        run::run(&short, &decisions, &[], |_| {});
-        let time = start.elapsed();
-        if time >= LONG_ENOUGH || short.ensemble.trials == wanted {
-            return time.mul_f64(work / short.ensemble.work() as f64);
-        }
-        short.ensemble.trials = wanted.min(4 * short.ensemble.trials);
-    }
+/// Of the interval of a rate.
+fn half_width(hits: u64, trials: u64, confidence: f64) -> f64 {
+    let (low, high) = Tally { hits, trials }.interval(confidence);
+    (high - low) / 2.0
+}
+
+/// On all threads.
+fn megabytes(estimate: &Estimate) -> f64 {
+    1e3 * rayon::current_num_threads() as f64 * estimate.gigabytes
+}
+
+fn facts(study: &Loaded, points: usize, trials: u64, estimate: &Estimate) -> String {
+    let facts = json!({
+        "question": study.question(), "study": study.name(), "points": points,
+        "trials": trials, "work": estimate.work,
+        "pilots": estimate.pilots, "families": estimate.groups,
+        "half_width": half_width(trials / 2, trials, study.confidence()),
+        "confidence": study.confidence(), "seconds": estimate.time.as_secs_f64(),
+        "threads": rayon::current_num_threads(), "megabytes": megabytes(estimate),
+    });
+    format!("{facts}\n")
+}
+
+fn words(study: &Loaded, trials: u64, estimate: &Estimate) -> String {
+    let pilots = match estimate.pilots {
+        0 => String::new(),
+        work => format!("pilots       {work} trial-points more\n"),
+    };
+    let half_width = |hits| half_width(hits, trials, study.confidence());
+    format!(
+        "{}\n\n\
+         points       {}\n\
+         trials       {trials} per point, {} trial-points in all\n\
+         noise        {} independent sets of realisations\n\
+         {pilots}half-width   {:.5} at a rate of 1/2, {:.5} at 0.01, of the {} % interval\n\
+         memory       {:.1} MB for trials, beside what the program and its figure take\n\
+         time         about {} on {} threads\n",
+        study.question(),
+        study.points(),
+        estimate.work,
+        estimate.groups,
+        half_width(trials / 2),
+        half_width(trials / 100),
+        study.confidence() * 100.0,
+        megabytes(estimate),
+        in_words(estimate.time),
+        rayon::current_num_threads(),
+    )
 }
 
 fn in_words(time: Duration) -> String {

@@ -1,10 +1,10 @@
 //! `liftsim plot DIR`: draws the figure again from the stored rows.
 
 use super::store::{line, store};
-use super::{Failure, Outcome, exhibit, picture, print};
+use super::{Failure, Outcome, print};
 use clap::Args;
-use liftsim::config::Experiment;
 use liftsim::results::Directory;
+use liftsim::study::{DrawError, Loaded};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -22,15 +22,14 @@ impl Plot {
         directory.manifest().map_err(Failure::input)?;
         let _lock = directory.lock().map_err(Failure::input)?;
         let mut manifest = directory.manifest().map_err(Failure::input)?;
-        let experiment =
-            Experiment::parse(&manifest.config_name, &manifest.config).map_err(Failure::input)?;
-        let drawing = match experiment {
-            Experiment::Sweep(config) => {
-                let rows = directory.rows(&manifest).map_err(Failure::input)?;
-                picture::sweep(&config, &rows, &manifest)?
-            }
-            Experiment::Exhibit(config) => exhibit::redraw(&config, &directory, &manifest)?,
-        };
+        let study = Loaded::again(&manifest.origin).map_err(Failure::input)?;
+        let points = directory.points(&manifest).map_err(Failure::input)?;
+        let drawing = study
+            .draw(&points, &manifest)
+            .map_err(|error| match error {
+                DrawError::Rows(error) => Failure::input(directory.damaged_points(error)),
+                DrawError::Figure(error) => Failure::run(error),
+            })?;
         for (name, bytes) in drawing.files() {
             let is_new = store(&directory, &mut manifest, name, bytes)?;
             print(&line(&directory, name, is_new))?;

@@ -5,15 +5,14 @@ use super::signals::Signals;
 use super::{Failure, say};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
-use liftsim::campaign::{Campaign, Witness};
 use liftsim::chain::Decision;
 use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
-use liftsim::run::{self, Outcome};
+use liftsim::run::{self, Outcome, Progress as _, Session};
 use serde_json::json;
 use std::fmt::Write;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, RwLock};
 use std::time::{Duration, Instant};
 
 /// How progress is shown.
@@ -110,33 +109,37 @@ impl Stage<'_> {
 /// Between two saves, in seconds; tests have less patience.
 const SAVE_EVERY: (&str, f64) = ("LIFTSIM_SAVE_EVERY", 5.0);
 
-/// Runs what is missing of a campaign, saving as it goes.
-pub fn work_off(campaign: &mut Campaign, reporter: &Reporter) -> Result<(), Failure> {
-    let directory = campaign.directory().path().display().to_string();
-    let rest = campaign.rest();
-    let work = rest.as_ref().map_or(0, |rest| rest.work());
+/// Runs what is missing of a session, saving as it goes.
+pub fn work_off(session: &mut Session, reporter: &Reporter) -> Result<(), Failure> {
+    let directory = session.directory().path().display().to_string();
+    let mut missing = session.missing();
+    let mut work = missing.as_ref().map_or(0, |missing| session.work(missing));
     reporter.say(&json!({
-        "event": "started", "directory": directory, "points": campaign.plan().points.len(),
-        "trials": campaign.trials(), "total": work,
+        "event": "started", "directory": directory, "points": session.points(),
+        "trials": session.wanted(), "total": work,
     }));
-    if let Some(rest) = rest {
+    let mut all = 0;
+    while let Some(some) = missing {
         // On average over the points.
-        let missing = work.div_ceil(campaign.plan().points.len() as u64);
-        let pilots = Pilots::new(&rest.plan).map_err(Failure::input)?;
-        let decisions = pilot(&pilots, &rest.plan, reporter)?;
+        let trials = work.div_ceil(session.points() as u64);
+        let follower = Follower::new(reporter);
+        session.prepare(&some, &follower).map_err(Failure::study)?;
         let signals = Signals::watch().map_err(Failure::run)?;
         let follower = Follower {
-            stage: reporter.stage("points", work, missing),
-            signals: &signals,
+            signals: Some(&signals),
+            ..follower
         };
-        let counted = campaign.count(&rest, &decisions, period(), &follower);
-        follower.stage.finish();
-        let is_done = counted.map_err(Failure::run)?;
-        if !is_done {
+        follower.begin("points", work, trials);
+        let counted = session.count(&some, period(), &follower);
+        follower.end();
+        if !counted.map_err(Failure::run)? {
             return Err(signals.stopped(&directory));
         }
+        all += work;
+        missing = session.missing();
+        work = missing.as_ref().map_or(0, |missing| session.work(missing));
     }
-    reporter.say(&json!({ "event": "finished", "directory": directory, "total": work }));
+    reporter.say(&json!({ "event": "finished", "directory": directory, "total": all }));
     Ok(())
 }
 
@@ -147,40 +150,71 @@ fn period() -> Duration {
     Duration::from_secs_f64(seconds.unwrap_or(default))
 }
 
+/// Shows how a run gets on, and hears of signals.
 struct Follower<'a> {
-    stage: Stage<'a>,
-    signals: &'a Signals,
+    reporter: &'a Reporter,
+    stage: RwLock<Option<Stage<'a>>>,
+    signals: Option<&'a Signals>,
 }
 
-impl Witness for Follower<'_> {
-    fn counted(&self, work: u64) {
-        self.stage.inc(work);
+impl<'a> Follower<'a> {
+    fn new(reporter: &'a Reporter) -> Self {
+        Self {
+            reporter,
+            stage: RwLock::new(None),
+            signals: None,
+        }
+    }
+
+    fn with(&self, tell: impl FnOnce(&Stage)) {
+        if let Some(stage) = &*self.stage.read().expect(NO_PANIC) {
+            tell(stage);
+        }
+    }
+}
+
+const NO_PANIC: &str = "nobody panics with the lock";
+
+impl run::Progress for Follower<'_> {
+    fn begin(&self, stage: &'static str, work: u64, trials: u64) {
+        let stage = self.reporter.stage(stage, work, trials);
+        *self.stage.write().expect(NO_PANIC) = Some(stage);
+    }
+
+    fn done(&self, work: u64) {
+        self.with(|stage| stage.inc(work));
+    }
+
+    fn end(&self) {
+        self.with(|stage| stage.finish());
     }
 
     fn saved(&self) {
-        let done = self.stage.done.load(Ordering::Relaxed);
-        let saved = json!({ "event": "saved", "done": done, "total": self.stage.work });
-        self.stage.reporter.say(&saved);
+        self.with(|stage| {
+            let done = stage.done.load(Ordering::Relaxed);
+            let saved = json!({ "event": "saved", "done": done, "total": stage.work });
+            self.reporter.say(&saved);
+        });
     }
 
     fn is_stopped(&self) -> bool {
-        self.signals.came().is_some()
+        self.signals.is_some_and(|signals| signals.came().is_some())
     }
 }
 
 /// Runs the plan's pilots, then the plan itself, and saves nothing.
 pub fn simulate(plan: &Plan, reporter: &Reporter) -> Result<(Vec<Decision>, Outcome), Failure> {
-    let ensemble = &plan.ensemble;
+    let schedule = &plan.schedule;
     reporter.say(&json!({
-        "event": "started", "points": plan.points.len(), "trials": ensemble.trials,
-        "total": ensemble.work(),
+        "event": "started", "points": plan.points.len(), "trials": schedule.trials,
+        "total": schedule.work(),
     }));
     let pilots = Pilots::new(plan).map_err(Failure::input)?;
     let decisions = pilot(&pilots, plan, reporter)?;
-    let stage = reporter.stage("points", ensemble.work(), ensemble.trials);
+    let stage = reporter.stage("points", schedule.work(), schedule.trials);
     let outcome = run::run(plan, &decisions, &[], |work| stage.inc(work));
     stage.finish();
-    reporter.say(&json!({ "event": "finished", "total": ensemble.work() }));
+    reporter.say(&json!({ "event": "finished", "total": schedule.work() }));
     Ok((decisions, outcome))
 }
 

@@ -33,7 +33,7 @@ impl ReplayCommand {
     /// Runs the command.
     pub fn run(self) -> Outcome {
         let (_, plan) = self.simulation.prepare(Plan::new)?;
-        let (points, trials) = (plan.points.len(), plan.ensemble.trials);
+        let (points, trials) = (plan.points.len(), plan.schedule.trials);
         if self.point > points as u64 {
             return Err(Failure::Input(anyhow!(
                 "--point must lie in 1 to {points}, the rows of points.csv, got {}",

@@ -2,8 +2,8 @@
 
 use super::{Failure, Outcome, print, table};
 use clap::Args;
-use liftsim::campaign::Status;
 use liftsim::results::Directory;
+use liftsim::run::Status;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -79,7 +79,7 @@ fn row(directory: &Path, status: &Status) -> Vec<String> {
                 _ => *done as f64 / *wanted as f64 * 100.0,
             };
             [
-                points.to_string(),
+                points.map_or(String::new(), |points| points.to_string()),
                 done.to_string(),
                 wanted.to_string(),
                 format!("{percent:.1}"),

@@ -7,17 +7,10 @@ use std::collections::BTreeMap;
 /// How results came about that took `seconds`; no file is vouched for yet.
 pub fn manifest(origin: &Origin, seconds: f64) -> Manifest {
     Manifest {
-        config_name: origin.config_name.clone(),
-        config: origin.config.clone(),
+        origin: origin.clone(),
         config_sha256: results::sha256(origin.config.as_bytes()),
-        version: origin.version.clone(),
-        results: origin.results,
         revision: env!("LIFTSIM_REVISION").to_owned(),
         command: origin.command_line(),
-        seed: origin.seed,
-        trials: origin.trials,
-        pilot: origin.pilot,
-        common_random_numbers: origin.common_random_numbers,
         seconds,
         threads: rayon::current_num_threads(),
         architecture: architecture(),
@@ -31,36 +24,30 @@ pub struct Written {
     pub files: String,
     /// Whether a file other than the manifest has new bytes.
     pub is_new: bool,
+    /// Wall clock of the simulation.
+    pub seconds: f64,
 }
 
 impl Written {
+    /// Nothing yet.
+    pub fn new(seconds: f64) -> Self {
+        Self {
+            files: String::new(),
+            is_new: false,
+            seconds,
+        }
+    }
+
+    /// One more file.
+    pub fn add(&mut self, directory: &Directory, name: &str, is_new: bool) {
+        self.files += &line(directory, name, is_new);
+        self.is_new |= is_new;
+    }
+
     /// In a word.
     pub fn note(&self) -> &'static str {
         if self.is_new { "written" } else { "unchanged" }
     }
-}
-
-/// Writes files, then the manifest that vouches for them, and takes away what it does not vouch for.
-pub fn write_all(
-    directory: &Directory,
-    mut manifest: Manifest,
-    files: &[(&str, Vec<u8>)],
-) -> Result<Written, Failure> {
-    let mut written = Written {
-        files: String::new(),
-        is_new: false,
-    };
-    for (name, bytes) in files {
-        let is_new = store(directory, &mut manifest, name, bytes)?;
-        written.files += &line(directory, name, is_new);
-        written.is_new |= is_new;
-    }
-    directory
-        .write("run.json", &manifest.to_json())
-        .map_err(Failure::run)?;
-    directory.remove_stale(&manifest).map_err(Failure::run)?;
-    written.files += &line(directory, "run.json", true);
-    Ok(written)
 }
 
 /// Writes a file, lets the manifest vouch for it, and says whether it is new.

@@ -1,15 +1,12 @@
-//! `liftsim sweep CONFIG`: runs every point, or draws what is no sweep, and writes results and figure.
+//! `liftsim sweep CONFIG`: counts or computes what a config describes, and writes results and figure.
 
 use super::progress::{self, Progress, Reporter};
-use super::store::{Written, line, manifest, write_all};
-use super::{Failure, Outcome, Simulation, exhibit, picture, print};
+use super::store::{Written, line, manifest, store};
+use super::{Failure, Outcome, Simulation, print, table};
 use clap::Args;
-use liftsim::campaign::{Campaign, Counts, Terms};
-use liftsim::claim::{self, Evidence};
-use liftsim::config::{Config, Experiment};
-use liftsim::plan::Plan;
-use liftsim::report::Section;
-use liftsim::results::{self, Directory, Manifest, Origin, Quantity, Shard, file_name};
+use liftsim::results::{Directory, Manifest, Shard};
+use liftsim::run::{Experiment, Overwrite, Session};
+use liftsim::study::{Loaded, Output};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -44,33 +41,27 @@ pub struct Sweep {
 impl Sweep {
     /// Runs the command.
     pub fn run(self, quiet: bool) -> Outcome {
-        let path = &self.simulation.config;
+        let study = self.simulation.study()?;
+        if self.shard.is_some() && study.trials().is_none() {
+            return Err(Failure::Input(anyhow::anyhow!(
+                "{}: --shard: [{}] counts no trials that could be shared (run it whole)",
+                self.simulation.config.display(),
+                study.name()
+            )));
+        }
+        study.check().map_err(Failure::study)?;
         let out = self.out.clone();
         let directory = Directory::new(out.unwrap_or_else(|| self.default_directory()));
-        let config = match Experiment::load(path).map_err(Failure::input)? {
-            Experiment::Sweep(config) => *config,
-            Experiment::Exhibit(config) if self.shard.is_none() => {
-                let config = self.simulation.exhibit(*config)?;
-                return exhibit::run(&config, &directory, self.fresh);
-            }
-            Experiment::Exhibit(_) => {
-                return Err(Failure::Input(anyhow::anyhow!(
-                    "{}: --shard is for sweeps (run it whole)",
-                    path.display()
-                )));
-            }
+        let overwrite = if self.fresh {
+            Overwrite::Fresh
+        } else {
+            Overwrite::Continue
         };
-        let (config, plan) = self.simulation.plan(config, Plan::new)?;
-        rehearse(&config, &plan)?;
-        let terms = match self.fresh {
-            true => Terms::Fresh,
-            false => Terms::Continue,
-        };
-        let mut campaign =
-            Campaign::open(&config, plan, directory, self.shard, terms).map_err(Failure::input)?;
+        let mut session =
+            Session::open(&study, directory, self.shard, overwrite).map_err(Failure::input)?;
         let reporter = Reporter::new(quiet, &self.progress, "");
-        progress::work_off(&mut campaign, &reporter)?;
-        print(&finish(&config, campaign, self.shard)?)?;
+        progress::work_off(&mut session, &reporter)?;
+        print(&finish(&study, session, self.shard)?)?;
         Ok(ExitCode::SUCCESS)
     }
 
@@ -84,108 +75,89 @@ impl Sweep {
     }
 }
 
-/// Writes what a campaign came to, and says so. A shard has written all it has.
-pub(super) fn finish(
-    config: &Config,
-    campaign: Campaign,
-    shard: Option<Shard>,
-) -> Result<String, Failure> {
-    let (points, trials) = (campaign.plan().points.len(), campaign.trials());
-    let directory = campaign.directory().clone();
-    if let Some(shard) = shard {
-        // A share of no trials is one, too; and whoever joins it compares the words of the config.
-        let is_new = !directory.has_counts();
-        campaign.save().map_err(Failure::run)?;
-        let counts = line(&directory, "counts.json", is_new);
-        return Ok(format!(
-            "shard {shard}: {points} points of {trials} trials\n{counts}"
-        ));
-    }
-    let held = campaign.made_by().cloned();
-    if let Some(held) = &held
-        && Origin::from(config).made(held)
-        && directory.is_intact(held)
-    {
-        let place = directory.path().display();
-        return Ok(format!(
-            "{points} points of {trials} trials are complete in {place}: nothing to simulate\n"
-        ));
-    }
-    // Until the last file vouches for the others, the counts are what a run goes on from.
-    campaign.save().map_err(Failure::run)?;
-    let (counts, lock) = campaign.counts();
-    let seconds = counts.seconds;
-    let written = write(&directory, config, &counts, held)?;
-    drop(lock);
-    Ok(format!(
-        "{points} points of {trials} trials in {seconds:.1} s\n{}",
-        written.files
-    ))
-}
-
-/// Judges the claims and fills the text once on empty counts, so that what they name is known to be
-/// there before anything is simulated.
-pub(super) fn rehearse(config: &Config, plan: &Plan) -> Result<(), Failure> {
-    let empty = Counts::empty(config, plan);
-    let quantities = quantities(&empty, config)?;
-    let section = Section {
-        name: String::new(),
-        config: file_name(config.name()),
-        question: config.question.clone(),
-        narrative: config.narrative.clone(),
-        axis: Some(config.axis.clone()),
-        trials: 1,
-        comparisons: empty.comparisons(config),
-        rows: empty.rows,
-        quantities,
-    };
-    section.judge().map(drop).map_err(Failure::input)
-}
-
 /// results/<file stem>.
 pub(super) fn default_directory(config: &Path) -> PathBuf {
     Path::new("results").join(config.file_stem().unwrap_or(config.as_os_str()))
 }
 
-/// The numbers that claims of gains ask for.
-fn quantities(counts: &Counts, config: &Config) -> Result<Vec<Quantity>, Failure> {
-    let evidence = Evidence {
-        axis: Some(&config.axis),
-        rows: &counts.rows,
-        comparisons: &[],
-        quantities: &[],
+/// Writes what a run came to, and says so. A shard has written all it has.
+pub(super) fn finish(
+    study: &Loaded,
+    session: Session,
+    shard: Option<Shard>,
+) -> Result<String, Failure> {
+    let directory = session.directory().clone();
+    let what = match study.trials() {
+        Some(_) => format!("{} points of {} trials", session.points(), session.wanted()),
+        None => format!("[{}]", study.name()),
     };
-    claim::gains(&config.narrative.claims, &evidence).map_err(Failure::input)
+    if let Some(shard) = shard {
+        // A share of no trials is one, too; and whoever joins it compares the words of the config.
+        let is_new = !directory.has_counts();
+        session.save().map_err(Failure::run)?;
+        let counts = line(&directory, "counts.json", is_new);
+        return Ok(format!("shard {shard}: {what}\n{counts}"));
+    }
+    if session.is_complete() {
+        let place = directory.path().display();
+        return Ok(format!(
+            "{what} are complete in {place}: nothing to simulate\n"
+        ));
+    }
+    let (output, written) = write(study, session)?;
+    let findings = output.findings.map_or(String::new(), |(header, lines)| {
+        table(header, &lines) + "\n"
+    });
+    let seconds = written.seconds;
+    let files = written.files;
+    Ok(format!("{findings}{what} in {seconds:.1} s\n{files}"))
 }
 
-/// Writes counts, then pictures, then the manifest that vouches for both. Counts that are only written
-/// anew are as old as they were: `held` has made them.
-pub(super) fn write(
-    directory: &Directory,
-    config: &Config,
-    counts: &Counts,
-    held: Option<Manifest>,
-) -> Result<Written, Failure> {
-    let now = manifest(&Origin::from(config), counts.seconds);
-    let manifest = match held {
-        Some(held) => Manifest {
-            revision: held.revision,
-            threads: held.threads,
-            architecture: held.architecture,
+/// Writes counts, then pictures, then the manifest that vouches for both.
+pub(super) fn write(study: &Loaded, session: Session) -> Result<(Output, Written), Failure> {
+    // Until the last file vouches for the others, the counts are what a run goes on from.
+    session.save().map_err(Failure::run)?;
+    let start = std::time::Instant::now();
+    let output = study.output(session.counts()).map_err(Failure::study)?;
+    let mut seconds = session.seconds();
+    if study.trials().is_none() {
+        seconds = start.elapsed().as_secs_f64();
+        study.judge(&output).map_err(Failure::study)?;
+    }
+    let directory = session.directory().clone();
+    let mut manifest = made_by(&session, manifest(study.origin(), seconds));
+    let mut written = Written::new(seconds);
+    let mut put = |name: &str, bytes: &[u8], manifest: &mut Manifest| {
+        let is_new = store(&directory, manifest, name, bytes)?;
+        written.add(&directory, name, is_new);
+        Ok(())
+    };
+    for (name, bytes) in output.files() {
+        put(name, &bytes, &mut manifest)?;
+    }
+    let drawing = study.draw(&output.points, &manifest);
+    let drawing = drawing.map_err(Failure::run)?;
+    for (name, bytes) in drawing.files() {
+        put(name, bytes, &mut manifest)?;
+    }
+    let _lock = session.close();
+    directory
+        .write("run.json", &manifest.to_json())
+        .map_err(Failure::run)?;
+    directory.remove_stale(&manifest).map_err(Failure::run)?;
+    written.files += &line(&directory, "run.json", true);
+    Ok((output, written))
+}
+
+/// Counts that are only written anew are as old as they were.
+fn made_by(session: &Session, now: Manifest) -> Manifest {
+    match session.made_by().cloned() {
+        Some(made_by) => Manifest {
+            revision: made_by.revision,
+            threads: made_by.threads,
+            architecture: made_by.architecture,
             ..now
         },
         None => now,
-    };
-    let drawing = picture::sweep(config, &counts.rows, &manifest)?;
-    let mut files = vec![("points.csv", results::csv_bytes(&counts.rows))];
-    if !counts.pairs.is_empty() {
-        let comparisons = results::csv_bytes(&counts.comparisons(config));
-        files.push(("comparisons.csv", comparisons));
     }
-    let quantities = quantities(counts, config)?;
-    if !quantities.is_empty() {
-        files.push(("quantities.csv", results::csv_bytes(&quantities)));
-    }
-    files.extend(drawing.files().map(|(name, bytes)| (name, bytes.to_vec())));
-    write_all(directory, manifest, &files)
 }

@@ -2,7 +2,7 @@
 
 use crate::chain::{Observation, Score, View};
 use crate::detect::{Histogram, Region, Ties};
-use crate::ensemble::Sink;
+use crate::schedule::Gather;
 use std::sync::Arc;
 
 /// What a pilot looks at.
@@ -101,7 +101,7 @@ impl View for Gatherer<'_> {
     }
 }
 
-impl Sink for Gatherer<'_> {
+impl Gather for Gatherer<'_> {
     fn merge(&mut self, other: Self) {
         for (sum, more) in self.gathered.iter_mut().zip(other.gathered) {
             match (sum, more) {

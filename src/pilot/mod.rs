@@ -31,8 +31,8 @@ mod need;
 
 use crate::chain::{Decision, Purpose, RecordTooLong, Scenario, Score};
 use crate::detect::Region;
-use crate::ensemble::Ensemble;
 use crate::plan::{Design, Plan, Point};
+use crate::schedule::Schedule;
 use crate::signal::Law;
 use gather::{Gathered, Gatherer, Gauge};
 use ladder::Ladder;
@@ -84,7 +84,7 @@ pub struct Pilots<'a> {
 struct Stage {
     scenarios: Vec<Scenario>,
     gauges: Vec<Gauge>,
-    ensemble: Option<Ensemble>,
+    schedule: Option<Schedule>,
 }
 
 impl<'a> Pilots<'a> {
@@ -132,8 +132,8 @@ impl<'a> Pilots<'a> {
     /// What the progress of [`Pilots::decide`] adds up to.
     pub fn work(&self) -> u64 {
         let stages = [&self.motion, &self.rest].into_iter();
-        let ensembles = stages.filter_map(|stage| stage.ensemble.as_ref());
-        ensembles.map(Ensemble::work).sum()
+        let ensembles = stages.filter_map(|stage| stage.schedule.as_ref());
+        ensembles.map(Schedule::work).sum()
     }
 
     /// Decisions that cost as much time as the real ones and never decide H₁, for timing a run.
@@ -184,7 +184,7 @@ impl Stage {
         Self {
             scenarios: Vec::new(),
             gauges: Vec::new(),
-            ensemble: None,
+            schedule: None,
         }
     }
 
@@ -198,8 +198,8 @@ impl Stage {
     fn arrange(&mut self, plan: &Plan, purpose: Purpose) -> Result<(), RecordTooLong> {
         if !self.scenarios.is_empty() {
             let (trials, seed) = (plan.pilot, plan.seed);
-            let ensemble = Ensemble::new(&self.scenarios, trials, seed, purpose, true);
-            self.ensemble = Some(ensemble.map_err(|(_, refusal)| refusal)?);
+            let schedule = Schedule::new(&self.scenarios, trials, seed, purpose, true);
+            self.schedule = Some(schedule.map_err(|(_, refusal)| refusal)?);
         }
         Ok(())
     }
@@ -209,7 +209,7 @@ impl Stage {
             gauges: &self.gauges,
             gathered: self.gauges.iter().map(Gauge::nothing).collect(),
         };
-        let ensemble = self.ensemble.as_ref();
-        ensemble.map_or(Vec::new(), |ensemble| ensemble.run(new, progress).gathered)
+        let schedule = self.schedule.as_ref();
+        schedule.map_or(Vec::new(), |schedule| schedule.run(new, progress).gathered)
     }
 }

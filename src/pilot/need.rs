@@ -178,7 +178,7 @@ fn allowed(detector: &Detector, pilot: u64) -> Option<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::Config;
+    use crate::experiment::Config;
 
     /// Against the definition by sums of exact masses: the largest count that a rate of α would reach or
     /// undercut with probability 0.001 at most; none where no count would do.

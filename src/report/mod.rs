@@ -8,7 +8,7 @@ mod text;
 pub use text::{PlaceholderError, fill};
 
 use crate::claim::{self, ClaimError, Evidence, Judgement, Verdict};
-use crate::config::{Axis, Claim, Narrative};
+use crate::experiment::{Axis, Claim, Narrative};
 use crate::format::thousands;
 use crate::results::{Comparison, Quantity, Row};
 use std::fmt::Write;

@@ -1,30 +1,92 @@
 //! `counts.json`: the counts of a run that is not over, or of one share of a run.
 //!
-//! One JSON object on one line. Its last member is the SHA-256 of all the text before that member, so that
-//! neither half a file nor an edited one is taken for counts.
+//! One JSON object on one line: the counts and their SHA-256, so that neither half a file nor an edited one is
+//! taken for counts.
 
-use super::{Origin, Told, sha256};
-use crate::ensemble::BLOCK;
-use crate::ledger::{Key, Ledger};
+use super::{Origin, sha256};
+use crate::counts::Counts;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-/// What `counts.json` holds.
+/// The counts of a run that is not over.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
     /// Of which experiment.
     pub origin: Origin,
     /// The share of the trials that is run here; all of them where there is none.
     pub shard: Option<Shard>,
+    /// Trials that are run together: a share has whole blocks.
+    pub block: u64,
+    /// How many points are counted, pairs of points apart.
+    pub points: usize,
     /// Wall clock of the simulation so far.
     pub seconds: f64,
-    /// What each point's decision is known by, once it is.
-    pub told: BTreeMap<Key, Told>,
     /// The counts.
-    pub counters: Ledger,
+    pub counts: Counts,
+}
+
+/// What the file holds.
+#[derive(Serialize, Deserialize)]
+struct Sealed<C> {
+    /// Of the other member as this program writes it.
+    sha256: String,
+    checkpoint: C,
+}
+
+impl Checkpoint {
+    /// The file's text.
+    pub fn to_json(&self) -> Vec<u8> {
+        let sealed = Sealed {
+            sha256: self.seal(),
+            checkpoint: self,
+        };
+        let mut json = serde_json::to_vec(&sealed).expect("a checkpoint is plain data");
+        json.push(b'\n');
+        json
+    }
+
+    /// What the text says; what is wrong with it.
+    ///
+    /// # Errors
+    /// Where it is not as it was written.
+    pub fn from_json(json: &[u8]) -> Result<Self, String> {
+        let sealed: Sealed<Self> =
+            serde_json::from_slice(json).map_err(|error| error.to_string())?;
+        if sealed.checkpoint.seal() != sealed.sha256 {
+            return Err("its counts are not those that its sha256 vouches for".to_owned());
+        }
+        match sealed.checkpoint.block {
+            0 => Err("block must be at least 1, got 0".to_owned()),
+            _ => Ok(sealed.checkpoint),
+        }
+    }
+
+    fn seal(&self) -> String {
+        sha256(&serde_json::to_vec(self).expect("a checkpoint is plain data"))
+    }
+
+    /// The trials that are to be counted here.
+    pub fn wanted(&self) -> Range<u64> {
+        match self.shard {
+            Some(shard) => shard.trials(self.origin.trials, self.block),
+            None => 0..self.origin.trials,
+        }
+    }
+
+    /// Trials that are wanted and not there: of all counters, those of pairs among them, on average and rounded
+    /// up, so that zero means that nothing is missing.
+    pub fn lacking(&self) -> u64 {
+        let wanted = self.wanted();
+        let counters = self.counts.iter().map(|(_, counter)| &counter.trials);
+        let missing = counters.map(|trials| u128::from(trials.missing(wanted.clone()).len()));
+        let (number, missing) = missing.fold((0u128, 0u128), |(n, sum), more| (n + 1, sum + more));
+        match number {
+            0 => wanted.end - wanted.start,
+            _ => missing.div_ceil(number) as u64,
+        }
+    }
 }
 
 /// A share of the blocks of a run: `number` of `count`, from 1.
@@ -37,53 +99,18 @@ pub struct Shard {
     pub count: u64,
 }
 
-/// No share of a run.
+/// Not a share of a run.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("a shard is i/n with i from 1 to n, got {0:?}")]
 pub struct NoShard(String);
 
-const SEAL: &str = ",\"sha256\":\"";
-const SEAL_LENGTH: usize = SEAL.len() + 64 + "\"}\n".len();
-
-impl Checkpoint {
-    /// The file's text.
-    pub fn to_json(&self) -> Vec<u8> {
-        let mut json = serde_json::to_vec(self).expect("a checkpoint is plain data");
-        json.pop();
-        let seal = format!("{SEAL}{}\"}}\n", sha256(&json));
-        json.extend(seal.bytes());
-        json
-    }
-
-    /// What the text says; what is wrong with it.
-    ///
-    /// # Errors
-    /// Where a byte is not as it was written.
-    pub fn from_json(json: &[u8]) -> Result<Self, String> {
-        let body = json.len().saturating_sub(SEAL_LENGTH);
-        let (body, seal) = json.split_at(body);
-        if seal != format!("{SEAL}{}\"}}\n", sha256(body)).as_bytes() {
-            return Err("its bytes are not those that its own sha256 vouches for".to_owned());
-        }
-        serde_json::from_slice(json).map_err(|error| error.to_string())
-    }
-
-    /// The trials that are to be counted here.
-    pub fn wanted(&self) -> Range<u64> {
-        match self.shard {
-            Some(shard) => shard.trials(self.origin.trials),
-            None => 0..self.origin.trials,
-        }
-    }
-}
-
 impl Shard {
     /// Its trials of `trials`: whole blocks, as evenly as can be.
-    pub fn trials(self, trials: u64) -> Range<u64> {
-        let blocks = u128::from(trials.div_ceil(BLOCK));
+    pub fn trials(self, trials: u64, block: u64) -> Range<u64> {
+        let blocks = u128::from(trials.div_ceil(block));
         let cut = |number: u64| {
-            let block = blocks * u128::from(number) / u128::from(self.count);
-            trials.min(block as u64 * BLOCK)
+            let at = blocks * u128::from(number) / u128::from(self.count);
+            trials.min((at as u64).saturating_mul(block))
         };
         cut(self.number - 1)..cut(self.number)
     }
@@ -130,12 +157,12 @@ mod tests {
     proptest! {
         /// Shards are whole blocks, and all of them together every trial once.
         #[test]
-        fn shards_share_the_trials(trials in 1..50_000u64, count in 1..70u64) {
+        fn shards_share_the_trials(trials in 1..50_000u64, count in 1..70u64, block in 1..2000u64) {
             let mut next = 0;
             for number in 1..=count {
-                let share = Shard { number, count }.trials(trials);
+                let share = Shard { number, count }.trials(trials, block);
                 prop_assert_eq!(share.start, next);
-                prop_assert!(share.end.is_multiple_of(BLOCK) || share.end == trials);
+                prop_assert!(share.end.is_multiple_of(block) || share.end == trials);
                 next = share.end;
             }
             prop_assert_eq!(next, trials);

@@ -1,7 +1,6 @@
 //! The directory of one experiment: what it holds, what may replace it, how files get there.
 
-use super::{Checkpoint, Comparison, Manifest, Quantity, ResultsError, Row, sha256};
-use crate::config::{ExhibitConfig, Experiment};
+use super::{Checkpoint, Comparison, Manifest, Origin, Quantity, ResultsError, sha256};
 use crate::files;
 use serde::de::DeserializeOwned;
 use std::io;
@@ -44,53 +43,17 @@ impl Directory {
     /// # Errors
     /// Where files are of unknown origin.
     pub fn admit_any(&self) -> Result<(), ResultsError> {
-        self.held().map_or(Ok(()), |name| self.check_origin(name))
-    }
-
-    fn check_origin(&self, name: &'static str) -> Result<(), ResultsError> {
-        match self.holds(MANIFEST) || self.holds(COUNTS) {
-            true => Ok(()),
-            false => {
+        match self.replaced() {
+            Some(name) if !self.holds(MANIFEST) && !self.holds(COUNTS) => {
                 let path = self.path.clone();
                 Err(ResultsError::Foreign { path, name })
             }
-        }
-    }
-
-    /// Finds out, before anything is computed, whether the results of an experiment that is no sweep may
-    /// go here: the place can be written, and holds no other experiment and no more trials, unless a
-    /// `fresh` start was asked for.
-    ///
-    /// # Errors
-    /// Where its results may not go here.
-    pub fn admit_exhibit(&self, config: &ExhibitConfig, fresh: bool) -> Result<(), ResultsError> {
-        self.check_writable()?;
-        let Some(name) = self.held().filter(|_| !fresh) else {
-            return Ok(());
-        };
-        self.check_origin(name)?;
-        let path = self.path.clone();
-        if self.holds(COUNTS) {
-            let difference = format!("a sweep there, [{}] here", config.kind.name());
-            return Err(ResultsError::Different { path, difference });
-        }
-        let held = self.manifest()?;
-        self.points(&held)?;
-        if let Some(difference) = exhibit_difference(&held, config) {
-            return Err(ResultsError::Different { path, difference });
-        }
-        match held.trials > config.trials {
-            true => Err(ResultsError::FewerTrials {
-                path,
-                held: held.trials,
-                asked: config.trials,
-            }),
-            false => Ok(()),
+            _ => Ok(()),
         }
     }
 
     /// A file that a run would replace.
-    fn held(&self) -> Option<&'static str> {
+    fn replaced(&self) -> Option<&'static str> {
         let mut names = [MANIFEST].into_iter().chain(FILES);
         names.find(|name| self.holds(name))
     }
@@ -169,39 +132,20 @@ impl Directory {
         !manifest.files.is_empty() && manifest.files.iter().all(is_whole)
     }
 
-    /// The rows of `points.csv`, which must be the file that `manifest` vouches for.
-    ///
-    /// # Errors
-    /// Where it is missing, damaged or changed.
-    pub fn rows(&self, manifest: &Manifest) -> Result<Vec<Row>, ResultsError> {
-        self.table(POINTS, manifest)
-    }
-
     /// The rows of `comparisons.csv`, none where `manifest` knows of no such file.
     ///
     /// # Errors
-    /// As [`Directory::rows`].
+    /// As [`Directory::points`].
     pub fn comparisons(&self, manifest: &Manifest) -> Result<Vec<Comparison>, ResultsError> {
-        self.table_if_any(COMPARISONS, manifest)
+        self.table(COMPARISONS, manifest)
     }
 
     /// The rows of `quantities.csv`, none where `manifest` knows of no such file.
     ///
     /// # Errors
-    /// As [`Directory::rows`].
+    /// As [`Directory::points`].
     pub fn quantities(&self, manifest: &Manifest) -> Result<Vec<Quantity>, ResultsError> {
-        self.table_if_any(QUANTITIES, manifest)
-    }
-
-    fn table_if_any<R: DeserializeOwned>(
-        &self,
-        name: &str,
-        manifest: &Manifest,
-    ) -> Result<Vec<R>, ResultsError> {
-        match manifest.files.contains_key(name) {
-            true => self.table(name, manifest),
-            false => Ok(Vec::new()),
-        }
+        self.table(QUANTITIES, manifest)
     }
 
     fn table<R: DeserializeOwned>(
@@ -209,10 +153,21 @@ impl Directory {
         name: &str,
         manifest: &Manifest,
     ) -> Result<Vec<R>, ResultsError> {
+        if !manifest.files.contains_key(name) {
+            return Ok(Vec::new());
+        }
         csv::Reader::from_reader(&self.vouched(name, manifest)?[..])
             .deserialize()
             .collect::<Result<_, csv::Error>>()
             .map_err(|error| self.damaged(name, error))
+    }
+
+    /// What made the results of an experiment that are here whole, and none more lately under way.
+    pub fn complete(&self, origin: &Origin) -> Option<Manifest> {
+        let manifest = self.manifest().ok()?;
+        let is_complete =
+            origin.made(&manifest.origin) && self.is_intact(&manifest) && !self.has_counts();
+        is_complete.then_some(manifest)
     }
 
     /// The bytes of `points.csv`, which must be those that `manifest` vouches for.
@@ -236,6 +191,15 @@ impl Directory {
                 let error = "its bytes are not those that run.json vouches for".to_owned();
                 Err(ResultsError::Damaged { path, error })
             }
+        }
+    }
+
+    /// What is wrong with saved counts that cannot have been counted.
+    pub fn impossible(&self, error: &impl std::fmt::Display) -> ResultsError {
+        let name = if self.holds(COUNTS) { COUNTS } else { POINTS };
+        ResultsError::Checkpoint {
+            path: self.path.join(name),
+            error: error.to_string(),
         }
     }
 
@@ -296,22 +260,4 @@ impl Directory {
     }
 }
 
-/// The first thing that keeps held results from being those of `config`; the question and the number
-/// of trials do not count.
-fn exhibit_difference(held: &Manifest, config: &ExhibitConfig) -> Option<String> {
-    let here = config.kind.name();
-    let there = match Experiment::parse(&held.config_name, &held.config) {
-        Ok(Experiment::Exhibit(there)) => there,
-        _ => return Some(format!("a sweep there, [{here}] here")),
-    };
-    if there.kind.name() != here {
-        return Some(format!("[{}] there, [{here}] here", there.kind.name()));
-    }
-    if held.seed != config.seed {
-        return Some(format!("seed is {} there, {} here", held.seed, config.seed));
-    }
-    if there.kind != config.kind {
-        return Some(format!("[{here}] says something else there"));
-    }
-    (there.scenario != config.scenario).then(|| "the sections say something else there".to_owned())
 }

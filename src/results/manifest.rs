@@ -1,38 +1,22 @@
 //! `run.json`: how a run came about.
 
+use super::Origin;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
-/// Raised whenever the same config and seed come to give other bytes than before, so that results of
-/// before are not taken for complete.
-pub const RESULTS: u32 = 2;
-
 /// How a run came about: `run.json`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Manifest {
-    /// The config's file name.
-    pub config_name: String,
-    /// The config's text.
-    pub config: String,
-    /// SHA-256 of the text.
+    /// Of which experiment.
+    #[serde(flatten)]
+    pub origin: Origin,
+    /// SHA-256 of the config's text.
     pub config_sha256: String,
-    /// Of liftsim.
-    pub version: String,
-    /// Of the bytes that a config and a seed give: [`RESULTS`] at the time.
-    pub results: u32,
     /// Of its source, where it was known when liftsim was built.
     pub revision: String,
     /// What makes the same results again.
     pub command: String,
-    /// Where every draw started from.
-    pub seed: u64,
-    /// Trials per point.
-    pub trials: u64,
-    /// Trials of each pilot run, where there was any.
-    pub pilot: u64,
-    /// Whether points shared their noise.
-    pub common_random_numbers: bool,
     /// Wall clock of the simulation.
     pub seconds: f64,
     /// Threads it ran on.

@@ -1,9 +1,12 @@
 //! What an experiment's results are known by before it is run.
 
-use super::{Manifest, RESULTS};
-use crate::config::{Config, ConfigError, DEFAULT_PILOT_TRIALS, ExhibitConfig};
+use crate::schedule::DEFAULT_PILOT_TRIALS;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
+
+/// Raised whenever the same config and seed come to give other bytes than before, so that results of
+/// before are not taken for complete.
+pub const RESULTS: u32 = 2;
 
 /// An experiment, and the version that runs it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,59 +29,13 @@ pub struct Origin {
     pub results: u32,
 }
 
-impl From<&Config> for Origin {
-    fn from(config: &Config) -> Self {
-        Self {
-            config_name: file_name(config.name()),
-            config: config.text().to_owned(),
-            seed: config.seed,
-            trials: config.trials,
-            pilot: config.pilot,
-            common_random_numbers: config.common_random_numbers,
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            results: RESULTS,
-        }
-    }
-}
-
-impl From<&ExhibitConfig> for Origin {
-    fn from(config: &ExhibitConfig) -> Self {
-        Self {
-            config_name: file_name(config.name()),
-            config: config.text().to_owned(),
-            seed: config.seed,
-            trials: config.trials,
-            pilot: DEFAULT_PILOT_TRIALS,
-            common_random_numbers: true,
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            results: RESULTS,
-        }
-    }
-}
-
-impl From<&Manifest> for Origin {
-    fn from(manifest: &Manifest) -> Self {
-        Self {
-            config_name: manifest.config_name.clone(),
-            config: manifest.config.clone(),
-            seed: manifest.seed,
-            trials: manifest.trials,
-            pilot: manifest.pilot,
-            common_random_numbers: manifest.common_random_numbers,
-            version: manifest.version.clone(),
-            results: manifest.results,
-        }
-    }
-}
-
 impl Origin {
-    /// Whether results with this manifest are those of this experiment, by a version that gives the same
-    /// bytes.
-    pub fn made(&self, manifest: &Manifest) -> bool {
+    /// Whether results of `there` are those of this experiment, by a version that gives the same bytes.
+    pub fn made(&self, there: &Self) -> bool {
         let other = Self {
             version: self.version.clone(),
             common_random_numbers: self.common_random_numbers,
-            ..Self::from(manifest)
+            ..there.clone()
         };
         *self == other
     }
@@ -98,29 +55,6 @@ impl Origin {
             .or_else(|| (self.config != there.config).then(|| self.first_line(there)))
     }
 
-    /// The first line of the config that reads differently.
-    fn first_line(&self, there: &Self) -> String {
-        let lines = |text: &str| text.lines().map(str::to_owned).collect::<Vec<_>>();
-        let (here, there) = (lines(&self.config), lines(&there.config));
-        let at = (0..).find(|&line| here.get(line) != there.get(line));
-        let at = at.expect("the texts differ");
-        let line = |text: &[String]| text.get(at).cloned().unwrap_or_default();
-        let (here, there, number) = (line(&here), line(&there), at + 1);
-        format!("line {number} of the config is `{here}` and `{there}`")
-    }
-
-    /// The config of a sweep, with the numbers of this run in place of its own.
-    ///
-    /// # Errors
-    /// Where the text is none.
-    pub fn sweep(&self) -> Result<Config, ConfigError> {
-        let mut config = Config::parse(&self.config_name, &self.config)?;
-        config.seed = self.seed;
-        config.trials = self.trials;
-        config.pilot = self.pilot;
-        Ok(config)
-    }
-
     /// The command that makes the same results, wherever the files are.
     pub fn command_line(&self) -> String {
         let Self { seed, trials, .. } = self;
@@ -130,6 +64,19 @@ impl Origin {
             DEFAULT_PILOT_TRIALS => command,
             pilot => format!("{command} --pilot {pilot}"),
         }
+    }
+
+    /// The first line of the config that reads differently.
+    fn first_line(&self, there: &Self) -> String {
+        let (here, there): (Vec<&str>, Vec<&str>) = (
+            self.config.lines().collect(),
+            there.config.lines().collect(),
+        );
+        let at = (0..).find(|&line| here.get(line) != there.get(line));
+        let at = at.expect("the texts differ");
+        let line = |text: &[&str]| text.get(at).copied().unwrap_or_default().to_owned();
+        let (here, there, number) = (line(&here), line(&there), at + 1);
+        format!("line {number} of the config is `{here}` and `{there}`")
     }
 }
 

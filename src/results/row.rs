@@ -1,81 +1,46 @@
-//! `points.csv`: one row per point and hypothesis.
+//! `points.csv` of a sweep: one row per point and hypothesis, every parameter in it.
+//!
+//! Its columns are the row's own and, between them, those of the table of parameters.
 
-use super::RESULTS;
 use crate::chain::Decision;
-use crate::config::Parameter;
-use crate::ledger::Key;
-use crate::plan::{Hypothesis, Point};
-use crate::signal::{Impulses, Motion};
+use crate::counts::DecisionSummary;
+use crate::plan::{Design, Hypothesis, Point};
+use crate::scenario::{Parameter, Scenario, Values, columns};
 use crate::stats::tally::Tally;
-use crate::whiten::Order;
+use serde::de::{Deserializer, Error, MapAccess, Visitor};
+use serde::ser::{SerializeStruct, Serializer};
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
-/// One row of `points.csv`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[allow(missing_docs, reason = "the columns are the config's own words")]
+/// A point, how it decides, and how often it did.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Row {
+    /// From 1.
     pub curve: usize,
+    /// Of the curve.
     pub label: String,
+    /// `H0` or `H1`.
     pub hypothesis: String,
-    pub delta: f64,
-    pub nu: f64,
-    pub theta: f64,
-    pub noise: String,
-    pub order: Order,
-    pub training: usize,
-    pub reference: usize,
-    pub shift: usize,
-    pub scale: usize,
-    pub rule: String,
-    pub alpha: f64,
+    /// P(ϑ | H₀), where it is exact.
     pub size: Option<f64>,
-    pub trials: u64,
-    pub detections: u64,
-    pub rate: f64,
-    pub low: f64,
-    pub high: f64,
+    /// Of the interval.
     pub confidence: f64,
-    pub alternative: String,
-    pub sensor: String,
-    pub quantum: Option<f64>,
-    pub range: Option<f64>,
-    pub fit: String,
-    pub includes_reference: bool,
-    pub gap: usize,
-    pub decimation: usize,
-    pub delta_at: String,
-    pub profile: String,
-    pub duration: usize,
-    pub offset: usize,
-    pub during: String,
-    pub drift: f64,
-    pub swell: f64,
-    pub footfalls: f64,
-    pub jolt: f64,
-    pub ties: String,
-    pub calibrate: String,
-    pub stated: String,
-    pub pilot: u64,
+    /// How many trials there were, and in how many H₁ was decided.
+    pub tally: Tally,
+    /// Of a score.
     pub threshold: Option<f64>,
+    /// The smallest level its rule can be held to.
     pub reachable: Option<f64>,
+    /// Of every parameter.
+    pub values: Values,
 }
 
-/// What a row says of how its point decides.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[allow(missing_docs, reason = "the columns are the row's own")]
-pub struct Told {
-    pub size: Option<f64>,
-    pub threshold: Option<f64>,
-    pub reachable: Option<f64>,
-}
+/// So many parameters stand before the counts; columns that came later stand behind them.
+const BEFORE_COUNTS: usize = 11;
 
 impl Row {
-    /// What a point came to, and by which decision where it is known.
+    /// The row of a point, and of its decision where it is known.
     pub fn new(point: &Point, decision: Option<&Decision>, tally: Tally, confidence: f64) -> Self {
-        let scenario = &point.scenario;
-        let (disturbance, detector) = (&scenario.disturbance, &scenario.detector);
-        let (samples, whitening) = (&scenario.samples, &scenario.whitening);
-        let (low, high) = tally.interval(confidence);
         Self {
             curve: point.curve + 1,
             label: point.label.clone(),
@@ -83,171 +48,154 @@ impl Row {
                 Hypothesis::H0 => "H0".to_owned(),
                 Hypothesis::H1 => "H1".to_owned(),
             },
-            delta: scenario.motion.delta,
-            nu: scenario.impulses.nu(),
-            theta: scenario.impulses.theta(),
-            noise: scenario.noise.to_string(),
-            order: whitening.order(),
-            training: whitening.training(),
-            reference: samples.reference(),
-            shift: samples.shift(),
-            scale: samples.scale(),
-            rule: detector.method.to_string(),
-            alpha: detector.alpha,
             size: decision.and_then(Decision::size).or(point.design.size()),
-            trials: tally.trials,
-            detections: tally.hits,
-            rate: tally.rate(),
-            low: eight_digits(low),
-            high: eight_digits(high),
             confidence,
-            alternative: detector.alternative.to_string(),
-            sensor: scenario.sensor.to_string(),
-            quantum: scenario.digitiser.quantum(),
-            range: scenario.digitiser.range(),
-            fit: whitening.fit().to_string(),
-            includes_reference: whitening.includes_reference(),
-            gap: samples.gap(),
-            decimation: samples.decimation(),
-            delta_at: scenario.motion.delta_at.to_string(),
-            profile: scenario.motion.profile.to_string(),
-            duration: scenario.motion.duration,
-            offset: scenario.motion.offset,
-            during: scenario.impulses.during().to_string(),
-            drift: disturbance.drift(),
-            swell: disturbance.swell(),
-            footfalls: disturbance.footfalls(),
-            jolt: disturbance.jolt(),
-            ties: detector.ties.to_string(),
-            calibrate: detector.calibration.to_string(),
-            stated: detector.stated.map(stated).unwrap_or_default(),
-            pilot: detector.pilot,
+            tally,
             threshold: decision.and_then(Decision::threshold).map(eight_digits),
             reachable: decision.and_then(Decision::reachable).map(eight_digits),
+            values: Values::of(&point.scenario),
         }
     }
 
-    /// The row of a point whose decision is known by what was told of it.
-    pub fn retold(point: &Point, told: &Told, tally: Tally, confidence: f64) -> Self {
+    /// The row of a point whose decision is known by its summary.
+    pub fn summarised(
+        point: &Point,
+        decision: &DecisionSummary,
+        tally: Tally,
+        confidence: f64,
+    ) -> Self {
         Self {
-            size: told.size,
-            threshold: told.threshold,
-            reachable: told.reachable,
+            size: decision.size,
+            threshold: decision.threshold,
+            reachable: decision.reachable,
             ..Self::new(point, None, tally, confidence)
         }
     }
 
     /// What it says of the decision.
-    pub fn told(&self) -> Told {
-        Told {
+    pub fn decision(&self) -> DecisionSummary {
+        DecisionSummary {
             size: self.size,
             threshold: self.threshold,
             reachable: self.reachable,
         }
     }
 
-    /// What the counts here are known by: every parameter that they depend on, which its place among
-    /// the curves is none of.
-    pub fn key(&self, seed: u64, common_random_numbers: bool) -> Key {
-        let mut text =
-            format!("results {RESULTS} seed {seed} common_random_numbers {common_random_numbers}");
-        for (name, value) in self.parameters() {
-            if name != "curve" && name != "hypothesis" {
-                text += &format!(" {name} {value}");
-            }
-        }
-        Key::of(&text)
+    /// α.
+    pub fn alpha(&self) -> f64 {
+        self.values.number("alpha")
     }
 
-    /// The number that an axis of this parameter would have here; none where there is none.
-    pub fn on_axis(&self, parameter: Parameter) -> Option<f64> {
-        Some(match parameter {
-            Parameter::Delta => self.delta,
-            Parameter::Duration => self.duration as f64,
-            Parameter::Offset => self.offset as f64,
-            Parameter::Nu => self.nu,
-            Parameter::Theta => self.theta,
-            Parameter::Quantum => self.quantum?,
-            Parameter::Range => self.range?,
-            Parameter::Drift => self.drift,
-            Parameter::Swell => self.swell,
-            Parameter::Footfalls => self.footfalls,
-            Parameter::Training => self.training as f64,
-            Parameter::Order => match self.order {
-                Order::Fixed(order) => order as f64,
-                Order::Auto => return None,
-            },
-            Parameter::AllSamples | Parameter::Shift => self.shift as f64,
-            Parameter::ReferenceAndScale | Parameter::Reference => self.reference as f64,
-            Parameter::Scale => self.scale as f64,
-            Parameter::Gap => self.gap as f64,
-            Parameter::Decimation => self.decimation as f64,
-            Parameter::Alpha => self.alpha,
-            Parameter::Rule => return None,
-        })
+    /// Where it stands on an axis of numbers.
+    pub fn on_axis(&self, parameter: &Parameter) -> Option<f64> {
+        self.values.cell(parameter.column()).number()
     }
 
-    /// The rule without its table.
-    pub fn rule_name(&self) -> &str {
-        self.rule.split('(').next().unwrap_or_default()
-    }
-
-    /// Whether this is the point at rest.
+    /// Whether nothing moves.
     pub fn is_at_rest(&self) -> bool {
         self.hypothesis == "H0"
     }
+}
 
-    /// The counts that everything else about the outcome derives from.
-    pub fn tally(&self) -> Tally {
-        Tally {
-            hits: self.detections,
-            trials: self.trials,
+/// Every parameter of a scenario by its column.
+pub fn parameters(scenario: &Scenario) -> Vec<(String, String)> {
+    let values = Values::of(scenario);
+    let named = values.iter().map(|(name, cell)| (name.to_owned(), cell.to_string()));
+    named.collect()
+}
+
+impl Serialize for Row {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let (low, high) = self.tally.interval(self.confidence);
+        let mut row = serializer.serialize_struct("Row", columns().count() + 12)?;
+        row.serialize_field("curve", &self.curve)?;
+        row.serialize_field("label", &self.label)?;
+        row.serialize_field("hypothesis", &self.hypothesis)?;
+        for (name, cell) in self.values.iter().take(BEFORE_COUNTS) {
+            row.serialize_field(name, cell)?;
         }
+        row.serialize_field("size", &self.size)?;
+        row.serialize_field("trials", &self.tally.trials)?;
+        row.serialize_field("detections", &self.tally.hits)?;
+        row.serialize_field("rate", &self.tally.rate())?;
+        row.serialize_field("low", &eight_digits(low))?;
+        row.serialize_field("high", &eight_digits(high))?;
+        row.serialize_field("confidence", &self.confidence)?;
+        for (name, cell) in self.values.iter().skip(BEFORE_COUNTS) {
+            row.serialize_field(name, cell)?;
+        }
+        row.serialize_field("threshold", &self.threshold)?;
+        row.serialize_field("reachable", &self.reachable)?;
+        row.end()
+    }
+}
+
+impl<'de> Deserialize<'de> for Row {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(RowVisitor)
+    }
+}
+
+struct RowVisitor;
+
+impl<'de> Visitor<'de> for RowVisitor {
+    type Value = Row;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a row of a sweep")
     }
 
-    /// The parameters alone, by column.
-    pub fn parameters(&self) -> Vec<(String, String)> {
-        const DERIVED: [&str; 10] = [
-            "label",
-            "trials",
-            "detections",
-            "rate",
-            "low",
-            "high",
-            "confidence",
-            "size",
-            "threshold",
-            "reachable",
-        ];
-        let columns = match serde_json::to_value(self) {
-            Ok(serde_json::Value::Object(columns)) => columns,
-            _ => unreachable!("a row is plain data"),
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Row, A::Error> {
+        let mut row = Row {
+            curve: 0,
+            label: String::new(),
+            hypothesis: String::new(),
+            size: None,
+            confidence: 0.0,
+            tally: Tally::default(),
+            threshold: None,
+            reachable: None,
+            values: Values::unknown(),
         };
-        let parameters = columns
-            .into_iter()
-            .filter(|(name, _)| !DERIVED.contains(&name.as_str()));
-        parameters
-            .map(|(name, value)| (name, value.to_string()))
-            .collect()
+        let mut seen = 0;
+        while let Some(name) = map.next_key::<String>()? {
+            seen += 1;
+            match name.as_str() {
+                "curve" => row.curve = map.next_value()?,
+                "label" => row.label = map.next_value()?,
+                "hypothesis" => row.hypothesis = map.next_value()?,
+                "size" => row.size = map.next_value()?,
+                "trials" => row.tally.trials = map.next_value()?,
+                "detections" => row.tally.hits = map.next_value()?,
+                "confidence" => row.confidence = map.next_value()?,
+                "threshold" => row.threshold = map.next_value()?,
+                "reachable" => row.reachable = map.next_value()?,
+                // They follow from the counts.
+                "rate" | "low" | "high" => drop(map.next_value::<f64>()?),
+                name => {
+                    if !row.values.set(name, map.next_value()?) {
+                        return Err(A::Error::custom(format_args!("unknown column {name}")));
+                    }
+                }
+            }
+        }
+        if seen != columns().count() + 12 {
+            return Err(A::Error::custom("columns are missing"));
+        }
+        if row.tally.hits > row.tally.trials || row.tally.trials == 0 {
+            let Tally { hits, trials } = row.tally;
+            return Err(A::Error::custom(format_args!("{hits} detections in {trials} trials")));
+        }
+        Ok(row)
     }
 }
 
-/// The motion that a method is made for.
-fn stated((motion, impulses): (Motion, Impulses)) -> String {
-    let (delta, duration, offset) = (motion.delta, motion.duration, motion.offset);
-    let (nu, theta, during) = (impulses.nu(), impulses.theta(), impulses.during());
-    format!(
-        "delta {delta} {} {} duration {duration} offset {offset} nu {nu} theta {theta} {during}",
-        motion.delta_at, motion.profile
-    )
-}
-
-/// Eight significant digits: more than any count supports, fewer than the last bits of a bisection.
+/// The nearest number of eight significant digits: what an interval is worth.
 pub fn eight_digits(value: f64) -> f64 {
     format!("{value:.7e}").parse().unwrap_or(value)
 }
 
-/// Rows as a CSV has them.
+/// Rows as a CSV file.
 pub fn csv_bytes<R: Serialize>(rows: &[R]) -> Vec<u8> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in rows {

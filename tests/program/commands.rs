@@ -1,7 +1,7 @@
 //! What else users type.
 
 use super::{liftsim, outcome, project};
-use liftsim::config::{Config, Experiment, MonitorOptions};
+use liftsim::experiment::{Config, Experiment, MonitorOptions};
 use std::fs;
 
 fn run(arguments: &[&str]) -> String {

@@ -1,9 +1,9 @@
 //! Many machines, one result.
 
 use super::survival::{Bench, TINY};
-use liftsim::campaign;
-use liftsim::ledger::Ledger;
+use liftsim::counts::Counts;
 use liftsim::results::{Directory, Shard};
+use liftsim::run;
 use std::path::PathBuf;
 
 fn shard(bench: &Bench, number: u64, count: u64, more: &[&str]) -> String {
@@ -155,10 +155,10 @@ fn merge_is_linear() {
                 let mut part = all.clone();
                 part.origin.trials = 1024 * count;
                 part.shard = Some(Shard { number, count });
-                part.counters = Ledger::default();
-                for (key, counter) in all.counters.iter() {
+                part.counts = Counts::default();
+                for (key, counter) in all.counts.iter() {
                     let trials = part.wanted();
-                    part.counters.add(key, trials, &counter.counts).unwrap();
+                    part.counts.add(key, trials, &counter.sums).unwrap();
                 }
                 let path: PathBuf = bench.path(&format!("{count}/{number}"));
                 std::fs::create_dir_all(&path).unwrap();
@@ -166,12 +166,12 @@ fn merge_is_linear() {
                 Directory::new(path)
             })
             .collect();
-        let joined = campaign::join(&shards).unwrap();
-        assert!(joined.missing == campaign::Missing::default());
-        for (key, counter) in all.counters.iter() {
-            let sum = joined.state.counters.get(key).unwrap();
+        let joined = run::join(&shards).unwrap();
+        assert!(joined.absent == run::Absent::default());
+        for (key, counter) in all.counts.iter() {
+            let sum = joined.state.counts.get(key).unwrap();
             assert_eq!(sum.trials.len(), 1024 * count);
-            assert_eq!(sum.counts[0], count * counter.counts[0]);
+            assert_eq!(sum.sums.counts[0], count * counter.sums.counts[0]);
         }
     }
 }

@@ -1,0 +1,269 @@
+//! What has been counted so far, and of which trials: counters that add.
+//!
+//! A counter is known by what it counts, never by its place in a plan: see [`Key`]. It holds the trials
+//! that were counted and their sums, nothing derived. Two sets of counts add up to those of a run that did the
+//! trials of both; trials that are in both are refused, so nothing is ever counted twice. To checkpoint is to
+//! write counts, to resume is to count what is missing, to run in shards is to add the counts of many
+//! machines, to raise the number of trials is to want more of the same counters.
+
+mod ranges;
+mod sums;
+
+pub use ranges::{Overlap, Ranges};
+pub use sums::{Fixed, Shape, Sums, Values};
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::fmt;
+use std::ops::Range;
+
+/// The name of a counter: a hash of all that its sums depend on, but the trials.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Key(String);
+
+impl Key {
+    /// The key of what `text` tells from everything else.
+    pub fn of(text: &str) -> Self {
+        // 96 bits: a billion counters collide with a probability of 1e-11.
+        let hash = Sha256::digest(text.as_bytes());
+        let digits = hash[..12].iter().map(|byte| format!("{byte:02x}"));
+        Self(digits.collect())
+    }
+
+    /// The key of two counters compared trial by trial.
+    pub fn pair([first, second]: [&Self; 2]) -> Self {
+        Self::of(&format!("{first} against {second}"))
+    }
+}
+
+impl fmt::Display for Key {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+/// Sums, and the trials that they are of.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counter {
+    /// Every trial that was counted.
+    pub trials: Ranges,
+    /// Of all of them together.
+    pub sums: Sums,
+}
+
+/// How a point decides, as `points.csv` tells it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DecisionSummary {
+    /// Exact probability of deciding H₁ at rest, where it is known.
+    pub size: Option<f64>,
+    /// Of a score.
+    pub threshold: Option<f64>,
+    /// The part of the scores' range that can be reached.
+    pub reachable: Option<f64>,
+}
+
+/// Counters by what they count.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Counts {
+    counters: BTreeMap<Key, Counter>,
+    /// How the points decide, as far as that takes pilot runs.
+    pub decisions: BTreeMap<Key, DecisionSummary>,
+}
+
+/// Why counts do not add.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[allow(missing_docs, reason = "the messages say it")]
+pub enum CountsError {
+    #[error("counter {key}: {overlap}")]
+    Overlap { key: Key, overlap: Overlap },
+    #[error("counter {0}: not as many sums as it should have")]
+    Shape(Key),
+    #[error("counter {key}: {count} of something that {trials} trials bring {most} of at most")]
+    TooMany {
+        key: Key,
+        count: u64,
+        most: u64,
+        trials: u64,
+    },
+    #[error("counter {key}: trial {trial} of {wanted}")]
+    Beyond { key: Key, trial: u64, wanted: u64 },
+}
+
+impl Counts {
+    /// Every counter.
+    pub fn iter(&self) -> impl Iterator<Item = (&Key, &Counter)> {
+        self.counters.iter()
+    }
+
+    /// One counter.
+    pub fn get(&self, key: &Key) -> Option<&Counter> {
+        self.counters.get(key)
+    }
+
+    /// Makes sure of a counter, of nothing yet where it is new.
+    pub fn expect(&mut self, key: &Key, shape: &Shape) {
+        if !self.counters.contains_key(key) {
+            self.counters.insert(key.clone(), shape.empty());
+        }
+    }
+
+    /// Adds the sums of further trials.
+    ///
+    /// # Errors
+    /// Where some of them were counted before, or the sums are not of one shape.
+    pub fn add(&mut self, key: &Key, trials: Range<u64>, sums: &Sums) -> Result<(), CountsError> {
+        let counter = match self.counters.get_mut(key) {
+            Some(counter) => counter,
+            None => self.counters.entry(key.clone()).or_insert(Counter {
+                trials: Ranges::default(),
+                sums: sums.shape().empty().sums,
+            }),
+        };
+        if counter.sums.shape() != sums.shape() {
+            return Err(CountsError::Shape(key.clone()));
+        }
+        (counter.trials.add(trials)).map_err(|overlap| CountsError::Overlap {
+            key: key.clone(),
+            overlap,
+        })?;
+        counter.sums.add(sums);
+        Ok(())
+    }
+
+    /// Adds other counts. Takes time in proportion to those.
+    ///
+    /// # Errors
+    /// Where a trial is in both; some counters may have been added then.
+    pub fn merge(&mut self, other: &Self) -> Result<(), CountsError> {
+        for (key, Counter { trials, sums }) in other.iter() {
+            self.expect(key, &sums.shape());
+            // The sums are those of all stretches together.
+            let nothing = sums.shape().empty().sums;
+            let each = std::iter::once(sums).chain(std::iter::repeat(&nothing));
+            for (range, sums) in trials.iter().zip(each) {
+                self.add(key, range, sums)?;
+            }
+        }
+        let decisions = other.decisions.iter();
+        (self.decisions).extend(decisions.map(|(key, summary)| (key.clone(), *summary)));
+        Ok(())
+    }
+
+    /// What of the wanted trials a counter has not.
+    pub fn missing(&self, key: &Key, wanted: Range<u64>) -> Ranges {
+        match self.get(key) {
+            Some(counter) => counter.trials.missing(wanted),
+            None => wanted.into(),
+        }
+    }
+
+    /// Whether every trial of every counter of `other` is here too.
+    pub fn covers(&self, other: &Self) -> bool {
+        other.iter().all(|(key, counter)| {
+            counter.trials.is_empty()
+                || (self.get(key)).is_some_and(|here| here.trials.covers(&counter.trials))
+        })
+    }
+
+    /// Drops the counters that are not wanted.
+    pub fn retain(&mut self, is_wanted: impl Fn(&Key) -> bool) {
+        self.counters.retain(|key, _| is_wanted(key));
+        self.decisions.retain(|key, _| is_wanted(key));
+    }
+
+    /// Whether a counter can be what it says, of `wanted` trials: as many sums as its shape has, no count above
+    /// what the trials can bring, no trial that is not wanted.
+    ///
+    /// # Errors
+    /// Where not.
+    pub fn check(&self, key: &Key, shape: &Shape, wanted: u64) -> Result<(), CountsError> {
+        let Some(Counter { trials, sums }) = self.get(key) else {
+            return Ok(());
+        };
+        let key = || key.clone();
+        if !shape.fits(sums) {
+            return Err(CountsError::Shape(key()));
+        }
+        if let Some(trial) = trials.end().filter(|end| *end > wanted) {
+            let trial = trial - 1;
+            return Err(CountsError::Beyond {
+                key: key(),
+                trial,
+                wanted,
+            });
+        }
+        let trials = trials.len();
+        match shape.excess(sums, trials) {
+            Some([count, most]) => Err(CountsError::TooMany {
+                key: key(),
+                count,
+                most,
+                trials,
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Parts add up to the whole in any order, once.
+        #[test]
+        fn counts_add(hits in proptest::collection::vec(0..3u64, 1..20), turn in 0..20usize) {
+            let keys = [Key::of("a"), Key::of("b")];
+            let part = |(index, hits): (usize, &u64)| {
+                let (mut part, index) = (Counts::default(), index as u64);
+                let trials = 8 * index..8 * index + 8;
+                part.add(&keys[0], trials.clone(), &Sums::of(&[*hits])).unwrap();
+                part.add(&keys[1], trials, &Sums::of(&[*hits, 1])).unwrap();
+                part
+            };
+            let mut parts: Vec<Counts> = hits.iter().enumerate().map(part).collect();
+            let turn = turn % parts.len();
+            parts.rotate_left(turn);
+            let mut sum = Counts::default();
+            parts.iter().for_each(|part| sum.merge(part).unwrap());
+            let all = 8 * hits.len() as u64;
+            prop_assert_eq!(&sum.get(&keys[0]).unwrap().sums.counts, &[hits.iter().sum::<u64>()]);
+            prop_assert_eq!(&sum.get(&keys[1]).unwrap().sums.counts[1], &(all / 8));
+            prop_assert_eq!(sum.missing(&keys[0], 0..all + 5), Ranges::from(all..all + 5));
+            prop_assert!(parts.iter().all(|part| sum.covers(part)));
+            prop_assert!(sum.clone().merge(&parts[0]).is_err());
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_counted_is_refused() {
+        let key = Key::of("a");
+        let mut counts = Counts::default();
+        counts.add(&key, 0..10, &Sums::of(&[10, 4])).unwrap();
+        let check = |most: &[Option<u64>], wanted| {
+            let shape = Shape {
+                most: most.to_vec(),
+                ..Shape::default()
+            };
+            counts.check(&key, &shape, wanted)
+        };
+        assert_eq!(check(&[Some(1), None], 10), Ok(()));
+        assert!(matches!(check(&[Some(1)], 10), Err(CountsError::Shape(_))));
+        assert!(matches!(
+            check(&[None, None], 9),
+            Err(CountsError::Beyond { trial: 9, .. })
+        ));
+        let too_many = check(&[Some(1), Some(0)], 10);
+        assert!(matches!(
+            too_many,
+            Err(CountsError::TooMany {
+                count: 4,
+                most: 0,
+                ..
+            })
+        ));
+    }
+}

@@ -1,0 +1,202 @@
+//! What a counter adds up: whole numbers alone, so that any order of adding gives the same.
+
+use super::{Counter, Ranges};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Sums over trials.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Sums {
+    /// How often each of several things happened.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub counts: Vec<u64>,
+    /// Sums of real numbers.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub lengths: Vec<Fixed>,
+    /// Real numbers one by one, for quantiles.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub values: Vec<Values>,
+}
+
+/// How many of each kind a counter adds up.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Shape {
+    /// The most of each count that one trial can bring, where there is a limit.
+    pub most: Vec<Option<u64>>,
+    /// Sums of real numbers.
+    pub lengths: usize,
+    /// Collections of real numbers.
+    pub values: usize,
+}
+
+impl Sums {
+    /// Counts alone.
+    pub fn of(counts: &[u64]) -> Self {
+        Self {
+            counts: counts.to_vec(),
+            ..Self::default()
+        }
+    }
+
+    /// Adds those of other trials.
+    pub fn add(&mut self, more: &Self) {
+        let counts = self.counts.iter_mut().zip(&more.counts);
+        counts.for_each(|(sum, more)| *sum += more);
+        let lengths = self.lengths.iter_mut().zip(&more.lengths);
+        lengths.for_each(|(sum, more)| sum.0 += more.0);
+        let values = self.values.iter_mut().zip(&more.values);
+        values.for_each(|(sum, more)| sum.add(more));
+    }
+
+    /// How many there are.
+    pub fn shape(&self) -> Shape {
+        Shape {
+            most: vec![None; self.counts.len()],
+            lengths: self.lengths.len(),
+            values: self.values.len(),
+        }
+    }
+}
+
+impl Shape {
+    /// So many counts, of which a trial brings one at most.
+    pub fn events(count: usize) -> Self {
+        Self {
+            most: vec![Some(1); count],
+            ..Self::default()
+        }
+    }
+
+    /// Sums over no trials.
+    pub fn empty(&self) -> Counter {
+        Counter {
+            trials: Ranges::default(),
+            sums: Sums {
+                counts: vec![0; self.most.len()],
+                lengths: vec![Fixed::default(); self.lengths],
+                values: vec![Values::default(); self.values],
+            },
+        }
+    }
+
+    pub(super) fn fits(&self, sums: &Sums) -> bool {
+        let shape = sums.shape();
+        self.most.len() == shape.most.len()
+            && [self.lengths, self.values] == [shape.lengths, shape.values]
+    }
+
+    /// A count that so many trials cannot bring, and what they can.
+    pub(super) fn excess(&self, sums: &Sums, trials: u64) -> Option<[u64; 2]> {
+        let counts = sums.counts.iter().zip(&self.most);
+        let most = counts
+            .filter_map(|(count, most)| Some([*count, most.as_ref()?.saturating_mul(trials)]));
+        most.into_iter().find(|[count, most]| count > most)
+    }
+}
+
+/// A real number as a multiple of 2⁻⁶⁰: sums of up to 10²⁰ with an error of 10⁻¹⁸ for each number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
+pub struct Fixed(i128);
+
+const ONE: f64 = (1u64 << 60) as f64;
+
+impl Fixed {
+    /// The nearest multiple.
+    pub fn new(value: f64) -> Self {
+        Self((value * ONE).round() as i128)
+    }
+
+    /// As a floating-point number.
+    pub fn value(self) -> f64 {
+        self.0 as f64 / ONE
+    }
+}
+
+impl std::ops::AddAssign for Fixed {
+    fn add_assign(&mut self, more: Self) {
+        self.0 += more.0;
+    }
+}
+
+/// JSON has no whole numbers of this size.
+impl From<Fixed> for String {
+    fn from(fixed: Fixed) -> Self {
+        fixed.0.to_string()
+    }
+}
+
+impl TryFrom<String> for Fixed {
+    type Error = std::num::ParseIntError;
+
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        text.parse().map(Self)
+    }
+}
+
+/// Real numbers, infinite ones among them, and how often each came.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Values {
+    /// By the bits of the number, so that nothing is lost.
+    times: BTreeMap<u64, u64>,
+}
+
+impl Values {
+    /// One more.
+    pub fn push(&mut self, value: f64) {
+        *self.times.entry(value.to_bits()).or_default() += 1;
+    }
+
+    /// Those of other trials.
+    pub fn add(&mut self, more: &Self) {
+        for (bits, times) in &more.times {
+            *self.times.entry(*bits).or_default() += times;
+        }
+    }
+
+    /// All of them, the smallest first.
+    pub fn ascending(&self) -> Vec<f64> {
+        let each = self.times.iter();
+        let each = each.map(|(bits, times)| (f64::from_bits(*bits), *times as usize));
+        let mut values: Vec<f64> = each
+            .flat_map(|(value, times)| std::iter::repeat_n(value, times))
+            .collect();
+        values.sort_by(f64::total_cmp);
+        values
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_loses_nothing() {
+        let mut values = Values::default();
+        for value in [f64::INFINITY, 0.1, -0.0, 0.1, -3.5e-7] {
+            values.push(value);
+        }
+        assert_eq!(values.ascending(), [-3.5e-7, -0.0, 0.1, 0.1, f64::INFINITY]);
+        let sums = Sums {
+            counts: vec![u64::MAX],
+            lengths: vec![Fixed::new(-1e12 / 3.0), Fixed::new(1e-17)],
+            values: vec![values],
+        };
+        let json = serde_json::to_string(&sums).unwrap();
+        assert_eq!(serde_json::from_str::<Sums>(&json).unwrap(), sums);
+    }
+
+    #[test]
+    fn sums_are_of_any_order() {
+        let numbers = [0.1, 1e9, -1e9, 1e-9, 0.7];
+        let sum = |numbers: &mut dyn Iterator<Item = &f64>| {
+            let mut sum = Fixed::default();
+            numbers.for_each(|number| sum += Fixed::new(*number));
+            sum
+        };
+        assert_eq!(sum(&mut numbers.iter()), sum(&mut numbers.iter().rev()));
+        assert!((sum(&mut numbers.iter()).value() - 0.800_000_001).abs() < 1e-15);
+    }
+}

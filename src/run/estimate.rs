@@ -1,0 +1,78 @@
+//! What a run would take.
+
+use super::missing::Work;
+use super::{Missing, StudyError, Trials};
+use crate::counts::Counts;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+/// What a run would take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// Trials of single points, so far as it is known beforehand how many there are.
+    pub work: u64,
+    /// The same of pilots.
+    pub pilots: u64,
+    /// Counters that share one realisation count as one.
+    pub groups: usize,
+    /// Of the largest trial, in GB; every thread has its own.
+    pub gigabytes: f64,
+    /// On the current thread pool.
+    pub time: Duration,
+}
+
+impl Estimate {
+    /// Scales up the time of a short run of the same points, long enough to be measured; its counts are
+    /// thrown away.
+    ///
+    /// # Errors
+    /// Where it is known beforehand that a pilot shows no decision.
+    pub fn new(trials: &mut dyn Trials, number: u64) -> Result<Self, StudyError> {
+        const LONG_ENOUGH: Duration = Duration::from_millis(300);
+        let pilots = trials.pretend()?;
+        let trials = &*trials;
+        let nothing = Counts::default();
+        let needed = trials.needed(&nothing);
+        let of = |number| Missing::new(trials, &needed, &nothing, &(0..number));
+        let all = Work::new(trials, &of(number));
+        // A trial-point of a pilot costs about as much as one of the run.
+        let total = (all.size() + pilots) as f64;
+        let mut short = number.min(trials.block() * rayon::current_num_threads() as u64);
+        let time = loop {
+            let work = Work::new(trials, &of(short));
+            let start = Instant::now();
+            work.count(&Mutex::default(), &());
+            let time = start.elapsed();
+            if time >= LONG_ENOUGH || short == number {
+                break time.mul_f64(total / work.size() as f64);
+            }
+            short = number.min(4 * short);
+        };
+        Ok(Self {
+            work: all.size(),
+            pilots,
+            groups: all.groups().count(),
+            gigabytes: all
+                .groups()
+                .map(|group| group.gigabytes)
+                .fold(0.0, f64::max),
+            time,
+        })
+    }
+}
+
+/// Runs all of a study's trials at once.
+#[cfg(test)]
+pub(crate) fn whole(mut trials: Box<dyn Trials + '_>, number: u64) -> Counts {
+    let counts = Mutex::new(Counts::default());
+    loop {
+        let so_far = counts.lock().unwrap().clone();
+        let missing = Missing::new(&*trials, &trials.needed(&so_far), &so_far, &(0..number));
+        if missing.is_empty() {
+            return so_far;
+        }
+        let decisions = trials.prepare(&missing.targets(), &()).unwrap();
+        counts.lock().unwrap().decisions.extend(decisions);
+        Work::new(&*trials, &missing).count(&counts, &());
+    }
+}

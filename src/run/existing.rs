@@ -1,0 +1,135 @@
+//! What a directory has, as counts; and whether they may be gone on with.
+
+use super::identity::origins_difference;
+use super::{Experiment, Identity, Overwrite, Trials};
+use crate::counts::Counts;
+use crate::results::{Checkpoint, Directory, Manifest, RESULTS, ResultsError};
+use std::collections::BTreeSet;
+
+/// The counts of a directory.
+#[derive(Debug)]
+pub(super) struct Existing {
+    pub state: Checkpoint,
+    /// What made them, where they are a finished result.
+    pub made_by: Option<Manifest>,
+}
+
+impl Existing {
+    /// Reads the counts of a run that is not over or, where there are none, those of a finished result.
+    pub fn read(
+        directory: &Directory,
+        experiment: &dyn Experiment,
+        overwrite: Overwrite,
+    ) -> Result<Option<Self>, ResultsError> {
+        if overwrite == Overwrite::Fresh {
+            return Ok(None);
+        }
+        directory.admit_any()?;
+        if let Some(state) = directory.checkpoint()? {
+            return Ok(Some(Self {
+                state,
+                made_by: None,
+            }));
+        }
+        if !directory.is_finished() {
+            return Ok(None);
+        }
+        match Self::finished(directory, experiment) {
+            Err(_) if overwrite == Overwrite::Adopt => Ok(None),
+            finished => finished.map(Some),
+        }
+    }
+
+    /// A finished result, with its counts where they can be told from it.
+    fn finished(directory: &Directory, experiment: &dyn Experiment) -> Result<Self, ResultsError> {
+        let manifest = directory.manifest()?;
+        let points = directory.points(&manifest)?;
+        let comparisons = directory.comparisons(&manifest)?;
+        let origin = manifest.origin.clone();
+        let there = experiment.of(&origin).filter(|_| origin.results == RESULTS);
+        let counts = there.and_then(|there| there.recall(&points, &comparisons));
+        Ok(Self {
+            state: Checkpoint {
+                shard: None,
+                block: 1,
+                points: 0,
+                seconds: manifest.seconds,
+                counts: counts.unwrap_or_default(),
+                origin,
+            },
+            made_by: Some(manifest),
+        })
+    }
+
+    /// Whether these counts may be gone on with in the run `here`.
+    pub fn admit(
+        &self,
+        directory: &Directory,
+        here: &Checkpoint,
+        experiment: &dyn Experiment,
+        overwrite: Overwrite,
+    ) -> Result<(), ResultsError> {
+        let path = directory.path().to_owned();
+        let is_adopted = overwrite == Overwrite::Adopt && self.state.shard.is_none();
+        if !is_adopted && let Some(difference) = self.difference(here, experiment) {
+            return Err(ResultsError::Different { path, difference });
+        }
+        let (held, asked) = (self.state.origin.trials, here.origin.trials);
+        if held > asked {
+            return Err(ResultsError::FewerTrials { path, held, asked });
+        }
+        Ok(())
+    }
+
+    /// The first thing that keeps these counts from being those of the run `here`; labels, captions, claims
+    /// and the number of trials do not count, nor does what is not here yet.
+    fn difference(&self, here: &Checkpoint, experiment: &dyn Experiment) -> Option<String> {
+        let (there, origin) = (&self.state.origin, &here.origin);
+        let differs = |name, there: &dyn ToString, here: &dyn ToString| {
+            let (there, here) = (there.to_string(), here.to_string());
+            (there != here).then(|| format!("{name} is {there} there, {here} here"))
+        };
+        let shard = |state: &Checkpoint| match state.shard {
+            Some(shard) => format!("shard {shard}"),
+            None => "all of a run".to_owned(),
+        };
+        let trials = self.state.shard.map(|_| there.trials);
+        origins_difference(there, origin)
+            .or_else(|| differs("it", &shard(&self.state), &shard(here)))
+            .or_else(|| differs("trials of a shard", &trials?, &origin.trials))
+            .or_else(|| self.points_difference(experiment))
+            .or_else(|| {
+                // Finished results of another version are replaced by those of this one.
+                let is_unfinished = self.made_by.is_none();
+                differs("results version", &there.results, &origin.results)
+                    .filter(|_| is_unfinished)
+            })
+    }
+
+    /// What is another study, or a point that is not here.
+    fn points_difference(&self, experiment: &dyn Experiment) -> Option<String> {
+        let Some(there) = experiment.of(&self.state.origin) else {
+            return Some("its config cannot be read any more".to_owned());
+        };
+        if there.name() != experiment.name() {
+            return Some(format!(
+                "[{}] there, [{}] here",
+                there.name(),
+                experiment.name()
+            ));
+        }
+        Identity::difference(&there.identities(), &experiment.identities())
+    }
+
+    /// Keeps the counts that are wanted.
+    pub fn keep(&mut self, trials: Option<&dyn Trials>) {
+        let targets = trials.map_or(&[][..], |trials| trials.targets());
+        let wanted: BTreeSet<_> = targets.iter().map(|target| &target.key).collect();
+        let counts: &mut Counts = &mut self.state.counts;
+        counts.retain(|key| wanted.contains(key));
+        if counts.iter().next().is_none() {
+            self.state.seconds = 0.0;
+            self.made_by = None;
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! What tells a point of one study from another.
+
+use crate::counts::Key;
+use crate::results::{Origin, RESULTS};
+use std::collections::BTreeSet;
+
+/// The parameters that the outcome at one point depends on, seed and trials apart.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Identity {
+    /// Names and values.
+    pub parameters: Vec<(String, String)>,
+    /// Where the point stands, for messages: a curve, or nothing.
+    pub place: String,
+}
+
+impl Identity {
+    /// Of a study that is one point.
+    pub fn new(parameters: impl IntoIterator<Item = (&'static str, String)>) -> Self {
+        let parameters = parameters.into_iter();
+        Self {
+            parameters: parameters
+                .map(|(name, value)| (name.to_owned(), value))
+                .collect(),
+            place: String::new(),
+        }
+    }
+
+    /// Of the counter of this point.
+    pub fn key(&self, study: &str, seed: u64, common_random_numbers: bool) -> Key {
+        let mut text = format!(
+            "results {RESULTS} seed {seed} common_random_numbers {common_random_numbers} {study}"
+        );
+        for (name, value) in &self.parameters {
+            text += &format!(" {name} {value}");
+        }
+        Key::of(&text)
+    }
+
+    /// How the first of `there` that is not here differs from the most similar one that is here and not there.
+    pub(super) fn difference(there: &[Self], here: &[Self]) -> Option<String> {
+        let is_in = |all: &[Self]| all.iter().map(|one| one.parameters.clone()).collect();
+        let (known, held): (BTreeSet<_>, BTreeSet<_>) = (is_in(here), is_in(there));
+        let odd = there.iter().find(|one| !known.contains(&one.parameters))?;
+        let differing = |one: &Self| {
+            let pairs = odd.parameters.iter().zip(&one.parameters);
+            pairs.filter(|(a, b)| a != b).count()
+        };
+        let nearest = here.iter().min_by_key(|one| {
+            let is_new = !held.contains(&one.parameters);
+            (!is_new, differing(one), one.place != odd.place)
+        });
+        let cells = nearest.map(|nearest| odd.parameters.iter().zip(&nearest.parameters));
+        let differing = cells.and_then(|mut cells| cells.find(|(a, b)| a != b));
+        Some(match differing {
+            Some(((name, there), (_, here))) => {
+                format!("{name} is {there} there, {here} here{}", odd.place)
+            }
+            None => "it has points that are not here".to_owned(),
+        })
+    }
+}
+
+/// The first thing apart from points that keeps results of one experiment from being gone on with in another.
+pub(super) fn origins_difference(there: &Origin, here: &Origin) -> Option<String> {
+    if there.seed != here.seed {
+        return Some(format!("seed is {} there, {} here", there.seed, here.seed));
+    }
+    let shared = [there, here].map(|origin| origin.common_random_numbers);
+    (shared[0] != shared[1]).then(|| {
+        format!(
+            "common_random_numbers is {} there, {} here",
+            shared[0], shared[1]
+        )
+    })
+}

@@ -1,0 +1,237 @@
+//! An experiment in its directory, worked off.
+
+use super::existing::Existing;
+use super::missing::Work;
+use super::save::Saver;
+use super::{Experiment, Missing, Progress, StudyError, Trials};
+use crate::counts::Counts;
+use crate::results::{Checkpoint, Directory, Lock, Manifest, ResultsError, Shard};
+use std::time::{Duration, Instant};
+
+/// What becomes of what a directory holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overwrite {
+    /// It is gone on with; what is of another experiment is refused.
+    Continue,
+    /// Of it is kept what is wanted here: the directory belongs to the experiment by its name.
+    Adopt,
+    /// It is replaced.
+    Fresh,
+}
+
+/// An experiment in its directory, which nobody else writes into as long as this lives.
+pub struct Session<'a> {
+    trials: Option<Box<dyn Trials + 'a>>,
+    directory: Directory,
+    /// What is saved, and how far it is.
+    pub(super) state: Checkpoint,
+    /// What made the results that all counts come from, as long as nothing is added to them.
+    pub(super) made_by: Option<Manifest>,
+    /// Whether the results are here, down to the words of the config.
+    is_complete: bool,
+    lock: Lock,
+}
+
+impl<'a> Session<'a> {
+    /// Locks the directory and finds out what of the experiment, or of one share of it, is done there.
+    ///
+    /// # Errors
+    /// Where the directory is in use, cannot be written, or holds what is not to be overwritten.
+    pub fn open(
+        experiment: &'a dyn Experiment,
+        directory: Directory,
+        shard: Option<Shard>,
+        overwrite: Overwrite,
+    ) -> Result<Self, ResultsError> {
+        let lock = directory.lock()?;
+        directory.check_writable()?;
+        let trials = experiment.trials();
+        let mut state = Checkpoint {
+            origin: experiment.origin().clone(),
+            shard,
+            block: trials.as_ref().map_or(1, |trials| trials.block()),
+            points: trials.as_ref().map_or(0, |trials| trials.points()),
+            seconds: 0.0,
+            counts: Counts::default(),
+        };
+        let is_new = overwrite == Overwrite::Fresh || shard.is_some();
+        let is_complete = !is_new && directory.complete(&state.origin).is_some();
+        let mut made_by = None;
+        if let Some(mut existing) = Existing::read(&directory, experiment, overwrite)? {
+            existing.admit(&directory, &state, experiment, overwrite)?;
+            existing.keep(trials.as_deref());
+            state.counts = existing.state.counts;
+            state.seconds = existing.state.seconds;
+            made_by = existing.made_by;
+        }
+        let mut session = Self {
+            trials,
+            directory,
+            state,
+            made_by,
+            is_complete,
+            lock,
+        };
+        session.check()?;
+        session.expect();
+        Ok(session)
+    }
+
+    /// Where it lives.
+    pub fn directory(&self) -> &Directory {
+        &self.directory
+    }
+
+    /// The counts so far.
+    pub fn counts(&self) -> &Counts {
+        &self.state.counts
+    }
+
+    /// How many points are counted.
+    pub fn points(&self) -> usize {
+        self.state.points
+    }
+
+    /// Trials of every point that are wanted here.
+    pub fn wanted(&self) -> u64 {
+        let wanted = self.state.wanted();
+        wanted.end - wanted.start
+    }
+
+    /// Wall clock of the simulation.
+    pub fn seconds(&self) -> f64 {
+        self.state.seconds
+    }
+
+    /// What made the results that all counts come from; none where anything was simulated since.
+    pub fn made_by(&self) -> Option<&Manifest> {
+        self.made_by.as_ref()
+    }
+
+    /// Whether there is nothing to do: the results are here, down to the words of the config.
+    pub fn is_complete(&self) -> bool {
+        self.is_complete
+    }
+
+    /// What is wanted and not counted; none where all is done.
+    pub fn missing(&self) -> Option<Missing> {
+        let trials = self.trials.as_deref().filter(|_| !self.is_complete)?;
+        let missing = Missing::new(
+            trials,
+            &self.needed(),
+            &self.state.counts,
+            &self.state.wanted(),
+        );
+        (!missing.is_empty()).then_some(missing)
+    }
+
+    /// What the progress of [`count`](Self::count) adds up to.
+    pub fn work(&self, missing: &Missing) -> u64 {
+        let trials = self.trials.as_deref();
+        trials.map_or(0, |trials| Work::new(trials, missing).size())
+    }
+
+    /// The targets of this run. A share does not know what the others find, so it counts all there may be.
+    fn needed(&self) -> Vec<usize> {
+        match &self.trials {
+            Some(trials) if self.state.shard.is_some() => (0..trials.targets().len()).collect(),
+            Some(trials) => trials.needed(&self.state.counts),
+            None => Vec::new(),
+        }
+    }
+
+    /// Runs the pilots of what is missing.
+    ///
+    /// # Errors
+    /// Where a pilot shows no decision.
+    pub fn prepare(
+        &mut self,
+        missing: &Missing,
+        progress: &dyn Progress,
+    ) -> Result<(), StudyError> {
+        if let Some(trials) = &mut self.trials {
+            let decisions = trials.prepare(&missing.targets(), progress)?;
+            self.state.counts.decisions.extend(decisions);
+        }
+        Ok(())
+    }
+
+    /// Simulates what is missing, and saves the counts every `period`, before and after. Says whether all of it
+    /// is done.
+    ///
+    /// # Errors
+    /// Where the counts cannot be saved; what was saved before is left.
+    pub fn count(
+        &mut self,
+        missing: &Missing,
+        period: Duration,
+        progress: &dyn Progress,
+    ) -> Result<bool, ResultsError> {
+        let start = Instant::now();
+        self.made_by = None;
+        // A place that cannot be written is found out before it costs anything.
+        self.save()?;
+        if let Some(trials) = &self.trials {
+            let work = Work::new(trials.as_ref(), missing);
+            let counts = std::mem::take(&mut self.state.counts).into();
+            let saver = Saver::new(&self.directory, &self.state, &counts, period, progress);
+            work.count(&counts, &saver);
+            let saved = saver.finish();
+            self.state.counts = counts.into_inner().expect("nobody panics with the counts");
+            self.state.seconds += start.elapsed().as_secs_f64();
+            saved?;
+        }
+        self.expect();
+        self.save()?;
+        progress.saved();
+        Ok(!progress.is_stopped() || self.is_there(missing))
+    }
+
+    /// Whether all of something that was missing is counted.
+    fn is_there(&self, missing: &Missing) -> bool {
+        let wanted = self.state.wanted();
+        let trials = self.trials.as_deref();
+        trials.is_none_or(|trials| {
+            Missing::new(trials, &missing.targets(), &self.state.counts, &wanted).is_empty()
+        })
+    }
+
+    /// Saves the counts, be they none.
+    ///
+    /// # Errors
+    /// Where they cannot be written.
+    pub fn save(&self) -> Result<(), ResultsError> {
+        self.directory.save(&self.state)
+    }
+
+    /// The lock under which results can be written.
+    pub fn close(self) -> Lock {
+        self.lock
+    }
+
+    /// Enters every counter, so that the file tells how much there is to do.
+    pub(super) fn expect(&mut self) {
+        let needed = self.needed();
+        let targets = self
+            .trials
+            .as_ref()
+            .map_or(&[][..], |trials| trials.targets());
+        for target in needed.into_iter().map(|at| &targets[at]) {
+            self.state.counts.expect(&target.key, &target.shape);
+        }
+    }
+
+    /// Whether the counts can be what they say.
+    pub(super) fn check(&self) -> Result<(), ResultsError> {
+        let targets = self
+            .trials
+            .as_ref()
+            .map_or(&[][..], |trials| trials.targets());
+        let counts = &self.state.counts;
+        let checked = |target: &super::Target| {
+            counts.check(&target.key, &target.shape, self.state.origin.trials)
+        };
+        let checked: Result<(), _> = targets.iter().try_for_each(checked);
+        checked.map_err(|error| self.directory.impossible(&error))
+    }
+}

@@ -1,0 +1,127 @@
+//! What a study gives to be counted.
+
+use super::Identity;
+use crate::counts::{Counts, DecisionSummary, Key, Shape, Sums};
+use crate::results::{Comparison, Origin};
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// Why a study cannot be run.
+pub type StudyError = Box<dyn std::error::Error + Send + Sync>;
+
+/// A counter that is wanted.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Target {
+    /// What identifies it.
+    pub key: Key,
+    /// What it adds up.
+    pub shape: Shape,
+}
+
+/// Counters that share one realisation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Group {
+    /// By their place among those that are simulated.
+    pub counters: Vec<usize>,
+    /// What a trial costs, in trials of a single point.
+    pub work: u64,
+    /// Memory of a trial, in GB.
+    pub gigabytes: f64,
+}
+
+/// Trials that may run in any order on any machine.
+pub trait Trials: Sync {
+    /// Every counter that may be wanted, each once.
+    fn targets(&self) -> &[Target];
+
+    /// How many points these are of, pairs of points apart.
+    fn points(&self) -> usize {
+        self.targets().len()
+    }
+
+    /// Trials that are run together. Shards are whole blocks.
+    fn block(&self) -> u64;
+
+    /// The targets that a whole run counts, by their places, so far as `counts` tell: in the end all that are not
+    /// there for shards alone.
+    fn needed(&self, _counts: &Counts) -> Vec<usize> {
+        (0..self.targets().len()).collect()
+    }
+
+    /// Runs what must come before the trials of these targets: pilots. Returns how each point decides.
+    ///
+    /// # Errors
+    /// Where a pilot shows no decision.
+    fn prepare(
+        &mut self,
+        _targets: &[usize],
+        _progress: &dyn Progress,
+    ) -> Result<BTreeMap<Key, DecisionSummary>, StudyError> {
+        Ok(BTreeMap::new())
+    }
+
+    /// Prepares for a run that only takes the time of a real one, and says how much work
+    /// [`prepare`](Self::prepare) takes.
+    ///
+    /// # Errors
+    /// As [`prepare`](Self::prepare), so far as it is known beforehand.
+    fn pretend(&mut self) -> Result<u64, StudyError> {
+        Ok(0)
+    }
+
+    /// What simulates these targets and no others.
+    fn simulation<'a>(&'a self, targets: &[usize]) -> Box<dyn Simulation + 'a>;
+}
+
+/// The trials of some targets.
+pub trait Simulation: Sync {
+    /// Every target of the simulation in one of them.
+    fn groups(&self) -> &[Group];
+
+    /// Runs some trials; returns the sums of each counter of the group.
+    fn run(&self, group: usize, trials: Range<u64>) -> Vec<Sums>;
+}
+
+/// Who is told how a run gets on, and may stop it.
+pub trait Progress: Sync {
+    /// A part of the run begins: `work` trials of single points, `trials` of each on average.
+    fn begin(&self, _stage: &'static str, _work: u64, _trials: u64) {}
+
+    /// Further trials of single points are done.
+    fn done(&self, _work: u64) {}
+
+    /// The part is over.
+    fn end(&self) {}
+
+    /// The counts so far are safe.
+    fn saved(&self) {}
+
+    /// Whether to stop after the blocks that are running.
+    fn is_stopped(&self) -> bool {
+        false
+    }
+}
+
+/// Nobody is told.
+impl Progress for () {}
+
+/// What a directory is to hold: a study, and the numbers of this run.
+pub trait Experiment {
+    /// The name of the study's table.
+    fn name(&self) -> &'static str;
+
+    /// What its results are known by.
+    fn origin(&self) -> &Origin;
+
+    /// What it is of, point by point.
+    fn identities(&self) -> Vec<Identity>;
+
+    /// What it counts; none where everything is computed.
+    fn trials(&self) -> Option<Box<dyn Trials + '_>>;
+
+    /// The counts behind finished results of its own, where these tell them.
+    fn recall(&self, points: &[u8], comparisons: &[Comparison]) -> Option<Counts>;
+
+    /// The experiment behind other results; none where this version cannot read its config.
+    fn of(&self, origin: &Origin) -> Option<Box<dyn Experiment>>;
+}

@@ -1,0 +1,413 @@
+//! The autocorrelation of the sensor's noise, Fig. 1 of [^1]: theory and simulation.
+//!
+//! # Theory
+//! Of the predictors of order 1, 2, …, p, which the step-down recursion takes from φ, the one of order
+//! k satisfies the Yule–Walker equations up to lag k, so ρ_k = Σ_{j≤k} φ_j^{(k)} ρ_{k−j}; beyond p,
+//! ρ_k = Σ φ_j ρ_{k−j}. For p = 2 that is ρ₁ = φ₁/(1 − φ₂), ρ_k = φ₁ρ_{k−1} + φ₂ρ_{k−2}. The last
+//! coefficients κ_k = φ_k^{(k)} give σ_x²/σ_ξ² = ∏ 1/(1 − κ_k²).
+//!
+//! # Simulation
+//! Of each record the products x_i x_{i−k} are averaged over the n − k that there are and divided by the
+//! σ_x² of theory: the mean is known to be zero and nothing is divided by an estimate, so the estimator
+//! has no bias at any length. The records are independent, and the interval is the normal one of
+//! their mean.
+//!
+//! [^1]: see [`crate::signal`].
+
+use super::{Context, Counters, Study, counted};
+use crate::chain::Scenario;
+use crate::counts::{Counts, Fixed, Shape, Sums};
+use crate::figure::{self, Drawing, FigureError};
+use crate::results::{Manifest, Quantity, eight_digits};
+use crate::rng::Stream;
+use crate::run::{Group, Identity, Simulation, StudyError, Target, Trials};
+use crate::signal::{Sensor, Transfer};
+use crate::stats::normal::two_sided_quantile;
+use serde::{Deserialize, Serialize};
+
+/// One lag.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// k, in samples.
+    pub lag: usize,
+    /// ρ_k by the coefficients of the config's sensor.
+    pub theory: f64,
+    /// ρ_k by the coefficients that follow from (1).
+    pub exact_transfer: f64,
+    /// Mean of the records' estimates.
+    pub estimate: f64,
+    /// Its interval.
+    pub low: f64,
+    /// Its interval.
+    pub high: f64,
+}
+
+/// (1), with the T₀ of (2).
+const TRANSFER: Transfer = Transfer {
+    a: 2.2e-10,
+    b: 1.01e-6,
+    c: 0.4,
+    period: 6.25e-5,
+};
+/// The coefficients and the numerator that (2) prints.
+const PRINTED: [f64; 2] = [-1.5365, -0.75056];
+const PRINTED_NUMERATOR: f64 = 9.404e-6;
+/// A record takes a tenth of a millisecond.
+const BLOCK: u64 = 16;
+
+/// Theory and simulation at lags 0 … `lags`, from records of `length` samples each.
+pub(super) struct Autocorrelation {
+    context: Context,
+    scenario: Scenario,
+    lags: usize,
+    length: usize,
+    theory: Vec<f64>,
+    counters: Counters,
+}
+
+impl Autocorrelation {
+    pub fn new(context: Context, scenario: Scenario, lags: usize, length: usize) -> Self {
+        let mut study = Self {
+            theory: autocorrelation(scenario.sensor.ar(), lags),
+            context,
+            scenario,
+            lags,
+            length,
+            counters: Counters::default(),
+        };
+        study.counters = Counters::new(&study, context.seed, &study.shape());
+        study
+    }
+
+    /// The sum of the deviations at each lag, and then of their squares.
+    fn shape(&self) -> Shape {
+        Shape {
+            lengths: 2 * (self.lags + 1),
+            ..Shape::default()
+        }
+    }
+}
+
+impl Study for Autocorrelation {
+    const NAME: &'static str = "autocorrelation";
+    type Row = Row;
+
+    fn identities(&self) -> Vec<Identity> {
+        vec![Identity::new([
+            ("lags", self.lags.to_string()),
+            ("length", self.length.to_string()),
+            ("sensor", self.scenario.sensor.to_string()),
+            ("noise", self.scenario.noise.to_string()),
+        ])]
+    }
+
+    fn trials(&self) -> Option<Box<dyn Trials + '_>> {
+        Some(Box::new(Records(self)))
+    }
+
+    fn rows(&self, counts: &Counts) -> Vec<Row> {
+        let exact_transfer = autocorrelation(&transfer_ar(), self.lags);
+        let width = two_sided_quantile(self.context.confidence);
+        let (records, sums) = counted(counts, &self.counters.keys[0], &self.shape());
+        let (deviations, squares) = sums.lengths.split_at(self.lags + 1);
+        (0..=self.lags)
+            .map(|lag| {
+                let theory = self.theory[lag];
+                let (mean, deviation) = mean_and_deviation(records, deviations[lag], squares[lag]);
+                let estimate = theory + mean;
+                Row {
+                    lag,
+                    theory: eight_digits(theory),
+                    exact_transfer: eight_digits(exact_transfer[lag]),
+                    estimate: eight_digits(estimate),
+                    low: eight_digits(estimate - width * deviation),
+                    high: eight_digits(estimate + width * deviation),
+                }
+            })
+            .collect()
+    }
+
+    fn quantities(&self, rows: &[Row]) -> Result<Vec<Quantity>, StudyError> {
+        Ok(quantities(
+            &self.scenario.sensor,
+            self.context.confidence,
+            rows,
+        ))
+    }
+
+    fn draw(&self, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
+        let confidence = self.context.confidence;
+        figure::autocorrelation(&self.scenario, confidence, self.length, rows, manifest)
+    }
+}
+
+/// The mean of a number of deviations, and the deviation of that mean.
+fn mean_and_deviation(number: u64, sum: Fixed, squares: Fixed) -> (f64, f64) {
+    let n = number as f64;
+    let mean = sum.value() / n;
+    let variance = (squares.value() / n - mean * mean).max(0.0) * n / (n - 1.0);
+    (mean, (variance / n).sqrt())
+}
+
+/// Records to be simulated.
+struct Records<'a>(&'a Autocorrelation);
+
+impl Trials for Records<'_> {
+    fn targets(&self) -> &[Target] {
+        &self.0.counters.targets
+    }
+
+    fn block(&self) -> u64 {
+        BLOCK
+    }
+
+    fn simulation<'a>(&'a self, _targets: &[usize]) -> Box<dyn Simulation + 'a> {
+        let Autocorrelation {
+            context, scenario, ..
+        } = self.0;
+        let subject = format!(
+            "{} {} length {}",
+            scenario.sensor, scenario.noise, self.0.length
+        );
+        Box::new(Recording {
+            study: self.0,
+            stream: Stream::new(context.seed, "autocorrelation", &subject),
+            variance: variance_ratio(scenario.sensor.ar()),
+            groups: [Group {
+                counters: vec![0],
+                work: 1,
+                gigabytes: 0.0,
+            }],
+        })
+    }
+}
+
+/// One record after the other.
+struct Recording<'a> {
+    study: &'a Autocorrelation,
+    stream: Stream,
+    variance: f64,
+    groups: [Group; 1],
+}
+
+impl Simulation for Recording<'_> {
+    fn groups(&self) -> &[Group] {
+        &self.groups
+    }
+
+    fn run(&self, _group: usize, trials: std::ops::Range<u64>) -> Vec<Sums> {
+        let mut sums = self.study.shape().empty().sums;
+        let (deviations, squares) = sums.lengths.split_at_mut(self.study.lags + 1);
+        for trial in trials {
+            let record = self.record(trial);
+            for (lag, theory) in self.study.theory.iter().enumerate() {
+                let deviation = mean_product(&record, lag) / self.variance - theory;
+                deviations[lag] += Fixed::new(deviation);
+                squares[lag] += Fixed::new(deviation * deviation);
+            }
+        }
+        vec![sums]
+    }
+}
+
+impl Recording<'_> {
+    /// One stationary record.
+    fn record(&self, trial: u64) -> Vec<f64> {
+        let Scenario { sensor, noise, .. } = &self.study.scenario;
+        let mut record = vec![0.0; sensor.burn_in() + self.study.length];
+        noise.fill(&mut self.stream.at(trial), &mut record);
+        sensor.colour(&mut record);
+        record.split_off(sensor.burn_in())
+    }
+}
+
+fn mean_product(record: &[f64], lag: usize) -> f64 {
+    let pairs = record[lag..].iter().zip(record);
+    let sum: f64 = pairs.map(|(late, early)| late * early).sum();
+    sum / (record.len() - lag) as f64
+}
+
+/// What (2) is worth, how far the simulation is from theory, what whitening gains.
+fn quantities(sensor: &Sensor, confidence: f64, rows: &[Row]) -> Vec<Quantity> {
+    let exact = transfer_ar();
+    let decay = TRANSFER.b / (2.0 * TRANSFER.a);
+    let frequency = (TRANSFER.c / TRANSFER.a - decay * decay).sqrt();
+    let bare = libm::exp(-decay * TRANSFER.period) * libm::sin(frequency * TRANSFER.period)
+        / frequency
+        / PRINTED_NUMERATOR;
+    let variance = variance_ratio(sensor.ar());
+    let gain = 20.0 * libm::log10(sensor.step_gain().abs() * variance.sqrt());
+    let exactly = |name, value| Quantity::exact(name, eight_digits(value));
+    vec![
+        exactly(
+            "phi_1_error_in_last_digits",
+            (PRINTED[0] - exact[0]).abs() / 1e-4,
+        ),
+        exactly(
+            "phi_2_error_in_last_digits",
+            (PRINTED[1] - exact[1]).abs() / 1e-5,
+        ),
+        exactly("numerator_ratio", bare * TRANSFER.period / TRANSFER.a),
+        exactly("numerator_ratio_without_factors", bare),
+        exactly("variance_ratio", variance),
+        largest_deviation(rows, confidence),
+        exactly("whitening_gain_per_sample_db", gain),
+    ]
+}
+
+/// max |estimate − theory|, its interval from intervals of all lags that hold together (Bonferroni).
+fn largest_deviation(rows: &[Row], confidence: f64) -> Quantity {
+    let together = 1.0 - (1.0 - confidence) / rows.len() as f64;
+    let wider = two_sided_quantile(together) / two_sided_quantile(confidence);
+    let (mut value, mut low, mut high) = (0.0f64, 0.0f64, 0.0f64);
+    for row in rows {
+        let deviation = (row.estimate - row.theory).abs();
+        let half_width = wider * (row.high - row.low) / 2.0;
+        value = value.max(deviation);
+        low = low.max(deviation - half_width);
+        high = high.max(deviation + half_width);
+    }
+    Quantity {
+        name: "largest_deviation".to_owned(),
+        value: eight_digits(value),
+        low: eight_digits(low),
+        high: eight_digits(high),
+    }
+}
+
+fn transfer_ar() -> Vec<f64> {
+    let sensor = Sensor::from_transfer(TRANSFER).expect("the sensor of (1) is stable");
+    sensor.ar().to_vec()
+}
+
+/// The predictors of order 1 … p that end in `ar`.
+fn predictors(ar: &[f64]) -> Vec<Vec<f64>> {
+    let mut orders = vec![ar.to_vec()];
+    for order in (1..ar.len()).rev() {
+        let longer = &orders[orders.len() - 1];
+        let last = longer[order];
+        let scale = 1.0 - last * last;
+        let shorter = (0..order)
+            .map(|p| (longer[p] + last * longer[order - 1 - p]) / scale)
+            .collect();
+        orders.push(shorter);
+    }
+    orders.reverse();
+    orders
+}
+
+/// ρ₀ … ρ_lags of the stable autoregression `ar`.
+fn autocorrelation(ar: &[f64], lags: usize) -> Vec<f64> {
+    let predictors = predictors(ar);
+    let mut rho = vec![1.0];
+    for lag in 1..=lags {
+        let predictor = predictors
+            .get(lag - 1)
+            .map_or(ar, |predictor| &predictor[..]);
+        let past = rho.iter().rev();
+        rho.push(predictor.iter().zip(past).map(|(phi, rho)| phi * rho).sum());
+    }
+    rho
+}
+
+/// σ_x²/σ_ξ².
+fn variance_ratio(ar: &[f64]) -> f64 {
+    let orders = predictors(ar).into_iter();
+    orders
+        .filter_map(|predictor| predictor.last().copied())
+        .fold(1.0, |ratio, last| ratio / (1.0 - last * last))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::tests::{config, context, rows};
+
+    /// The study of a short config, and its rows.
+    fn study(trials: u64, length: usize, lags: usize) -> (Autocorrelation, Vec<Row>) {
+        let text = format!(
+            "question = \"?\"\nseed = 2014\ntrials = {trials}\n\
+             [autocorrelation]\nlength = {length}\nlags = {lags}\n"
+        );
+        let config = config(&text);
+        let scenario = config.scenario.clone();
+        let study = Autocorrelation::new(context(&config), scenario, lags, length);
+        let rows = rows(&study, trials);
+        (study, rows)
+    }
+
+    /// γ_k/γ_0 and γ_0 from the response ψ to one innovation: γ_k = Σ ψ_i ψ_{i+k}.
+    fn by_response(ar: &[f64], lags: usize) -> (Vec<f64>, f64) {
+        let mut response = vec![1.0];
+        for i in 1..4000usize {
+            let next = (1..=ar.len().min(i)).map(|p| ar[p - 1] * response[i - p]);
+            response.push(next.sum());
+        }
+        let product = |k: usize| -> f64 {
+            let pairs = response[k..].iter().zip(&response);
+            pairs.map(|(a, b)| a * b).sum()
+        };
+        let rho = (0..=lags).map(|k| product(k) / product(0)).collect();
+        (rho, product(0))
+    }
+
+    /// Against the infinite moving average; 4000 terms of a response that falls by 0.5 % a sample at
+    /// the slowest leave less than 1e-15.
+    #[test]
+    fn theory_is_that_of_the_response() {
+        for ar in [
+            vec![],
+            vec![0.9],
+            vec![-1.5365, -0.75056],
+            vec![0.5, -0.3, 0.1],
+            vec![1.2, -0.6, 0.3, -0.1, 0.05],
+        ] {
+            let (expected, variance) = by_response(&ar, 30);
+            for (rho, expected) in autocorrelation(&ar, 30).iter().zip(expected) {
+                assert!((rho - expected).abs() < 1e-12, "{ar:?}: {rho} {expected}");
+            }
+            assert!((variance_ratio(&ar) / variance - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn closed_form_of_the_second_order() {
+        let [first, second] = PRINTED;
+        let rho = autocorrelation(&PRINTED, 3);
+        assert!((rho[1] - first / (1.0 - second)).abs() < 1e-15);
+        assert!((rho[3] - (first * rho[2] + second * rho[1])).abs() < 1e-15);
+        let variance =
+            (1.0 - second) / ((1.0 + second) * ((1.0 - second) * (1.0 - second) - first * first));
+        assert!((variance_ratio(&PRINTED) / variance - 1.0).abs() < 1e-12);
+        assert!((variance - 9.97).abs() < 0.01);
+    }
+
+    /// 31 means of 4000 short records, where an estimator with a bias of 1/length would be off by six
+    /// deviations or more. Every |z| below 6: fails with probability below 31 · 2e-9 = 7e-8.
+    #[test]
+    fn the_estimator_has_no_bias() {
+        let (study, rows) = study(4000, 60, 30);
+        let width = two_sided_quantile(study.context.confidence);
+        for row in rows {
+            let deviation = (row.high - row.low) / 2.0 / width;
+            let z = (row.estimate - row.theory) / deviation;
+            println!("lag {}: n = 4000, z = {z:.2}", row.lag);
+            assert!(z.abs() < 6.0, "lag {}: {z}", row.lag);
+        }
+    }
+
+    #[test]
+    fn what_the_second_equation_is_worth() {
+        let (study, rows) = study(20, 100, 5);
+        let quantities = study.quantities(&rows).unwrap();
+        let value = |name: &str| {
+            let found = quantities.iter().find(|quantity| quantity.name == name);
+            found.unwrap().value
+        };
+        assert!(value("phi_1_error_in_last_digits") < 0.5);
+        assert!(value("phi_2_error_in_last_digits") < 0.5);
+        assert!((value("numerator_ratio_without_factors") - 1.0).abs() < 1e-3);
+        assert!(value("numerator_ratio") > 1e5);
+        assert!((value("whitening_gain_per_sample_db") - 20.3).abs() < 0.05);
+    }
+}

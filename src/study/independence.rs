@@ -1,0 +1,291 @@
+//! Whether W and T are independent under H₀, eqs (13)–(14) of [^1], by enumeration.
+//!
+//! (13): every way of dealing the pooled ranks to X, Y₁ and Y₂ is equally likely. Here each is made,
+//! W and T are taken from their definitions (12), and the cases n(w, t), n(w), n(t) of n are counted.
+//! (14) holds where n(w, t)·n = n(w)·n(t) for every w and t: whole numbers, no rounding, and nothing
+//! of the laws that the detector relies on.
+//!
+//! [^1]: see [`crate::signal`].
+
+use super::{Study, Table};
+use crate::counts::Counts;
+use crate::figure::{self, Drawing, FigureError};
+use crate::results::{Manifest, Quantity};
+use crate::run::{Identity, StudyError};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// One (w, t) with n(w) > 0 and n(t) > 0, at one set of sizes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// N.
+    pub reference: usize,
+    /// M₁.
+    pub shift: usize,
+    /// M₂.
+    pub scale: usize,
+    /// w.
+    pub rank_sum: u64,
+    /// t.
+    pub exceedances: usize,
+    /// n(w, t).
+    pub count: u64,
+    /// P(w)·P(t), the nearest f64.
+    pub product: f64,
+    /// P(w, t), the nearest f64.
+    pub joint: f64,
+}
+
+/// What the enumeration of one set of sizes comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Finding {
+    /// N, M₁, M₂.
+    pub sizes: [usize; 3],
+    /// n.
+    pub assignments: u64,
+    /// Pairs (w, t) compared.
+    pub cells: usize,
+    /// The largest |n(w, t)·n − n(w)·n(t)|.
+    pub largest_difference: u128,
+}
+
+/// Every cell of every set of sizes: N, M₁ and M₂.
+pub(super) struct Independence {
+    pub sizes: Vec<[usize; 3]>,
+}
+
+impl Study for Independence {
+    const NAME: &'static str = "independence";
+    type Row = Row;
+
+    fn identities(&self) -> Vec<Identity> {
+        let identity = |sizes: &[usize; 3]| Identity::new([("sizes", format!("{sizes:?}"))]);
+        self.sizes.iter().map(identity).collect()
+    }
+
+    fn rows(&self, _counts: &Counts) -> Vec<Row> {
+        rows(&self.sizes)
+    }
+
+    /// The largest difference of all, and how many assignments were made.
+    fn quantities(&self, rows: &[Row]) -> Result<Vec<Quantity>, StudyError> {
+        let findings = findings(rows);
+        let largest = findings.iter().map(|finding| finding.largest_difference);
+        let assignments: u64 = findings.iter().map(|finding| finding.assignments).sum();
+        Ok(vec![
+            Quantity::exact("largest_difference", largest.max().unwrap_or(0) as f64),
+            Quantity::exact("assignments", assignments as f64),
+        ])
+    }
+
+    fn draw(&self, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
+        figure::independence(rows, manifest)
+    }
+
+    fn findings(&self, rows: &[Row]) -> Option<Table> {
+        let line = |finding: &Finding| {
+            vec![
+                finding.sizes.map(|size| size.to_string()).join("/"),
+                finding.assignments.to_string(),
+                finding.cells.to_string(),
+                finding.largest_difference.to_string(),
+            ]
+        };
+        let lines = findings(rows).iter().map(line).collect();
+        Some((HEADER, lines))
+    }
+}
+
+const HEADER: &[&str] = &[
+    "N/M1/M2",
+    "assignments",
+    "cells",
+    "largest |n(w,t) n - n(w) n(t)|",
+];
+
+/// Every cell of every set of sizes.
+pub(super) fn rows(sizes: &[[usize; 3]]) -> Vec<Row> {
+    let each = sizes.par_iter();
+    each.flat_map_iter(|&sizes| cells(sizes, &enumerate(sizes)))
+        .collect()
+}
+
+/// The findings, in the order of the rows.
+pub fn findings(rows: &[Row]) -> Vec<Finding> {
+    rows.chunk_by(|a, b| a.sizes() == b.sizes())
+        .map(finding)
+        .collect()
+}
+
+impl Row {
+    fn sizes(&self) -> [usize; 3] {
+        [self.reference, self.shift, self.scale]
+    }
+}
+
+fn finding(rows: &[Row]) -> Finding {
+    let (mut of_w, mut of_t) = (BTreeMap::new(), BTreeMap::new());
+    for row in rows {
+        *of_w.entry(row.rank_sum).or_insert(0u128) += u128::from(row.count);
+        *of_t.entry(row.exceedances).or_insert(0u128) += u128::from(row.count);
+    }
+    let all: u128 = of_w.values().sum();
+    let difference = |row: &Row| {
+        let joint = u128::from(row.count) * all;
+        joint.abs_diff(of_w[&row.rank_sum] * of_t[&row.exceedances])
+    };
+    Finding {
+        sizes: rows[0].sizes(),
+        assignments: all as u64,
+        cells: rows.len(),
+        largest_difference: rows.iter().map(difference).max().unwrap_or(0),
+    }
+}
+
+/// Which sample a rank is dealt to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Sample {
+    Reference,
+    Shift,
+    Scale,
+}
+
+/// n(w, t).
+fn enumerate([n, m1, m2]: [usize; 3]) -> BTreeMap<(u64, usize), u64> {
+    let mut owners = [
+        vec![Sample::Reference; n],
+        vec![Sample::Shift; m1],
+        vec![Sample::Scale; m2],
+    ]
+    .concat();
+    let mut counts = BTreeMap::new();
+    loop {
+        *counts.entry(statistics(&owners)).or_insert(0) += 1;
+        if !next_arrangement(&mut owners) {
+            return counts;
+        }
+    }
+}
+
+/// W and T by (12), of the ranks 1, 2, … dealt to `owners`.
+fn statistics(owners: &[Sample]) -> (u64, usize) {
+    let (mut rank_sum, mut lowest, mut highest) = (0, usize::MAX, 0);
+    for (rank, owner) in (1..).zip(owners) {
+        match owner {
+            Sample::Shift => rank_sum += rank as u64,
+            Sample::Reference => (lowest, highest) = (lowest.min(rank), highest.max(rank)),
+            Sample::Scale => {}
+        }
+    }
+    let is_outside = |(rank, owner): &(usize, &Sample)| {
+        **owner == Sample::Scale && (*rank < lowest || *rank > highest)
+    };
+    let exceedances = (1..).zip(owners).filter(is_outside).count();
+    (rank_sum, exceedances)
+}
+
+/// The next arrangement in lexicographic order; false after the last.
+fn next_arrangement(owners: &mut [Sample]) -> bool {
+    let Some(pivot) = owners.windows(2).rposition(|pair| pair[0] < pair[1]) else {
+        return false;
+    };
+    let successor = owners.iter().rposition(|owner| *owner > owners[pivot]);
+    owners.swap(pivot, successor.expect("the next one is larger"));
+    owners[pivot + 1..].reverse();
+    true
+}
+
+/// The rows of one set of sizes: every w that occurs with every t that occurs, together or not.
+fn cells(sizes: [usize; 3], counts: &BTreeMap<(u64, usize), u64>) -> Vec<Row> {
+    let (mut of_w, mut of_t) = (BTreeMap::new(), BTreeMap::new());
+    for (&(w, t), count) in counts {
+        *of_w.entry(w).or_insert(0u64) += count;
+        *of_t.entry(t).or_insert(0u64) += count;
+    }
+    let all: u64 = of_w.values().sum();
+    let [reference, shift, scale] = sizes;
+    let mut rows = Vec::new();
+    for (&rank_sum, &with_w) in &of_w {
+        for (&exceedances, &with_t) in &of_t {
+            let count = counts.get(&(rank_sum, exceedances)).copied().unwrap_or(0);
+            rows.push(Row {
+                reference,
+                shift,
+                scale,
+                rank_sum,
+                exceedances,
+                count,
+                // Both products are below 2^53, so each quotient is rounded once.
+                product: (with_w * with_t) as f64 / (all * all) as f64,
+                joint: count as f64 / all as f64,
+            });
+        }
+    }
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At 1/1/1 by hand: X, Y₁, Y₂ hold the ranks 1, 2, 3 in some order, W is the rank of Y₁ and Y₂
+    /// always lies outside the single X.
+    #[test]
+    fn one_each_by_hand() {
+        let counts = enumerate([1, 1, 1]);
+        let expected = [((1, 1), 2), ((2, 1), 2), ((3, 1), 2)];
+        assert_eq!(counts, BTreeMap::from(expected));
+    }
+
+    /// Each arrangement comes once: their number is the multinomial coefficient, eq. (13).
+    #[test]
+    fn every_assignment_once() {
+        for (sizes, number) in [
+            ([2, 2, 2], 90),
+            ([3, 2, 2], 210),
+            ([2, 3, 4], 1260),
+            ([1, 4, 2], 105),
+            ([4, 4, 4], 34_650),
+        ] {
+            assert_eq!(enumerate(sizes).values().sum::<u64>(), number);
+        }
+        let mut owners = vec![Sample::Reference, Sample::Shift, Sample::Scale];
+        let mut seen = vec![owners.clone()];
+        while next_arrangement(&mut owners) {
+            seen.push(owners.clone());
+        }
+        seen.dedup();
+        assert_eq!(seen.len(), 6);
+    }
+
+    /// (14), and the laws of the detector, which share no code with this.
+    #[test]
+    fn independent_and_of_the_known_laws() {
+        use crate::detect::{NullLaw, Samples};
+        for sizes in [[2, 2, 2], [3, 2, 4], [1, 3, 2], [5, 3, 2]] {
+            let rows = rows(&[sizes]);
+            let finding = findings(&rows)[0];
+            assert_eq!(finding.largest_difference, 0, "{sizes:?}");
+            assert_eq!(finding.sizes, sizes);
+            let samples = Samples::contiguous(sizes[0], sizes[1], sizes[2]).unwrap();
+            let (w, t) = (
+                NullLaw::rank_sum(&samples).unwrap(),
+                NullLaw::exceedances(&samples).unwrap(),
+            );
+            for row in rows {
+                let known = w.mass(row.rank_sum) * t.mass(row.exceedances as u64);
+                assert!((row.joint - known).abs() < 1e-15, "{row:?}");
+                assert_eq!(row.joint, row.product);
+            }
+        }
+    }
+
+    /// Rows that are not independent are seen to be so: 3 · 4 against 1 · 3 and the like.
+    #[test]
+    fn dependence_shows() {
+        let mut rows = rows(&[[2, 1, 1]]);
+        rows[0].count += 1;
+        assert!(findings(&rows)[0].largest_difference > 0);
+    }
+}

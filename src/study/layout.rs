@@ -1,0 +1,149 @@
+//! Where the three samples of a trial lie, Fig. 5 of [^1], against the phases of the motion.
+//!
+//! Positions count observations from the first after X, where the motion may start.
+//!
+//! [^1]: see [`crate::signal`].
+
+use super::Study;
+use crate::chain::Scenario;
+use crate::counts::Counts;
+use crate::figure::{self, Drawing, FigureError};
+use crate::results::Manifest;
+use crate::run::Identity;
+use serde::{Deserialize, Serialize};
+
+/// A stretch of a trial, from `start` to just before `end`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Row {
+    /// `rest`, `acceleration`, `inertial`; `training`, `reference`, `gap`, `shift`, `scale`.
+    pub name: String,
+    /// Its first observation.
+    pub start: i64,
+    /// The first after it.
+    pub end: i64,
+}
+
+/// The samples of a scenario.
+pub(super) struct Layout(pub Scenario);
+
+impl Study for Layout {
+    const NAME: &'static str = "layout";
+    type Row = Row;
+
+    fn identities(&self) -> Vec<Identity> {
+        let Scenario {
+            motion,
+            whitening,
+            samples,
+            ..
+        } = &self.0;
+        vec![Identity::new([
+            ("samples", samples.to_string()),
+            ("gap", samples.gap().to_string()),
+            ("duration", motion.duration.to_string()),
+            ("offset", motion.offset.to_string()),
+            ("profile", motion.profile.to_string()),
+            ("training", whitening.training().to_string()),
+            (
+                "includes_reference",
+                whitening.includes_reference().to_string(),
+            ),
+        ])]
+    }
+
+    fn rows(&self, _counts: &Counts) -> Vec<Row> {
+        rows(&self.0)
+    }
+
+    fn draw(&self, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
+        figure::layout(&self.0, rows, manifest)
+    }
+}
+
+/// The phases, then the samples, each in the order of time, empty ones left out.
+fn rows(scenario: &Scenario) -> Vec<Row> {
+    let samples = &scenario.samples;
+    let from_motion = |position: usize| position as i64 - samples.reference() as i64;
+    let (shift, scale) = (samples.shift_range(), samples.scale_range());
+    let end = from_motion(scale.end);
+    let first = from_motion(0);
+    let training = match scenario.whitening.includes_reference() {
+        true => -(scenario.whitening.training() as i64),
+        false => first - scenario.whitening.training() as i64,
+    };
+    let training_end = if scenario.whitening.includes_reference() {
+        0
+    } else {
+        first
+    };
+    let start = scenario.motion.offset as i64;
+    let stop = start.saturating_add(scenario.motion.duration as i64);
+    let stretches = [
+        ("rest", training.min(first), start.min(end)),
+        ("acceleration", start.min(end), stop.min(end)),
+        ("inertial", stop.min(end), end),
+        ("training", training, training_end),
+        ("reference", first, 0),
+        ("gap", 0, from_motion(shift.start)),
+        ("shift", from_motion(shift.start), from_motion(shift.end)),
+        ("gap", from_motion(shift.end), from_motion(scale.start)),
+        ("scale", from_motion(scale.start), end),
+    ];
+    let there = stretches.into_iter().filter(|(_, start, end)| start < end);
+    there
+        .map(|(name, start, end)| Row {
+            name: name.to_owned(),
+            start,
+            end,
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::tests::config;
+
+    fn layout(rest: &str) -> Vec<(String, i64, i64)> {
+        let text = format!("question = \"?\"\nseed = 1\n[layout]\n{rest}");
+        let rows = rows(&config(&text).scenario).into_iter();
+        rows.map(|row| (row.name, row.start, row.end)).collect()
+    }
+
+    fn stretch(name: &str, start: i64, end: i64) -> (String, i64, i64) {
+        (name.to_owned(), start, end)
+    }
+
+    #[test]
+    fn contiguous() {
+        let expected = [
+            stretch("rest", -268, 0),
+            stretch("acceleration", 0, 12),
+            stretch("inertial", 12, 24),
+            stretch("training", -268, -12),
+            stretch("reference", -12, 0),
+            stretch("shift", 0, 12),
+            stretch("scale", 12, 24),
+        ];
+        assert_eq!(layout(""), expected);
+    }
+
+    #[test]
+    fn gaps_offsets_and_the_known_mistake() {
+        let rest = "[samples]\nreference = 4\nshift = 3\nscale = 2\ngap = 1\n\
+                    [motion]\noffset = 1\nduration = 2\n\
+                    [whitening]\ntraining = 10\nincludes_reference = true\n";
+        let expected = [
+            stretch("rest", -10, 1),
+            stretch("acceleration", 1, 3),
+            stretch("inertial", 3, 7),
+            stretch("training", -10, 0),
+            stretch("reference", -4, 0),
+            stretch("gap", 0, 1),
+            stretch("shift", 1, 4),
+            stretch("gap", 4, 5),
+            stretch("scale", 5, 7),
+        ];
+        assert_eq!(layout(rest), expected);
+    }
+}

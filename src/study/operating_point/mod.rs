@@ -1,0 +1,435 @@
+//! The operating point: the Δ/σ_ξ at which the power reaches a wanted value, for samples of several
+//! sizes, by a search with an interval.
+//!
+//! At every Δ of a grid all trials are run on the same noise, then again on a grid thirty-two times
+//! finer wherever something happens. The operating point is where the rate first reaches the wanted power.
+//! Its interval inverts the exact intervals of the rates: from the last Δ before the upper limit first
+//! reaches the power, to the first Δ after the lower limit was last below it. Where the power grows with
+//! Δ, either end is missed only if the interval at one of the two neighbours of the true point misses,
+//! so it covers that point with the stated confidence.
+
+mod trials;
+
+use super::{Context, Study, counted};
+use crate::chain::{RecordTooLong, Scenario};
+use crate::experiment::{Problem, Search};
+use crate::counts::{Counts, Key, Shape};
+use crate::detect::{Method, NullLaws, Region, RegionError, Samples};
+use crate::figure::{self, Drawing, FigureError};
+use crate::results::{self, Manifest, Quantity, eight_digits};
+use crate::run::{Identity, StudyError, Target, Trials};
+use crate::schedule::Schedule;
+use crate::signal::Motion;
+use crate::stats::tally::Tally;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// One row of `points.csv`: the operating point of one size and power.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// N = M₁ = M₂.
+    pub all_samples: usize,
+    /// α.
+    pub alpha: f64,
+    /// Of the region.
+    pub size: f64,
+    /// The wanted power.
+    pub power: f64,
+    /// Δ/σ_ξ; none where it is never reached.
+    pub delta: Option<f64>,
+    /// Its interval.
+    pub low: Option<f64>,
+    /// Its interval; none where the lower limit never gets there.
+    pub high: Option<f64>,
+    /// At every Δ.
+    pub trials: u64,
+    /// Of the interval.
+    pub confidence: f64,
+}
+
+/// The operating points of a scenario at every size.
+pub(super) struct OperatingPoint {
+    context: Context,
+    scenario: Scenario,
+    search: Search,
+    sized: Vec<Sized>,
+    targets: Vec<Target>,
+    /// The place among the targets of each size's Δ, coarse or fine, by its bits.
+    places: Vec<BTreeMap<u64, usize>>,
+}
+
+/// A scenario at one size.
+struct Sized {
+    size: usize,
+    scenario: Scenario,
+    region: Region,
+    /// Δ at every step of the coarse grid.
+    coarse: Vec<f64>,
+    /// Without Δ.
+    identity: Identity,
+}
+
+impl OperatingPoint {
+    /// # Errors
+    /// Where a size has no region, a motion that does not fit, or a record that does not fit in memory.
+    pub fn new(context: Context, scenario: &Scenario, search: Search) -> Result<Self, Problem> {
+        let [from, to] = search.delta;
+        let coarse = grid(from, to);
+        let sized = search.sizes.iter();
+        let sized = sized.map(|&size| Sized::new(scenario, size, coarse.clone()));
+        let mut study = Self {
+            sized: sized.collect::<Result<_, _>>()?,
+            scenario: scenario.clone(),
+            context,
+            search,
+            targets: Vec::new(),
+            places: Vec::new(),
+        };
+        let mut known: BTreeMap<Key, usize> = BTreeMap::new();
+        for sized in &study.sized {
+            sized.schedule(&sized.coarse, context)?;
+            let mut places = BTreeMap::new();
+            for delta in sized.deltas() {
+                let key = sized.identity(delta).key(Self::NAME, context.seed, true);
+                let next = study.targets.len();
+                let place = *known.entry(key.clone()).or_insert(next);
+                if place == next {
+                    let shape = Shape::events(1);
+                    study.targets.push(Target { key, shape });
+                }
+                places.insert(delta.to_bits(), place);
+            }
+            study.places.push(places);
+        }
+        Ok(study)
+    }
+
+    /// The counter of a size, by its place, at a Δ of its grids.
+    fn target(&self, size: usize, delta: f64) -> usize {
+        self.places[size][&delta.to_bits()]
+    }
+}
+
+impl Study for OperatingPoint {
+    const NAME: &'static str = "operating_point";
+    type Row = Row;
+
+    /// The wanted powers change no count.
+    fn identities(&self) -> Vec<Identity> {
+        let [from, to] = self.search.delta;
+        let sized = self.sized.iter();
+        sized
+            .map(|sized| {
+                let mut identity = sized.identity(from);
+                let to = ("to".to_owned(), to.to_string());
+                identity.parameters.push(to);
+                identity
+            })
+            .collect()
+    }
+
+    fn trials(&self) -> Option<Box<dyn Trials + '_>> {
+        Some(Box::new(trials::Levels(self)))
+    }
+
+    fn rows(&self, counts: &Counts) -> Vec<Row> {
+        let sizes = (0..self.sized.len()).map(|size| Grids::new(self, counts, size));
+        sizes
+            .flat_map(|mut grids| {
+                let powers = self.search.power.iter();
+                powers.map(|&power| grids.row(power)).collect::<Vec<_>>()
+            })
+            .collect()
+    }
+
+    /// Δ/σ_ξ of every row by name; infinite where the power is not reached.
+    fn quantities(&self, rows: &[Row]) -> Result<Vec<Quantity>, StudyError> {
+        let quantity = |row: &Row| {
+            let power = row.power.to_string().replace('.', "_");
+            Quantity {
+                name: format!("delta_for_{power}_at_{}", row.all_samples),
+                value: row.delta.unwrap_or(f64::INFINITY),
+                low: row.low.unwrap_or(f64::INFINITY),
+                high: row.high.unwrap_or(f64::INFINITY),
+            }
+        };
+        Ok(rows.iter().map(quantity).collect())
+    }
+
+    fn draw(&self, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
+        figure::operating_point(&self.scenario, rows, manifest)
+    }
+
+    fn points(&self) -> String {
+        let (sizes, steps) = (self.sized.len(), self.sized[0].coarse.len());
+        format!(
+            "{steps} coarse for each of {sizes} sizes, and {STEPS} fine wherever something happens"
+        )
+    }
+}
+
+/// Steps of each grid.
+const STEPS: usize = 32;
+
+/// `from`, `to` and the steps between them.
+fn grid(from: f64, to: f64) -> Vec<f64> {
+    let delta = |step| from + (to - from) * step as f64 / STEPS as f64;
+    (0..=STEPS).map(delta).collect()
+}
+
+impl Sized {
+    fn new(scenario: &Scenario, size: usize, coarse: Vec<f64>) -> Result<Self, Problem> {
+        let (gap, decimation) = (scenario.samples.gap(), scenario.samples.decimation());
+        let samples = Samples::new(size, size, size, gap, decimation).map_err(Problem::Samples)?;
+        let detector = &scenario.detector;
+        let Method::Rule(rule) = &detector.method else {
+            return Err(Problem::NoExactRegion(detector.method.name()));
+        };
+        let laws = NullLaws::new(detector.alternative, &samples).map_err(RegionError::from)?;
+        let region = laws.region(rule, detector.alpha)?;
+        // As long as Y₁ lasts, wherever it starts: the duration follows the size.
+        let motion = Motion {
+            duration: samples
+                .acceleration()
+                .saturating_sub(scenario.motion.offset),
+            ..scenario.motion
+        };
+        let scenario = Scenario {
+            samples,
+            motion: motion.checked().map_err(Problem::Motion)?,
+            ..scenario.clone()
+        };
+        let parameters = results::parameters(&scenario).into_iter();
+        Ok(Self {
+            identity: Identity {
+                parameters: parameters.filter(|(name, _)| name != "delta").collect(),
+                place: String::new(),
+            },
+            size,
+            scenario,
+            region,
+            coarse,
+        })
+    }
+
+    /// Δ at every step of the fine grid that ends at coarse step `above`.
+    fn fine(&self, above: usize) -> Vec<f64> {
+        grid(self.coarse[above - 1], self.coarse[above])
+    }
+
+    /// Δ at every step of every grid.
+    fn deltas(&self) -> impl Iterator<Item = f64> {
+        let fine = (1..=STEPS).flat_map(|above| self.fine(above));
+        self.coarse.iter().copied().chain(fine)
+    }
+
+    fn at(&self, delta: f64) -> Scenario {
+        let mut scenario = self.scenario.clone();
+        scenario.motion.delta = delta;
+        scenario
+    }
+
+    fn identity(&self, delta: f64) -> Identity {
+        let mut identity = self.identity.clone();
+        let delta = ("delta".to_owned(), delta.to_string());
+        identity.parameters.push(delta);
+        identity
+    }
+
+    /// The same scenario at several Δ, all on the same noise.
+    fn schedule(&self, deltas: &[f64], context: Context) -> Result<Schedule, RecordTooLong> {
+        let scenarios: Vec<Scenario> = deltas.iter().map(|&delta| self.at(delta)).collect();
+        trials::schedule(&scenarios, context).map_err(|(_, refusal)| refusal)
+    }
+}
+
+/// A rate and its interval at one Δ.
+#[derive(Clone, Copy)]
+struct Level {
+    delta: f64,
+    rate: f64,
+    low: f64,
+    high: f64,
+}
+
+/// The grids of one size, and which of the fine ones have been asked for, by the coarse step that they end at.
+struct Grids<'a> {
+    study: &'a OperatingPoint,
+    counts: &'a Counts,
+    size: usize,
+    coarse: Vec<Level>,
+    asked: BTreeSet<usize>,
+}
+
+impl<'a> Grids<'a> {
+    fn new(study: &'a OperatingPoint, counts: &'a Counts, size: usize) -> Self {
+        let mut grids = Self {
+            study,
+            counts,
+            size,
+            coarse: Vec::new(),
+            asked: BTreeSet::new(),
+        };
+        grids.coarse = grids.levels(study.sized[size].coarse.clone());
+        grids
+    }
+
+    fn levels(&self, deltas: Vec<f64>) -> Vec<Level> {
+        let level = |delta: f64| {
+            let target = &self.study.targets[self.study.target(self.size, delta)];
+            let (trials, sums) = counted(self.counts, &target.key, &target.shape);
+            let tally = Tally {
+                hits: sums.counts[0],
+                trials,
+            };
+            let (low, high) = tally.interval(self.study.context.confidence);
+            Level {
+                delta,
+                rate: tally.rate(),
+                low,
+                high,
+            }
+        };
+        deltas.into_iter().map(level).collect()
+    }
+
+    /// The fine grid from coarse step `above` − 1 to `above`.
+    fn fine(&mut self, above: usize) -> Vec<Level> {
+        self.asked.insert(above);
+        self.levels(self.study.sized[self.size].fine(above))
+    }
+
+    /// The neighbours on the fine grid between which `is_reached` first holds; twice the start of the
+    /// grid where it holds there, none where it never does.
+    fn first(&mut self, is_reached: impl Fn(&Level) -> bool) -> Option<[f64; 2]> {
+        let above = self.coarse.iter().position(&is_reached)?;
+        if above == 0 {
+            return Some([self.coarse[0].delta; 2]);
+        }
+        let fine = self.fine(above);
+        let above = fine.iter().position(is_reached).unwrap_or(STEPS).max(1);
+        Some([fine[above - 1].delta, fine[above].delta])
+    }
+
+    /// The same for the place after which `is_reached` holds to the end.
+    fn last(&mut self, is_reached: impl Fn(&Level) -> bool) -> Option<[f64; 2]> {
+        let fails = |at: &Level| !is_reached(at);
+        let Some(below) = self.coarse.iter().rposition(fails) else {
+            return Some([self.coarse[0].delta; 2]);
+        };
+        if below == STEPS {
+            return None;
+        }
+        let fine = self.fine(below + 1);
+        let below = fine.iter().rposition(fails).unwrap_or(0).min(STEPS - 1);
+        Some([fine[below].delta, fine[below + 1].delta])
+    }
+
+    fn row(&mut self, power: f64) -> Row {
+        let delta = self.first(|level| level.rate >= power);
+        let low = self.first(|level| level.high >= power);
+        let high = self.last(|level| level.low >= power);
+        let OperatingPoint { context, sized, .. } = self.study;
+        let Sized {
+            size,
+            scenario,
+            region,
+            ..
+        } = &sized[self.size];
+        Row {
+            all_samples: *size,
+            alpha: scenario.detector.alpha,
+            size: region.size(),
+            power,
+            delta: delta.map(|[_, above]| eight_digits(above)),
+            low: low.map(|[below, _]| eight_digits(below)),
+            high: high.map(|[_, above]| eight_digits(above)),
+            trials: context.trials,
+            confidence: context.confidence,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiment::{Config, ExhibitKind};
+    use crate::pilot::Pilots;
+    use crate::plan::Plan;
+    use crate::run;
+    use crate::study::tests::{config, context, rows};
+
+    const SEARCH: &str = "question = \"?\"\nseed = 5\ntrials = 4000\n[impulses]\nnu = 0.2\n\
+        [operating_point]\nsizes = [9, 12]\npower = [0.5, 0.9]\ndelta = { from = 0.0, to = 3.2 }\n";
+
+    /// The study of a config's search, and its rows.
+    fn searched(text: &str) -> (OperatingPoint, Vec<Row>) {
+        let config = config(text);
+        let ExhibitKind::OperatingPoint(search) = config.kind.clone() else {
+            panic!("no search");
+        };
+        let study = OperatingPoint::new(context(&config), &config.scenario, search).unwrap();
+        let rows = rows(&study, config.trials);
+        (study, rows)
+    }
+
+    /// Against brute force: a sweep over every Δ of the finest grid on the same draws, and the three
+    /// crossings read off its rates and limits.
+    #[test]
+    fn finds_what_a_grid_of_every_point_shows() {
+        let (_, rows) = searched(SEARCH);
+        assert_eq!(rows.len(), 4);
+        for row in rows {
+            let size = row.all_samples;
+            let text = format!(
+                "question = \"?\"\nseed = 5\ntrials = 4000\n[impulses]\nnu = 0.2\n[samples]\n\
+                 reference = {size}\nshift = {size}\nscale = {size}\n\
+                 [axis]\ndelta = {{ from = 0.0, to = 3.2, step = 0.003125 }}\n"
+            );
+            let plan = Plan::new(&Config::parse("test", &text).unwrap()).unwrap();
+            let decisions = Pilots::new(&plan).unwrap().decide(|_| {}).unwrap();
+            let tallies = run::run(&plan, &decisions, &[], |_| {}).tallies;
+            let along: Vec<(f64, Tally)> = (plan.points.iter().zip(tallies))
+                .filter(|(point, _)| point.scenario.moves())
+                .map(|(point, tally)| (point.scenario.motion.delta, tally))
+                .collect();
+            assert_eq!(along.len(), 1025);
+            let first = |level: &dyn Fn(Tally) -> f64| {
+                let at = along
+                    .iter()
+                    .position(|(_, tally)| level(*tally) >= row.power);
+                at.map(|index| [along[index - 1].0, along[index].0])
+                    .unwrap()
+            };
+            let last_below = |level: &dyn Fn(Tally) -> f64| {
+                let at = along
+                    .iter()
+                    .rposition(|(_, tally)| level(*tally) < row.power);
+                along[at.unwrap() + 1].0
+            };
+            let close = |a: Option<f64>, b: f64| (a.unwrap() - b).abs() < 1e-9;
+            assert!(close(row.delta, first(&|tally| tally.rate())[1]), "{row:?}");
+            assert!(
+                close(row.low, first(&|tally| tally.interval(0.95).1)[0]),
+                "{row:?}"
+            );
+            assert!(
+                close(row.high, last_below(&|tally| tally.interval(0.95).0)),
+                "{row:?}"
+            );
+        }
+    }
+
+    /// A power beyond the range is not reached, and says so.
+    #[test]
+    fn what_is_not_reached_is_left_out() {
+        let text = SEARCH.replace("3.2", "0.05").replace("0.9]", "0.999]");
+        let (study, rows) = searched(&text);
+        assert!(rows.iter().all(|row| row.delta.is_none()));
+        assert!(
+            (study.quantities(&rows).unwrap())
+                .iter()
+                .all(|quantity| quantity.value == f64::INFINITY)
+        );
+    }
+}

@@ -1,0 +1,126 @@
+//! The boundaries C_W(T) of several rules at the same sizes and level, eqs (10)–(11) and (15) of [^1].
+//!
+//! [^1]: see [`crate::signal`].
+
+use super::Study;
+use crate::chain::Scenario;
+use crate::counts::Counts;
+use crate::detect::{NullLaws, Region, RegionError, Rule};
+use crate::figure::{self, Drawing, FigureError};
+use crate::results::Manifest;
+use crate::run::Identity;
+use serde::{Deserialize, Serialize};
+
+/// One rule at one T: W ≤ lower or W ≥ upper decides H₁.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// As in a config.
+    pub rule: String,
+    /// P(ϑ | H₀), exact.
+    pub size: f64,
+    /// T.
+    pub exceedances: usize,
+    /// Absent where no small W decides.
+    pub lower: Option<u64>,
+    /// Absent where no large W decides.
+    pub upper: Option<u64>,
+}
+
+/// The regions of several rules at the same sizes and level.
+pub(super) struct Regions {
+    scenario: Scenario,
+    regions: Vec<(Rule, Region)>,
+}
+
+impl Regions {
+    /// # Errors
+    /// Where a rule has no region.
+    pub fn new(scenario: Scenario, rules: Vec<Rule>) -> Result<Self, RegionError> {
+        let detector = &scenario.detector;
+        let laws = NullLaws::new(detector.alternative, &scenario.samples)?;
+        let mut regions = Vec::new();
+        for rule in rules {
+            let region = laws.region(&rule, detector.alpha)?;
+            regions.push((rule, region));
+        }
+        Ok(Self { scenario, regions })
+    }
+}
+
+impl Study for Regions {
+    const NAME: &'static str = "region";
+    type Row = Row;
+
+    fn identities(&self) -> Vec<Identity> {
+        let Scenario {
+            samples, detector, ..
+        } = &self.scenario;
+        let identity = |(rule, _): &(Rule, Region)| {
+            Identity::new([
+                ("samples", samples.to_string()),
+                ("alpha", detector.alpha.to_string()),
+                ("alternative", detector.alternative.to_string()),
+                ("rule", rule.to_string()),
+            ])
+        };
+        self.regions.iter().map(identity).collect()
+    }
+
+    fn rows(&self, _counts: &Counts) -> Vec<Row> {
+        let regions = self.regions.iter();
+        regions
+            .flat_map(|(rule, region)| boundary(rule, region))
+            .collect()
+    }
+
+    fn draw(&self, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
+        figure::regions(&self.scenario, rows, manifest)
+    }
+}
+
+/// The rows of one region.
+pub fn boundary(rule: &Rule, region: &Region) -> Vec<Row> {
+    let critical = region.critical_values().into_iter().enumerate();
+    critical
+        .map(|(exceedances, (lower, upper))| Row {
+            rule: rule.to_string(),
+            size: region.size(),
+            exceedances,
+            lower,
+            upper,
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiment::ExhibitKind;
+    use crate::study::independence;
+    use crate::study::tests::{config, rows};
+
+    /// The size of each boundary, summed cell by cell from a full enumeration of ranks.
+    #[test]
+    fn sizes_are_those_of_an_enumeration() {
+        let text = "question = \"?\"\nseed = 1\n[region]\nrules = [\"wilcoxon\", \"product\", \
+                    \"disjunction\"]\n[samples]\nreference = 3\nshift = 3\nscale = 3\n\
+                    [detector]\nalpha = 0.2\nalternative = \"two-sided\"\n";
+        let config = config(text);
+        let ExhibitKind::Region { rules } = &config.kind else {
+            panic!("{config:?}");
+        };
+        let cells = independence::rows(&[[3, 3, 3]]);
+        let study = Regions::new(config.scenario.clone(), rules.clone()).unwrap();
+        let rows = rows(&study, 1);
+        assert_eq!(rows.len(), 12);
+        for of_rule in rows.chunk_by(|a, b| a.rule == b.rule) {
+            let is_inside = |cell: &&independence::Row| {
+                let row = &of_rule[cell.exceedances];
+                row.upper.is_some_and(|w| cell.rank_sum >= w)
+                    || row.lower.is_some_and(|w| cell.rank_sum <= w)
+            };
+            let size: f64 = cells.iter().filter(is_inside).map(|cell| cell.joint).sum();
+            assert!(size > 0.0 && (size - of_rule[0].size).abs() < 1e-14);
+        }
+    }
+}

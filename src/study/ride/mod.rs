@@ -1,0 +1,185 @@
+//! Whole rides before the monitor: is every trip found, how late, how often does rest look like motion, does a jam
+//! alarm, and what becomes of a monitor that is switched on in motion?
+//!
+//! A trial is one ride, one rest, or both, simulated, watched, and held against the truth. Every point sees the
+//! same draws of a trial, so points that differ in strength or in the monitor's settings alone are compared on the
+//! same noise.
+//!
+//! | outcome | of | is |
+//! |---|---|---|
+//! | `found` | trials | rides of which every trip is found: start and stop told within the tolerance of the truth, in the right direction |
+//! | `start_delay_05`, `_50`, `_95` | trips | quantiles of the time from a start to when it is told |
+//! | `stop_delay_…` | trips | the same for stops |
+//! | `false_motions` | hours | starts told while the cage stood, of a time when it stood, per hour for which the monitor said `rest` of a cage at rest |
+//! | `hours_between` | hours | the mean time between them |
+//! | `disturbed` | trials | rests with a false motion |
+//! | `alarmed` | trials | jams with an alarm that is told after them, of no later time than the stand |
+//! | `alarm_delay_…` | jams | the time from a jam to its alarm |
+//! | `false_alarms` | trials | jam alarms without a jam, per trial |
+//! | `misled` | trials | switched on in motion, the monitor said `rest` before the cage stood |
+//! | `knew_soon`, `knew` | trials | it said `rest` when the next trip began, and when the record ended |
+//!
+//! What was never told took infinitely long: a quantile beyond the share that was told is infinite.
+
+mod account;
+mod estimate;
+mod row;
+mod sums;
+#[cfg(test)]
+mod tests;
+mod watch;
+
+pub use row::Row;
+
+use super::{Context, Counters, Study, counted};
+use crate::experiment::{RidePoint, RideStudy};
+use crate::counts::{Counts, Sums};
+use crate::figure::{self, Drawing, FigureError};
+use crate::results::{Manifest, Quantity};
+use crate::run::{Group, Identity, Simulation, StudyError, Target, Trials};
+use std::ops::Range;
+use sums::RideSums;
+use watch::Watch;
+
+/// A trial takes milliseconds.
+const BLOCK: u64 = 4;
+
+/// Rides along an axis.
+pub(super) struct Rides {
+    context: Context,
+    study: RideStudy,
+    counters: Counters,
+}
+
+impl Rides {
+    pub fn new(context: Context, study: RideStudy) -> Self {
+        let mut rides = Self {
+            context,
+            study,
+            counters: Counters::default(),
+        };
+        rides.counters = Counters::new(&rides, context.seed, &RideSums::shape());
+        rides
+    }
+
+    /// Every point with its curve and its value on the axis.
+    fn points(&self) -> impl Iterator<Item = (usize, f64, &RidePoint)> {
+        let curves = self.study.curves.iter().enumerate();
+        curves.flat_map(|(curve, of)| of.points.iter().map(move |(x, point)| (curve, *x, point)))
+    }
+}
+
+/// Every parameter of a point.
+fn identity(point: &RidePoint) -> Identity {
+    Identity::new([
+        ("measure", point.measure.name().to_owned()),
+        ("rate", point.rate.to_string()),
+        ("pickup", format!("{:?}", point.pickup)),
+        ("drive", format!("{:?}", point.drive)),
+        ("distance", point.distance.to_string()),
+        ("trips", point.trips.to_string()),
+        ("rest", format!("{:?}", point.rest)),
+        ("length", point.length.to_string()),
+        ("jam_within", point.jam_within.to_string()),
+        ("tolerance", point.tolerance.to_string()),
+        ("settings", format!("{:?}", point.settings)),
+        ("learnt", point.learnt.to_string()),
+        ("begins_at_rest", point.begins_at_rest.to_string()),
+        ("motion_shows", point.motion_shows.to_string()),
+    ])
+}
+
+impl Study for Rides {
+    const NAME: &'static str = "ride";
+    type Row = Row;
+
+    fn identities(&self) -> Vec<Identity> {
+        self.points().map(|(.., point)| identity(point)).collect()
+    }
+
+    fn trials(&self) -> Option<Box<dyn Trials + '_>> {
+        Some(Box::new(Watching(self)))
+    }
+
+    /// All outcomes of every point, in the order of curves and values.
+    fn rows(&self, counts: &Counts) -> Vec<Row> {
+        let Self { context, study, .. } = self;
+        let mut rows = Vec::new();
+        for ((curve, x, point), key) in self.points().zip(&self.counters.keys) {
+            let (trials, sums) = counted(counts, key, &RideSums::shape());
+            let size = Watch::new(point, context.seed).size();
+            let estimates = estimate::of(study.measure, &sums.into(), trials, context.confidence);
+            for estimate in estimates {
+                rows.push(Row::new(study, curve, x, point, size, estimate, context));
+            }
+        }
+        rows
+    }
+
+    /// Every outcome by name: that of the outcome, of its curve and of its place on the axis.
+    fn quantities(&self, rows: &[Row]) -> Result<Vec<Quantity>, StudyError> {
+        let quantity = |row: &Row| {
+            let curve = self.study.curves[row.curve - 1].name();
+            let x = row.x.to_string().replace('.', "_");
+            Quantity {
+                name: format!("{}_{curve}_at_{x}", row.outcome),
+                value: row.estimate,
+                low: row.low,
+                high: row.high,
+            }
+        };
+        Ok(rows.iter().map(quantity).collect())
+    }
+
+    fn draw(&self, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
+        figure::rides(&self.study, rows, manifest)
+    }
+}
+
+/// Rides to be watched.
+struct Watching<'a>(&'a Rides);
+
+impl Trials for Watching<'_> {
+    fn targets(&self) -> &[Target] {
+        &self.0.counters.targets
+    }
+
+    fn block(&self) -> u64 {
+        BLOCK
+    }
+
+    fn simulation<'a>(&'a self, targets: &[usize]) -> Box<dyn Simulation + 'a> {
+        let Rides {
+            context, counters, ..
+        } = self.0;
+        let points: Vec<&RidePoint> = self.0.points().map(|(.., point)| point).collect();
+        let watch = |&at: &usize| Watch::new(points[counters.points[at]], context.seed);
+        let group = |counter| Group {
+            counters: vec![counter],
+            work: 1,
+            gigabytes: 0.0,
+        };
+        Box::new(Watches {
+            watches: targets.iter().map(watch).collect(),
+            groups: (0..targets.len()).map(group).collect(),
+        })
+    }
+}
+
+/// Some points, each by itself.
+struct Watches<'a> {
+    watches: Vec<Watch<'a>>,
+    groups: Vec<Group>,
+}
+
+impl Simulation for Watches<'_> {
+    fn groups(&self) -> &[Group] {
+        &self.groups
+    }
+
+    fn run(&self, group: usize, trials: Range<u64>) -> Vec<Sums> {
+        let mut sums = RideSums::default();
+        trials.for_each(|trial| sums.add(&self.watches[group].trial(trial)));
+        vec![sums.into()]
+    }
+}

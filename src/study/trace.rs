@@ -1,0 +1,393 @@
+//! One realisation of a ride, Figs 2–4 of [^1]: what the sensor writes down while the cage stands, gains
+//! speed, moves by itself, loses speed; and the same after whitening.
+//!
+//! r = x + Δ·shape + λ + v, eqs (4), (7): Δ acts in acceleration, −Δ in braking; impulses λ and the
+//! vibration v, white noise that [^1] does not have, act in motion. Every ride starts from S = 0.
+//!
+//! # What becomes of impulses in (9)
+//! y_i = r_i − Σ a_p r_{i−p} with the sensor's true coefficients is ξ_i + Δ·step_i + λ_i − Σ a_p λ_{i−p},
+//! where step is the whitened shape, 1 − β once the filter's memory is full. (9) prints λ_i + Σ a_p λ_{i−p}.
+//! The quantities say how far y is from either.
+//!
+//! [^1]: see [`crate::signal`].
+
+use super::Study;
+use crate::chain::Scenario;
+use crate::experiment::{Part, Trace};
+use crate::counts::Counts;
+use crate::figure::{self, Drawing, FigureError};
+use crate::results::{self, Manifest, Quantity, eight_digits};
+use crate::rng::Stream;
+use crate::run::{Identity, StudyError};
+use crate::signal::{During, ImpulseMemory, Law, Motion, Noise, Phase};
+use crate::whiten::{Fitter, whiten};
+use rand::Rng;
+use serde::{Deserialize, Serialize};
+
+/// One sample. Values are in the trace's unit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// In seconds.
+    pub time: f64,
+    /// `rest`, `acceleration`, `inertial` or `braking`.
+    pub phase: String,
+    /// What the sensor writes down.
+    pub record: f64,
+    /// The same whitened, where it is.
+    pub whitened: Option<f64>,
+    /// `training`, `reference`, `shift`, `scale`, or nothing.
+    pub sample: Option<String>,
+    /// What is added to the noise for the acceleration.
+    pub acceleration: f64,
+    /// λ.
+    pub impulse: f64,
+}
+
+/// What one realisation is drawn from.
+pub(super) struct Realisation {
+    seed: u64,
+    scenario: Scenario,
+    trace: Trace,
+}
+
+impl Realisation {
+    pub fn new(seed: u64, scenario: Scenario, trace: Trace) -> Self {
+        Self {
+            seed,
+            scenario,
+            trace,
+        }
+    }
+}
+
+impl Study for Realisation {
+    const NAME: &'static str = "trace";
+    type Row = Row;
+
+    fn identities(&self) -> Vec<Identity> {
+        let mut identity = Identity::new([("trace", format!("{:?}", self.trace))]);
+        identity
+            .parameters
+            .extend(results::parameters(&self.scenario));
+        vec![identity]
+    }
+
+    fn rows(&self, _counts: &Counts) -> Vec<Row> {
+        Ride::new(self).rows()
+    }
+
+    fn quantities(&self, _rows: &[Row]) -> Result<Vec<Quantity>, StudyError> {
+        Ok(Ride::new(self).quantities())
+    }
+
+    fn draw(&self, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
+        figure::trace(&self.scenario, &self.trace, rows, manifest)
+    }
+}
+
+/// A realisation, part by part, in σ_ξ.
+struct Ride<'a> {
+    config: &'a Realisation,
+    trace: &'a Trace,
+    /// ξ.
+    innovations: Vec<f64>,
+    acceleration: Vec<f64>,
+    impulses: Vec<f64>,
+    record: Vec<f64>,
+}
+
+impl<'a> Ride<'a> {
+    /// Draws one.
+    fn new(config: &'a Realisation) -> Self {
+        let trace = &config.trace;
+        let (innovations, coloured) = noise(config, trace.length());
+        let acceleration = acceleration(config, trace);
+        let impulses = impulses(config, trace);
+        let vibration = vibration(config, trace);
+        let digitiser = &config.scenario.digitiser;
+        let parts = coloured.iter().zip(&acceleration).zip(&impulses);
+        let record = parts
+            .zip(vibration)
+            .map(|(((x, delta), impulse), v)| x + delta + impulse + v)
+            .map(|r| digitiser.code(r) * digitiser.unit())
+            .collect();
+        Self {
+            config,
+            trace,
+            innovations,
+            acceleration,
+            impulses,
+            record,
+        }
+    }
+
+    /// Every sample.
+    fn rows(&self) -> Vec<Row> {
+        let whitened = self.whitened();
+        let mut names = vec![None; self.record.len()];
+        if self.trace.whitened {
+            self.name_samples(&mut names);
+        }
+        let scaled = |value: f64| eight_digits(value * self.trace.sigma);
+        (samples(self.trace).zip(names).enumerate())
+            .map(|(i, ((part, _), sample))| Row {
+                time: eight_digits(i as f64 / self.trace.rate),
+                phase: part.phase.name().to_owned(),
+                record: scaled(self.record[i]),
+                whitened: whitened[i].map(scaled),
+                sample: sample.map(str::to_owned),
+                acceleration: scaled(self.acceleration[i]),
+                impulse: scaled(self.impulses[i]),
+            })
+            .collect()
+    }
+
+    /// How far (9) is from the whitened record, with a minus before the impulses' tail and with the plus
+    /// that it prints; only of a ride that is whitened and has nothing in it that (9) does not.
+    fn quantities(&self) -> Vec<Quantity> {
+        let is_of_nine = self.config.scenario.digitiser.is_transparent()
+            && self.trace.vibration == 0.0
+            && !self.config.scenario.sensor.ar().is_empty();
+        if !self.trace.whitened || !is_of_nine {
+            return Vec::new();
+        }
+        let exactly = |name, sign| Quantity::exact(name, eight_digits(self.residual(sign)));
+        vec![
+            exactly("eq9_minus_residual", -1.0),
+            exactly("eq9_plus_residual", 1.0),
+        ]
+    }
+
+    /// The largest |y_i − (ξ_i + Δ·step_i + λ_i ± Σ a_p λ_{i−p})| in motion, with true coefficients.
+    fn residual(&self, sign: f64) -> f64 {
+        let ar = self.config.scenario.sensor.ar();
+        let tail = |values: &[f64], i: usize| -> f64 {
+            let past = values[..i].iter().rev();
+            ar.iter().zip(past).map(|(a, value)| a * value).sum()
+        };
+        let in_motion = samples(self.trace)
+            .enumerate()
+            .skip(ar.len())
+            .filter(|(_, (part, _))| part.phase.moves());
+        let residual = |i: usize| {
+            let y = self.record[i] - tail(&self.record, i);
+            let step = self.acceleration[i] - tail(&self.acceleration, i);
+            let impulse = self.impulses[i] + sign * tail(&self.impulses, i);
+            (y - (self.innovations[i] + step + impulse)).abs()
+        };
+        in_motion.map(|(i, _)| residual(i)).fold(0.0, f64::max)
+    }
+
+    /// The whitened record, from where the filter's memory is full.
+    fn whitened(&self) -> Vec<Option<f64>> {
+        let mut whitened = vec![None; self.record.len()];
+        if !self.trace.whitened {
+            return whitened;
+        }
+        let whitening = self.config.scenario.whitening;
+        let training = self.training();
+        let mut fitter = Fitter::new(whitening, self.config.scenario.sensor.ar());
+        let coefficients = fitter.fit(&self.record[training]);
+        let start = whitening.highest_order().min(self.record.len());
+        let mut values = vec![0.0; self.record.len() - start];
+        whiten(coefficients, &self.record, start, &mut values);
+        for (whitened, value) in whitened[start..].iter_mut().zip(values) {
+            *whitened = Some(value);
+        }
+        whitened
+    }
+
+    fn reference_start(&self) -> usize {
+        let start = self.trace.reference_start(&self.config.scenario.samples);
+        start.expect("the config has been checked")
+    }
+
+    /// Where the filter is fitted.
+    fn training(&self) -> std::ops::Range<usize> {
+        let scenario = &self.config.scenario;
+        let start = self.reference_start();
+        let end = match scenario.whitening.includes_reference() {
+            true => start + scenario.samples.reference(),
+            false => start,
+        };
+        end - scenario.whitening.training()..end
+    }
+
+    fn name_samples(&self, names: &mut [Option<&'static str>]) {
+        let samples = &self.config.scenario.samples;
+        let start = self.reference_start();
+        let placed = |range: std::ops::Range<usize>| start + range.start..start + range.end;
+        for (name, range) in [
+            ("training", self.training()),
+            ("reference", placed(samples.reference_range())),
+            ("shift", placed(samples.shift_range())),
+            ("scale", placed(samples.scale_range())),
+        ] {
+            names[range].fill(Some(name));
+        }
+    }
+}
+
+/// For each sample the part of the ride that it lies in, and how many samples of that have passed.
+fn samples(trace: &Trace) -> impl Iterator<Item = (Part, usize)> + '_ {
+    let parts = trace.parts.iter();
+    parts.flat_map(|part| (0..part.length).map(move |since| (*part, since)))
+}
+
+fn stream(config: &Realisation, purpose: &str) -> Stream {
+    let subject = format!("{} {}", config.scenario.sensor, config.scenario.noise);
+    Stream::new(config.seed, purpose, &subject)
+}
+
+/// ξ and x, stationary from the first sample.
+fn noise(config: &Realisation, length: usize) -> (Vec<f64>, Vec<f64>) {
+    let sensor = &config.scenario.sensor;
+    let burn_in = sensor.burn_in();
+    let mut white = vec![0.0; burn_in + length];
+    let mut generator = stream(config, "trace noise").at(0);
+    config.scenario.noise.fill(&mut generator, &mut white);
+    let mut coloured = white.clone();
+    sensor.colour(&mut coloured);
+    (white.split_off(burn_in), coloured.split_off(burn_in))
+}
+
+fn acceleration(config: &Realisation, trace: &Trace) -> Vec<f64> {
+    let motion = &config.scenario.motion;
+    let delta = motion.record_delta(config.scenario.sensor.step_gain());
+    let at = |(part, since): (Part, usize)| {
+        let pulse = Motion {
+            duration: part.length,
+            offset: 0,
+            ..*motion
+        };
+        match part.phase.sign() {
+            0.0 => 0.0,
+            sign => sign * delta * pulse.shape(since as f64 + 0.5),
+        }
+    };
+    samples(trace).map(at).collect()
+}
+
+fn impulses(config: &Realisation, trace: &Trace) -> Vec<f64> {
+    let impulses = &config.scenario.impulses;
+    let mut generator = stream(config, "trace impulses").at(0);
+    let mut memory = ImpulseMemory::default();
+    let mut next = |phase: Phase| {
+        let draw = generator.next_u64();
+        let acts = match impulses.during() {
+            During::Motion => phase.moves(),
+            During::Inertial => phase == Phase::Inertial,
+        };
+        match acts {
+            // Adding zero makes −0 the same as 0.
+            true => impulses.theta() * memory.step(impulses.nu(), draw) + 0.0,
+            false => {
+                memory = ImpulseMemory::default();
+                0.0
+            }
+        }
+    };
+    samples(trace).map(|(part, _)| next(part.phase)).collect()
+}
+
+fn vibration(config: &Realisation, trace: &Trace) -> Vec<f64> {
+    let mut vibration = vec![0.0; trace.length()];
+    let mut generator = stream(config, "trace vibration").at(0);
+    let normal = Noise::new(Law::Normal).expect("the normal law has no parameter");
+    normal.fill(&mut generator, &mut vibration);
+    for (value, (part, _)) in vibration.iter_mut().zip(samples(trace)) {
+        *value *= match part.phase.moves() {
+            true => trace.vibration,
+            false => 0.0,
+        };
+    }
+    vibration
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiment::ExhibitKind;
+    use crate::study::tests::config;
+
+    const HEAD: &str = "question = \"?\"\nseed = 2014\n";
+    const PHASES: &str = "phases = [{ rest = 60 }, { acceleration = 20 }, { inertial = 30 }, \
+                          { braking = 10 }, { rest = 9 }]";
+    const SECTIONS: &str = "[motion]\ndelta = 3.0\n[impulses]\nnu = 0.4\ntheta = 5.0\n\
+                            [whitening]\ntraining = 40\n";
+
+    fn ride<R>(text: &str, of: impl FnOnce(Ride) -> R) -> R {
+        let config = config(text);
+        let ExhibitKind::Trace(trace) = config.kind.clone() else {
+            panic!("{config:?}");
+        };
+        let realisation = Realisation::new(config.seed, config.scenario.clone(), trace);
+        of(Ride::new(&realisation))
+    }
+
+    fn whitened() -> String {
+        format!("{HEAD}[trace]\nwhitened = true\n{PHASES}\n{SECTIONS}")
+    }
+
+    /// With a minus (9) is an identity, up to rounding of values below 100; with the plus it is off by
+    /// 2 |Σ a_p λ_{i−p}|, which is 2 · 1.5365 θ after a lone impulse at least.
+    #[test]
+    fn nine_holds_with_a_minus() {
+        let quantities = ride(&whitened(), |ride| ride.quantities());
+        let [minus, plus] = &quantities[..] else {
+            panic!("{quantities:?}");
+        };
+        assert!(minus.value < 1e-12, "{minus:?}");
+        assert!(plus.value > 2.0 * 0.75 * 5.0, "{plus:?}");
+    }
+
+    /// X ends where the acceleration starts, the rest follows from the sizes.
+    #[test]
+    fn samples_lie_where_they_should() {
+        let rows = ride(&whitened(), |ride| ride.rows());
+        assert_eq!(rows.len(), 129);
+        let places = |name: &str| -> Vec<usize> {
+            let named = |row: &&Row| row.sample.as_deref() == Some(name);
+            let found = rows.iter().filter(named);
+            found.map(|row| (row.time * 1.0) as usize).collect()
+        };
+        assert_eq!(places("training"), (8..48).collect::<Vec<_>>());
+        assert_eq!(places("reference"), (48..60).collect::<Vec<_>>());
+        assert_eq!(places("shift"), (60..72).collect::<Vec<_>>());
+        assert_eq!(places("scale"), (72..84).collect::<Vec<_>>());
+        assert_eq!((rows[1].whitened, rows[2].whitened.is_some()), (None, true));
+        let (rest, moving) = (&rows[59], &rows[60]);
+        assert_eq!((rest.phase.as_str(), rest.acceleration), ("rest", 0.0));
+        assert_eq!(
+            (moving.phase.as_str(), moving.acceleration),
+            ("acceleration", 3.0)
+        );
+        assert_eq!(rows[110].acceleration, -3.0);
+        let quiet = rows.iter().filter(|row| row.phase == "rest");
+        assert!(
+            quiet
+                .clone()
+                .all(|row| row.impulse == 0.0 && row.acceleration == 0.0)
+        );
+        assert!(rows.iter().any(|row| row.impulse == 5.0));
+    }
+
+    /// The record is what the parts add up to, in the unit and steps of the sensor.
+    #[test]
+    fn digitised_and_scaled() {
+        let text = format!(
+            "{HEAD}[trace]\nsigma = 9.0\nunit = \"mg\"\nrate = 100.0\nvibration = 2.0\n{PHASES}\n\
+             [noise]\nquantum = 2.0\nrange = 222.0\n[motion]\ndelta = 4.0\n"
+        );
+        let rows = ride(&text, |ride| {
+            assert!(ride.quantities().is_empty());
+            ride.rows()
+        });
+        assert!(rows.iter().all(|row| (row.record / 18.0).fract() == 0.0));
+        assert!(
+            rows.iter()
+                .all(|row| row.whitened.is_none() && row.sample.is_none())
+        );
+        assert_eq!((rows[70].time, rows[70].acceleration), (0.7, 36.0));
+    }
+}
