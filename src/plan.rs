@@ -2,8 +2,10 @@
 //! noise. Whatever can go wrong goes wrong here, before the first trial.
 
 use crate::chain::{Detector, Purpose, Scenario};
-use crate::experiment::{AxisValue, Config, ConfigError, Problem};
-use crate::detect::{Alternative, Method, NullLaws, Region, Rule, Samples};
+use crate::claim::{self, Pair};
+use crate::experiment::{AxisValue, Config, ConfigError};
+use crate::scenario::{RECORD_KEYS, ScenarioError};
+use crate::detect::{Alternative, Method, NullLaws, Region, RegionError, Rule, Samples};
 use crate::schedule::Schedule;
 use std::sync::Arc;
 
@@ -113,6 +115,42 @@ impl Plan {
         family_of
     }
 
+    /// The pairs of points that the claims of its config compare.
+    pub fn pairs(&self, config: &Config) -> Vec<Pair> {
+        let claims = &config.narrative.claims;
+        if claims.is_empty() {
+            return Vec::new();
+        }
+        claim::pairs(claims, &config.scope(), &self.along_axis(config))
+    }
+
+    /// Of each curve the point at each value of the axis: the one in motion, or the one at rest where nothing
+    /// in the curve moves. What is the same at rest is planned once, under the first curve.
+    fn along_axis(&self, config: &Config) -> Vec<Vec<Option<usize>>> {
+        let along = |curve| {
+            let is_moving = |&at: &usize| {
+                let Point {
+                    curve: own,
+                    hypothesis,
+                    ..
+                } = self.points[at];
+                own == curve && hypothesis == Hypothesis::H1
+            };
+            let moving: Vec<_> = (0..self.points.len()).filter(is_moving).map(Some).collect();
+            if !moving.is_empty() {
+                return moving;
+            }
+            let at_rest = |value| {
+                let scenario = config.scenario(curve, value).ok()?.at_rest();
+                (self.points.iter()).position(|point| {
+                    point.hypothesis == Hypothesis::H0 && point.scenario == scenario
+                })
+            };
+            config.axis.values.iter().map(at_rest).collect()
+        };
+        (0..config.curves.len()).map(along).collect()
+    }
+
     fn of(config: &Config, wanted: impl Fn(Hypothesis) -> bool) -> Result<Self, ConfigError> {
         let mut designer = Designer::default();
         let mut points: Vec<Point> = Vec::new();
@@ -121,7 +159,7 @@ impl Plan {
             for (value, scenario) in config.axis.values.iter().zip(scenarios) {
                 let design = designer
                     .design(&scenario)
-                    .map_err(|problem| config.blame(curve, value, problem))?;
+                    .map_err(|error| config.blame(curve, value, error.keys(), error))?;
                 let mut add = |hypothesis, scenario| {
                     if wanted(hypothesis) {
                         points.push(Point {
@@ -151,7 +189,7 @@ impl Plan {
         )
         .map_err(|(point, refusal)| {
             let (curve, value) = blame[point];
-            config.blame(curve, value, Problem::Record(refusal))
+            config.blame(curve, value, RECORD_KEYS, format!("samples: {refusal}"))
         })?;
         Ok(Self {
             points,
@@ -195,7 +233,7 @@ struct Designer {
 impl Designer {
     /// The exact region, or the promise of a pilot. A rule that is to be calibrated is made all the
     /// same: what it cannot reach exactly, it cannot reach at all.
-    fn design(&mut self, scenario: &Scenario) -> Result<Design, Problem> {
+    fn design(&mut self, scenario: &Scenario) -> Result<Design, ScenarioError> {
         let detector = &scenario.detector;
         let region = match &detector.method {
             Method::Rule(rule) => self.region(scenario, rule)?,
@@ -210,7 +248,7 @@ impl Designer {
         })
     }
 
-    fn region(&mut self, scenario: &Scenario, rule: &Rule) -> Result<Arc<Region>, Problem> {
+    fn region(&mut self, scenario: &Scenario, rule: &Rule) -> Result<Arc<Region>, ScenarioError> {
         let (samples, detector) = (scenario.samples, &scenario.detector);
         let mut known = self.regions.iter();
         if let Some((.., region)) = known.find(|(s, d, _)| *s == samples && d == detector) {
@@ -222,13 +260,13 @@ impl Designer {
         Ok(region)
     }
 
-    fn laws(&mut self, scenario: &Scenario) -> Result<&NullLaws, Problem> {
+    fn laws(&mut self, scenario: &Scenario) -> Result<&NullLaws, ScenarioError> {
         let (samples, alternative) = (scenario.samples, scenario.detector.alternative);
         let known = self.laws.take();
         let laws = match known {
             Some((s, a, laws)) if s == samples && a == alternative => laws,
             _ => NullLaws::new(alternative, &samples)
-                .map_err(|error| Problem::Region(error.into()))?,
+                .map_err(RegionError::from)?,
         };
         Ok(&self.laws.insert((samples, alternative, laws)).2)
     }

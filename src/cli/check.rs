@@ -5,7 +5,7 @@ use super::{Failure, Outcome, Simulation, print, table};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::chain::Decision;
-use liftsim::experiment::{Config, Parameter};
+use liftsim::experiment::Config;
 use liftsim::gate::{self, EXCESS, FAMILY_LEVEL, Finding, Verdict};
 use liftsim::plan::{Plan, Point};
 use liftsim::results::Row;
@@ -89,18 +89,19 @@ fn report(config: &Config, plan: &Plan, decisions: &[Decision], findings: &[Find
 
 fn row(config: &Config, point: &Point, decision: &Decision, finding: &Finding) -> Vec<String> {
     let row = Row::new(point, Some(decision), finding.tally, config.confidence);
+    let (low, high) = row.tally.interval(config.confidence);
     // Four digits of the nominal rate, and six decimals at least.
     let decimals = (3.0 - finding.nominal.log10().floor()).max(6.0) as usize;
     let digits = |rate: f64| format!("{rate:.decimals$}");
     vec![
         scenario(config, &row),
-        row.rule_name().to_owned(),
+        row.values.rule_name(),
         finding.nominal.to_string(),
         row.size.map_or(String::new(), digits),
-        row.trials.to_string(),
-        row.detections.to_string(),
-        digits(row.rate),
-        format!("[{}, {}]", digits(row.low), digits(row.high)),
+        row.tally.trials.to_string(),
+        row.tally.hits.to_string(),
+        digits(row.tally.rate()),
+        format!("[{}, {}]", digits(low), digits(high)),
         p_value(finding.p_value),
         match finding.verdict {
             Verdict::Pass => "pass",
@@ -122,12 +123,12 @@ fn p_value(p: f64) -> String {
 
 /// The curve's label, and what the axis changes unless another column says it, or it is a motion.
 fn scenario(config: &Config, row: &Row) -> String {
-    use Parameter as P;
-    let parameter = config.axis.parameter;
-    match (parameter, row.on_axis(parameter.name())) {
-        (P::Alpha | P::Delta | P::Duration | P::Offset | P::Nu | P::Theta, _) | (_, None) => {
-            row.label.clone()
-        }
-        (_, Some(value)) => format!("{}, {} = {value}", row.label, parameter.name()),
+    let parameter = config.parameter();
+    let is_told = ["motion.", "impulses.", "detector.alpha"]
+        .iter()
+        .any(|start| parameter.paths[0].starts_with(start));
+    match row.on_axis(parameter) {
+        Some(value) if !is_told => format!("{}, {} = {value}", row.label, parameter.name),
+        _ => row.label.clone(),
     }
 }

@@ -4,7 +4,7 @@ use super::progress::{self, Progress, Reporter};
 use super::{Failure, Outcome, print, say, store, sweep, table};
 use anyhow::anyhow;
 use clap::Args;
-use liftsim::config;
+use liftsim::experiment;
 use liftsim::report;
 use liftsim::results::Directory;
 use liftsim::run::{Experiment, Overwrite, Session};
@@ -112,7 +112,7 @@ impl Figures {
     }
 
     fn entry(&self, name: &str, path: &Path) -> Result<Entry, Failure> {
-        let mut config = config::Experiment::load(path).map_err(Failure::input)?;
+        let mut config = experiment::Experiment::load(path).map_err(Failure::input)?;
         if let Some(trials) = self.trials {
             config = config.with_trials(trials).map_err(Failure::input)?;
         }

@@ -12,7 +12,6 @@ mod merge;
 mod monitor;
 mod monitor_options;
 mod output;
-mod picture;
 mod plan;
 mod plot;
 mod progress;

@@ -4,7 +4,7 @@ use super::output::Output;
 use super::{Failure, Outcome, print, table};
 use clap::{Args, ValueEnum};
 use liftsim::detect::{Alternative, NullLaws, Region, Rule, Samples};
-use liftsim::exhibit::region::boundary;
+use liftsim::study::rows::boundary;
 use liftsim::figure::{region, render};
 use serde_json::json;
 use std::path::PathBuf;

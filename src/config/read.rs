@@ -324,12 +324,12 @@ impl<'de> EnumAccess<'de> for Choice<'de> {
 
 impl<'de> Choice<'de> {
     fn content(&self) -> Result<&'de Node, Refusal> {
+        self.content.ok_or_else(|| self.needs_parameters())
+    }
+
+    fn needs_parameters(&self) -> Refusal {
         let name = self.name;
-        self.content.ok_or_else(|| {
-            Refusal::custom(format_args!(
-                "needs its parameters (write {{ {name} = ... }})"
-            ))
-        })
+        Refusal::custom(format_args!("needs its parameters (write {{ {name} = ... }})"))
     }
 }
 
@@ -366,13 +366,20 @@ impl<'de> VariantAccess<'de> for Choice<'de> {
         _: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Refusal> {
-        let name = self.name;
-        let content = self.content()?;
+        // A name alone is a table in which every key has its default.
+        let Some(content) = self.content else {
+            let nothing = Entries::new(&NOTHING);
+            return visitor
+                .visit_map(nothing)
+                .map_err(|_: Refusal| self.needs_parameters());
+        };
         content
             .deserialize_any(visitor)
-            .map_err(|refusal| refusal.under(name))
+            .map_err(|refusal| refusal.under(self.name))
     }
 }
+
+static NOTHING: Table = Table::new();
 
 #[cfg(test)]
 mod tests {

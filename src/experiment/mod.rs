@@ -3,29 +3,25 @@
 //! A config is a [`Header`], the claims it tests, the sections of a scenario, and one thing to do: `[axis]` and
 //! `[[curve]]` make it a sweep, any other table names its study. Every refusal points at the value to change.
 
-mod claim;
 mod header;
 mod monitor_options;
-mod old_error;
 pub mod reference;
 mod ride;
-mod story;
 mod sweep;
 mod tables;
 #[cfg(test)]
 mod tests;
 mod trace;
-mod value;
 
-pub use claim::{Claim, ClaimProblem, Contrast, Contrasts, Narrative, Test};
 pub use header::{DEFAULT_PILOT_TRIALS, Header, MOST_PILOT_TRIALS};
-pub use ride::{Measure, RideCurve, RidePoint, RideProblem, RideStudy};
+pub use ride::{Measure, RideCurve, RidePoint, RideStudy};
 pub use sweep::{Config, Curve};
 pub use tables::{ExhibitKind, Search};
 pub use trace::{Part, Trace};
 pub use monitor_options::MonitorOptions;
 
 pub use crate::config::{Axis, AxisValue, ConfigError};
+use crate::claim::{Narrative, Scope};
 use crate::config::{Conflict, Node, Source, Unfit};
 use crate::detect::RegionError;
 use crate::scenario::{Scenario, ScenarioError, Sections};
@@ -33,7 +29,6 @@ use crate::suggest::among;
 use std::error::Error;
 use std::ops::Range;
 use std::path::Path;
-use story::Story;
 
 /// What a config is for.
 #[derive(Clone, Debug)]
@@ -77,6 +72,9 @@ const SECTIONS: [&str; 8] = [
     "detector",
 ];
 
+/// The keys of what the report says and of the claims.
+const NARRATIVE: [&str; 4] = ["title", "text", "order", "claim"];
+
 /// Keys of the sections of which one replaces the others.
 const CHOICES: &[&[&str]] = &[&["sensor.model", "sensor.ar", "sensor.transfer"]];
 
@@ -109,7 +107,6 @@ struct File {
     root: Node,
     header: Header,
     trials: u64,
-    story: Story,
 }
 
 impl File {
@@ -117,7 +114,7 @@ impl File {
         let root = source.parse()?;
         let known = Header::KEYS
             .iter()
-            .chain(Story::KEYS)
+            .chain(&NARRATIVE)
             .chain(&["axis", "curve"])
             .chain(&ExhibitKind::NAMES)
             .chain(&SECTIONS)
@@ -130,13 +127,23 @@ impl File {
         }
         let header: Header = source.read(&root.only(|key| Header::KEYS.contains(&key)), "")?;
         let trials = (header.trials()).map_err(|conflict| source.conflict(&root, conflict, &root.span))?;
-        let story = source.read(&root.only(|key| Story::KEYS.contains(&key)), "")?;
-        Ok(Self { source, root, header, trials, story })
+        Ok(Self { source, root, header, trials })
     }
 
     /// What the sections of the file say, laid under those of a curve.
     fn sections(&self) -> Node {
         self.root.only(|key| SECTIONS.contains(&key))
+    }
+
+    /// What it says for the report and claims, checked against what the claims may refer to.
+    fn narrative(&self, scope: &Scope) -> Result<Narrative, ConfigError> {
+        let told = self.root.only(|key| NARRATIVE.contains(&key));
+        let narrative: Narrative = self.source.read(&told, "")?;
+        narrative.check(scope).map_err(|(path, problem)| {
+            let conflict = Conflict::of([path.clone()], format!("{path}: {problem}"));
+            self.source.conflict(&self.root, conflict, &self.root.span)
+        })?;
+        Ok(narrative)
     }
 
     /// The place of a top-level key.
@@ -215,7 +222,10 @@ impl Experiment {
     /// Where they are too few for what it draws.
     pub fn with_trials(self, trials: u64) -> Result<Self, ConfigError> {
         Ok(match self {
-            Self::Sweep(config) => Self::Sweep(Box::new(Config { trials, ..*config })),
+            Self::Sweep(mut config) => {
+                config.trials = trials;
+                Self::Sweep(config)
+            }
             Self::Exhibit(exhibit) => Self::Exhibit(Box::new(exhibit.with_trials(trials)?)),
         })
     }
@@ -247,8 +257,7 @@ impl ExhibitConfig {
         let scenario = scenario(source, &sections, DEFAULT_PILOT_TRIALS, &table)?;
         kind.check(&scenario)
             .map_err(|conflict| source.conflict(root, conflict, &table))?;
-        let narrative = (file.story.check(root, &[], None))
-            .map_err(|conflict| source.conflict(root, conflict, &root.span))?;
+        let narrative = file.narrative(&Scope::default())?;
         let trials = if kind.has_trials() { file.trials } else { 1 };
         let config = Self {
             question: file.header.question.clone(),

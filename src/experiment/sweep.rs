@@ -1,6 +1,7 @@
 //! A sweep: an axis, curves, and the scenario of each value on each curve: file ⊕ curve ⊕ axis.
 
-use super::{CHOICES, Experiment, File, Narrative, SECTIONS, scenario};
+use super::{CHOICES, Experiment, File, SECTIONS, scenario};
+use crate::claim::{self, Narrative, Scope};
 use crate::config::{Axis, AxisValue, ConfigError, Conflict, Node, Source, Unfit, Value};
 use crate::scenario::{PARAMETERS, Parameter, Scenario, parameter};
 use schemars::JsonSchema;
@@ -61,10 +62,6 @@ pub struct CurveHeader {
 /// More curves than this are a mistake.
 const MOST_CURVES: usize = 1000;
 
-impl CurveHeader {
-    const KEYS: [&'static str; 3] = ["label", "panel", "series"];
-}
-
 impl Config {
     /// Reads and checks a file.
     ///
@@ -91,7 +88,7 @@ impl Config {
         let axis = Axis::read(axis, swept).map_err(refused)?;
         check_order(&axis).map_err(refused)?;
         let curves = curves(&file, &axis)?;
-        let narrative = file.story.check(root, &curves, Some(&axis)).map_err(refused)?;
+        let narrative = file.narrative(&scope(&axis, &curves))?;
         Ok(Self {
             question: file.header.question.clone(),
             seed: file.header.seed,
@@ -110,6 +107,11 @@ impl Config {
     /// What the axis sweeps.
     pub fn parameter(&self) -> &'static Parameter {
         parameter(&self.axis.name).expect("the axis has been checked")
+    }
+
+    /// What its claims may refer to.
+    pub fn scope(&self) -> Scope {
+        scope(&self.axis, &self.curves)
     }
 
     /// The scenario of `curve` (from 0) at one value of the axis.
@@ -149,6 +151,24 @@ impl Config {
     /// What messages call the file.
     pub fn name(&self) -> &str {
         self.source.name()
+    }
+}
+
+fn scope(axis: &Axis, curves: &[Curve]) -> Scope {
+    let parameter = parameter(&axis.name).expect("the axis has been checked");
+    let curve = |curve: &Curve| claim::Curve {
+        label: curve.label.clone(),
+        panel: curve.panel.clone(),
+        series: curve.series.clone(),
+    };
+    let values = axis.values.iter().map(|value| (value.to_string(), value.number()));
+    Scope {
+        curves: curves.iter().map(curve).collect(),
+        axis: claim::Axis {
+            name: parameter.name,
+            symbol: if parameter.symbol.is_empty() { parameter.name } else { parameter.symbol },
+            values: values.collect(),
+        },
     }
 }
 

@@ -1,13 +1,14 @@
 //! The tables that name a study, each read by serde as it stands, and what a single value cannot say.
 
 use super::ride::{self, RideStudy};
-use super::trace::Trace;
+use super::trace::{Trace, TraceTable};
 use crate::config::{ConfigError, Conflict, Node, Source, Unfit};
 use crate::detect::{Method, Rule};
 use crate::scenario::Scenario;
 use crate::signal::Law;
-use schemars::JsonSchema;
+use schemars::{JsonSchema, SchemaGenerator};
 use serde::Deserialize;
+use serde_json::Value;
 use std::fmt::{Debug, Display};
 
 /// What is drawn, with its own parameters.

@@ -1,6 +1,6 @@
 //! Autocorrelation against lag, and below it how far the simulation is from theory.
 
-use crate::exhibit::autocorrelation::Row;
+use crate::study::autocorrelation::Row;
 use crate::format::thousands;
 use crate::plot::{Axis, Entry, Key, Legend, Mark, Place, Plot, Point, Style, literal};
 use crate::signal::{Noise, Sensor};

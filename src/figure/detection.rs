@@ -114,8 +114,9 @@ fn values(columns: &[Column], value: fn(&Column) -> (f64, f64)) -> Mark {
 
 /// A bar for each of X, Y₁ and Y₂, and a dashed line where the decision was made.
 fn add_decision(plot: &mut Plot, decision: &Decision, reported: f64) {
-    for (index, span) in decision.samples.iter().enumerate() {
-        if let Some((from, to)) = *span {
+    let samples = [decision.reference, Some(decision.shift), Some(decision.scale)];
+    for (index, span) in samples.into_iter().enumerate() {
+        if let Some((from, to)) = span {
             let (below, colour) = (6.0 + 5.0 * index as f64, sample_colour(index));
             plot.add(
                 1,

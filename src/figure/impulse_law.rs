@@ -1,6 +1,6 @@
 //! The laws of S and of λ against time: closed form and simulation.
 
-use crate::exhibit::impulse_law::Row;
+use crate::study::impulse_law::Row;
 use crate::format::thousands;
 use crate::plot::{Axis, Entry, Key, Legend, Mark, Place, Plot, Point, Style};
 

@@ -1,6 +1,6 @@
 //! P(W, T) against P(W)·P(T), for every W, T and sizes: on the diagonal where W and T are independent.
 
-use crate::exhibit::independence::{Row, findings};
+use crate::study::independence::{Row, findings};
 use crate::format::thousands;
 use crate::plot::{Axis, Colour, Entry, Key, Legend, Mark, Place, Plot, Point, Style};
 

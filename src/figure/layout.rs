@@ -2,7 +2,7 @@
 
 use super::phases::add_phases;
 use crate::chain::Scenario;
-use crate::exhibit::layout::Row;
+use crate::study::layout::Row;
 use crate::plot::{Axis, Margins, Mark, Plot, Style};
 use crate::signal::{Motion, Profile};
 

@@ -1,7 +1,7 @@
 //! Operating points: the Δ/σ_ξ at which the power reaches a value, against the sizes of the samples.
 
 use crate::chain::Scenario;
-use crate::exhibit::operating_point::Row;
+use crate::study::operating_point::Row;
 use crate::format::thousands;
 use crate::plot::{Axis, Entry, Key, Legend, Margins, Mark, Place, Plot, Point, Style, ends};
 

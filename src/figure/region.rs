@@ -2,7 +2,7 @@
 //! C_W(T) of each region as a line of its own colour, dash and width.
 
 use crate::detect::{Alternative, NullLaws, Samples};
-use crate::exhibit::region::Row;
+use crate::study::region::Row;
 use crate::plot::{
     Axis, Cell, Colour, Entry, Key, Legend, Margins, Mark, Place, Plot, Style, power_of_ten,
 };

@@ -2,7 +2,8 @@
 //! between false motions against the delay.
 
 use super::rates::{Curve, Limit, Rate, add_bands, rates};
-use crate::exhibit::ride::{Measure, Row};
+use crate::experiment::Measure;
+use crate::study::ride::Row;
 use crate::format::thousands;
 use crate::plot::{Axis, Entry, Key, Legend, Mark, Place, Plot, Style, ends, is_long, literal};
 

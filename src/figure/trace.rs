@@ -3,7 +3,8 @@
 
 use super::phases::add_phases;
 use crate::chain::Scenario;
-use crate::exhibit::trace::{Row, Trace};
+use crate::experiment::Trace;
+use crate::study::trace::Row;
 use crate::plot::{
     Axis, Entry, Key, Legend, Margins, Mark, Place, Plot, Point, Style, ends, literal,
 };

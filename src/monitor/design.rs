@@ -2,7 +2,7 @@
 
 use super::settings::{LONGEST_BLOCK, Settings};
 use crate::detect::{
-    Alternative, NullLawError, NullLaws, Region, RegionError, Rule, Samples, SamplesError,
+    Alternative, NullLawError, NullLaws, Region, RegionError, Rule, Samples,
 };
 use crate::rule::{self, OutOfRange};
 
@@ -28,8 +28,6 @@ pub enum SettingsError {
     #[error(transparent)]
     Value(#[from] OutOfRange),
     #[error(transparent)]
-    Samples(#[from] SamplesError),
-    #[error(transparent)]
     Law(#[from] NullLawError),
     #[error(transparent)]
     Region(#[from] RegionError),
@@ -40,7 +38,7 @@ impl SettingsError {
     pub fn key(&self) -> &str {
         match self {
             Self::Value(error) => &error.key,
-            Self::Samples(_) | Self::Law(_) => "samples.reference",
+            Self::Law(_) => "samples.reference",
             Self::Region(_) => "detector.alpha",
         }
     }
@@ -92,7 +90,8 @@ impl Settings {
             sizes.scale,
             sizes.gap,
             decimation,
-        )?;
+        )
+        .expect("each size has been checked");
         let laws = NullLaws::new(Alternative::TwoSided, &samples)?;
         Ok(Design {
             region: laws.region(&Rule::Product, self.detector.alpha)?,

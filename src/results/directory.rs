@@ -259,5 +259,3 @@ impl Directory {
         ResultsError::Unwritable { path, error }
     }
 }
-
-}

@@ -35,6 +35,13 @@ impl Manifest {
         json
     }
 
+    /// What made a picture, for whoever finds it alone.
+    pub fn provenance(&self) -> String {
+        let Origin { version, config_name, seed, trials, .. } = &self.origin;
+        let hash = self.short_hash();
+        format!("liftsim {version}, config {config_name} ({hash}), seed {seed}, {trials} trials per point")
+    }
+
     /// Enough of the config's hash to tell it from others.
     pub fn short_hash(&self) -> &str {
         self.config_sha256.get(..12).unwrap_or(&self.config_sha256)

@@ -3,8 +3,10 @@
 //! Its columns are the row's own and, between them, those of the table of parameters.
 
 use crate::chain::Decision;
+use crate::claim::Outcome;
 use crate::counts::DecisionSummary;
-use crate::plan::{Design, Hypothesis, Point};
+use crate::format::eight_digits;
+use crate::plan::{Hypothesis, Point};
 use crate::scenario::{Parameter, Scenario, Values, columns};
 use crate::stats::tally::Tally;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
@@ -89,6 +91,26 @@ impl Row {
     /// Where it stands on an axis of numbers.
     pub fn on_axis(&self, parameter: &Parameter) -> Option<f64> {
         self.values.cell(parameter.column()).number()
+    }
+
+    /// What claims and texts read of it, on an axis of this parameter.
+    pub fn outcome(&self, parameter: &Parameter) -> Outcome {
+        let (low, high) = self.tally.interval(self.confidence);
+        Outcome {
+            label: self.label.clone(),
+            value: match self.on_axis(parameter) {
+                Some(number) => number.to_string(),
+                None if parameter.name == "rule" => self.values.rule_name(),
+                None => "none".to_owned(),
+            },
+            is_at_rest: self.is_at_rest(),
+            tally: self.tally,
+            low: eight_digits(low),
+            high: eight_digits(high),
+            alpha: self.alpha(),
+            size: self.size,
+            reachable: self.reachable,
+        }
     }
 
     /// Whether nothing moves.
@@ -188,11 +210,6 @@ impl<'de> Visitor<'de> for RowVisitor {
         }
         Ok(row)
     }
-}
-
-/// The nearest number of eight significant digits: what an interval is worth.
-pub fn eight_digits(value: f64) -> f64 {
-    format!("{value:.7e}").parse().unwrap_or(value)
 }
 
 /// Rows as a CSV file.

@@ -7,6 +7,7 @@ use crate::whiten::{Fit, WhiteningError};
 
 /// Why sections do not fit each other.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "the messages say it")]
 pub enum ScenarioError {
     #[error("motion.{0}")]
     Motion(#[from] MotionError),

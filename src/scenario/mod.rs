@@ -9,7 +9,7 @@ mod parameters;
 
 pub use calibration::Calibration;
 pub use check::{RECORD_KEYS, ScenarioError, blamed};
-pub use parameters::{Cell, PARAMETERS, Parameter, Values, Words, columns, parameter};
+pub use parameters::{Caption, Cell, PARAMETERS, Parameter, Values, Words, columns, parameter};
 
 use crate::detect::{Alternative, Method, Rule, Samples, Ties};
 use crate::signal::{

@@ -17,8 +17,9 @@
 use super::{Context, Counters, Study, counted};
 use crate::chain::Scenario;
 use crate::counts::{Counts, Fixed, Shape, Sums};
-use crate::figure::{self, Drawing, FigureError};
-use crate::results::{Manifest, Quantity, eight_digits};
+use crate::figure::{self, FigureError};
+use crate::plot::Plot;
+use crate::results::{Quantity, eight_digits};
 use crate::rng::Stream;
 use crate::run::{Group, Identity, Simulation, StudyError, Target, Trials};
 use crate::signal::{Sensor, Transfer};
@@ -135,9 +136,16 @@ impl Study for Autocorrelation {
         ))
     }
 
-    fn draw(&self, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
-        let confidence = self.context.confidence;
-        figure::autocorrelation(&self.scenario, confidence, self.length, rows, manifest)
+    fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
+        let records = figure::autocorrelation::Records {
+            sensor: &self.scenario.sensor,
+            noise: &self.scenario.noise,
+            trials: self.context.trials,
+            length: self.length,
+            confidence: self.context.confidence,
+            seed,
+        };
+        Ok(figure::autocorrelation::plot(rows, &records))
     }
 }
 

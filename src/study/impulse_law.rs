@@ -10,8 +10,9 @@
 
 use super::{Context, Counters, Study, counted};
 use crate::counts::{Counts, Shape, Sums};
-use crate::figure::{self, Drawing, FigureError};
-use crate::results::{Comparison, Manifest, Quantity, eight_digits};
+use crate::figure::{self, FigureError};
+use crate::plot::Plot;
+use crate::results::{Comparison, Quantity, eight_digits};
 use crate::rng::Stream;
 use crate::run::{Group, Identity, Simulation, StudyError, Target, Trials};
 use crate::schedule::BLOCK;
@@ -124,8 +125,8 @@ impl Study for ImpulseLaw {
         Some(counts)
     }
 
-    fn draw(&self, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
-        figure::impulse_law(rows, manifest, self.context.confidence)
+    fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
+        Ok(figure::impulse_law::plot(rows, self.context.confidence, seed))
     }
 }
 

@@ -9,8 +9,9 @@
 
 use super::{Study, Table};
 use crate::counts::Counts;
-use crate::figure::{self, Drawing, FigureError};
-use crate::results::{Manifest, Quantity};
+use crate::figure::{self, FigureError};
+use crate::plot::Plot;
+use crate::results::Quantity;
 use crate::run::{Identity, StudyError};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -79,8 +80,8 @@ impl Study for Independence {
         ])
     }
 
-    fn draw(&self, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
-        figure::independence(rows, manifest)
+    fn plot(&self, rows: &[Row], _seed: u64) -> Result<Plot, FigureError> {
+        Ok(figure::independence::plot(rows))
     }
 
     fn findings(&self, rows: &[Row]) -> Option<Table> {

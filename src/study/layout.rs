@@ -7,8 +7,8 @@
 use super::Study;
 use crate::chain::Scenario;
 use crate::counts::Counts;
-use crate::figure::{self, Drawing, FigureError};
-use crate::results::Manifest;
+use crate::figure::{self, FigureError};
+use crate::plot::Plot;
 use crate::run::Identity;
 use serde::{Deserialize, Serialize};
 
@@ -55,8 +55,8 @@ impl Study for Layout {
         rows(&self.0)
     }
 
-    fn draw(&self, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
-        figure::layout(&self.0, rows, manifest)
+    fn plot(&self, rows: &[Row], _seed: u64) -> Result<Plot, FigureError> {
+        Ok(figure::layout::plot(rows, &self.0))
     }
 }
 

@@ -1,12 +1,13 @@
 //! A config as a study that can be run, whatever its kind.
 
 use super::{Study, Table, build};
-use crate::experiment::{Axis, ConfigError, Experiment as Config, Narrative};
+use crate::claim::{Evidence, Narrative, Outcome, Scope};
+use crate::experiment::{ConfigError, Experiment as Config};
 use crate::counts::Counts;
-use crate::figure::{Drawing, FigureError};
+use crate::figure::{Drawing, FigureError, render};
 use crate::report::Section;
 use crate::results::{
-    Comparison, Directory, Manifest, Origin, Quantity, RESULTS, ResultsError, Row, csv_bytes,
+    Comparison, Directory, Manifest, Origin, Quantity, RESULTS, ResultsError, csv_bytes,
     file_name,
 };
 use crate::run::{Experiment, Identity, StudyError, Trials};
@@ -21,7 +22,7 @@ pub(super) trait AnyStudy: Send + Sync {
     fn output(&self, counts: &Counts) -> Result<Output, StudyError>;
     fn recall(&self, points: &[u8], comparisons: &[Comparison]) -> Option<Counts>;
     fn draw(&self, points: &[u8], manifest: &Manifest) -> Result<Drawing, DrawError>;
-    fn curves(&self, points: &[u8]) -> Result<(Vec<Row>, Option<&Axis>), csv::Error>;
+    fn curves(&self, points: &[u8]) -> Result<(Scope, Vec<Outcome>), csv::Error>;
 }
 
 impl<S: Study> AnyStudy for S {
@@ -62,11 +63,13 @@ impl<S: Study> AnyStudy for S {
         if rows.is_empty() {
             return Err(FigureError::NoRows(S::NAME).into());
         }
-        Ok(Study::draw(self, &rows, manifest)?)
+        let plot = self.plot(&rows, manifest.origin.seed)?;
+        Ok(render(&plot, &manifest.provenance())?)
     }
 
-    fn curves(&self, points: &[u8]) -> Result<(Vec<Row>, Option<&Axis>), csv::Error> {
-        Ok(Study::curves(self, read(points)?))
+    fn curves(&self, points: &[u8]) -> Result<(Scope, Vec<Outcome>), csv::Error> {
+        let rows: Vec<S::Row> = read(points)?;
+        Ok(Study::curves(self, &rows))
     }
 }
 
@@ -216,17 +219,19 @@ impl Loaded {
         comparisons: Vec<Comparison>,
         quantities: Vec<Quantity>,
     ) -> Result<Section, csv::Error> {
-        let (rows, axis) = self.study.curves(points)?;
+        let (scope, outcomes) = self.study.curves(points)?;
         Ok(Section {
             name,
             config: self.origin.config_name.clone(),
             question: self.question.clone(),
             narrative: self.narrative.clone(),
-            axis: axis.cloned(),
             trials: self.origin.trials,
-            rows,
-            comparisons,
-            quantities,
+            evidence: Evidence {
+                scope,
+                outcomes,
+                comparisons,
+                quantities,
+            },
         })
     }
 }

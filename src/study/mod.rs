@@ -4,16 +4,16 @@
 //! single numbers (`quantities.csv`). What it counts in trials goes through [`run`](crate::run); what it computes
 //! is a function of the config alone.
 
-mod autocorrelation;
-mod impulse_law;
-mod independence;
-mod layout;
+pub(crate) mod autocorrelation;
+pub(crate) mod impulse_law;
+pub(crate) mod independence;
+pub(crate) mod layout;
 mod loaded;
-mod operating_point;
-mod region;
+pub(crate) mod operating_point;
+pub(crate) mod region;
 pub mod ride;
 mod sweep;
-mod trace;
+pub(crate) mod trace;
 
 pub use loaded::{DrawError, Loaded, Output};
 
@@ -29,10 +29,12 @@ pub mod rows {
     pub use super::trace::Row as Trace;
 }
 
-use crate::experiment::{Axis, ConfigError, ExhibitConfig, ExhibitKind, Experiment};
+use crate::claim::{Outcome, Scope};
+use crate::experiment::{ConfigError, ExhibitConfig, ExhibitKind, Experiment};
 use crate::counts::{Counts, Key, Shape, Sums};
-use crate::figure::{Drawing, FigureError};
-use crate::results::{self, Comparison, Manifest, Quantity};
+use crate::figure::FigureError;
+use crate::plot::Plot;
+use crate::results::{Comparison, Quantity};
 use crate::run::{Identity, StudyError, Target, Trials};
 use loaded::AnyStudy;
 use serde::Serialize;
@@ -80,7 +82,7 @@ pub trait Study: Send + Sync {
     ///
     /// # Errors
     /// Where there is nothing to draw, or drawing fails.
-    fn draw(&self, rows: &[Self::Row], manifest: &Manifest) -> Result<Drawing, FigureError>;
+    fn plot(&self, rows: &[Self::Row], seed: u64) -> Result<Plot, FigureError>;
 
     /// What is said of the rows when they are written.
     fn findings(&self, _rows: &[Self::Row]) -> Option<Table> {
@@ -93,9 +95,9 @@ pub trait Study: Send + Sync {
         format!("{points} of [{}]", Self::NAME)
     }
 
-    /// The rows that claims about curves are judged by, and what is swept.
-    fn curves(&self, _rows: Vec<Self::Row>) -> (Vec<results::Row>, Option<&Axis>) {
-        (Vec::new(), None)
+    /// What claims about curves are judged by: what they may refer to, and the rates.
+    fn curves(&self, _rows: &[Self::Row]) -> (Scope, Vec<Outcome>) {
+        (Scope::default(), Vec::new())
     }
 }
 

@@ -6,8 +6,8 @@ use super::Study;
 use crate::chain::Scenario;
 use crate::counts::Counts;
 use crate::detect::{NullLaws, Region, RegionError, Rule};
-use crate::figure::{self, Drawing, FigureError};
-use crate::results::Manifest;
+use crate::figure::{self, FigureError};
+use crate::plot::Plot;
 use crate::run::Identity;
 use serde::{Deserialize, Serialize};
 
@@ -73,8 +73,11 @@ impl Study for Regions {
             .collect()
     }
 
-    fn draw(&self, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
-        figure::regions(&self.scenario, rows, manifest)
+    fn plot(&self, rows: &[Row], _seed: u64) -> Result<Plot, FigureError> {
+        let (samples, detector) = (&self.scenario.samples, &self.scenario.detector);
+        let laws = NullLaws::new(detector.alternative, samples)?;
+        let title = figure::region::title(samples, detector.alternative, detector.alpha);
+        Ok(figure::region::plot(&laws, rows, &title))
     }
 }
 

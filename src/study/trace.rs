@@ -15,8 +15,9 @@ use super::Study;
 use crate::chain::Scenario;
 use crate::experiment::{Part, Trace};
 use crate::counts::Counts;
-use crate::figure::{self, Drawing, FigureError};
-use crate::results::{self, Manifest, Quantity, eight_digits};
+use crate::figure::{self, FigureError};
+use crate::plot::Plot;
+use crate::results::{self, Quantity, eight_digits};
 use crate::rng::Stream;
 use crate::run::{Identity, StudyError};
 use crate::signal::{During, ImpulseMemory, Law, Motion, Noise, Phase};
@@ -80,8 +81,8 @@ impl Study for Realisation {
         Ok(Ride::new(self).quantities())
     }
 
-    fn draw(&self, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
-        figure::trace(&self.scenario, &self.trace, rows, manifest)
+    fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
+        Ok(figure::trace::plot(rows, &self.trace, &self.scenario, seed))
     }
 }
 

@@ -55,7 +55,6 @@ pub enum Fit {
 #[serde(default, deny_unknown_fields)]
 pub struct Whitening {
     /// m, order of the filter, or "auto": chosen by BIC on the training record of each trial.
-    #[schemars(with = "order::Written")]
     order: Order,
     /// How the filter comes by its coefficients.
     fit: Fit,

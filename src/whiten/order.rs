@@ -19,24 +19,18 @@ pub enum Order {
     Auto,
 }
 
-/// How an order is written in a file.
-#[derive(schemars::JsonSchema)]
-#[schemars(untagged)]
-#[allow(dead_code, reason = "it is the schema of an order")]
-pub(super) enum Written {
-    /// m.
-    Fixed(usize),
-    /// Chosen.
-    Auto(Auto),
-}
+impl schemars::JsonSchema for Order {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Order".into()
+    }
 
-/// The word for an order that is chosen.
-#[derive(schemars::JsonSchema)]
-#[schemars(rename_all = "snake_case")]
-#[allow(dead_code, reason = "it is the schema of an order")]
-pub(super) enum Auto {
-    /// By BIC.
-    Auto,
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({ "anyOf": [{ "type": "integer", "minimum": 0 }, { "const": "auto" }] })
+    }
 }
 
 /// The highest order that [`Order::Auto`] tries.

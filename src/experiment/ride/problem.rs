@@ -1,7 +1,7 @@
 //! Why rides were refused.
 
 use super::Measure;
-use crate::experiment::Refusal;
+use crate::config::Refusal;
 use crate::monitor::SettingsError;
 use crate::rule::OutOfRange;
 use crate::signal::{PickupError, RideError, SensorError, TripError};

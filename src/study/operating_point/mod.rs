@@ -12,11 +12,14 @@ mod trials;
 
 use super::{Context, Study, counted};
 use crate::chain::{RecordTooLong, Scenario};
-use crate::experiment::{Problem, Search};
+use crate::config::Unfit;
+use crate::experiment::Search;
+use crate::scenario::ScenarioError;
 use crate::counts::{Counts, Key, Shape};
 use crate::detect::{Method, NullLaws, Region, RegionError, Samples};
-use crate::figure::{self, Drawing, FigureError};
-use crate::results::{self, Manifest, Quantity, eight_digits};
+use crate::figure::{self, FigureError};
+use crate::plot::Plot;
+use crate::results::{self, Quantity, eight_digits};
 use crate::run::{Identity, StudyError, Target, Trials};
 use crate::schedule::Schedule;
 use crate::signal::Motion;
@@ -72,7 +75,7 @@ struct Sized {
 impl OperatingPoint {
     /// # Errors
     /// Where a size has no region, a motion that does not fit, or a record that does not fit in memory.
-    pub fn new(context: Context, scenario: &Scenario, search: Search) -> Result<Self, Problem> {
+    pub fn new(context: Context, scenario: &Scenario, search: Search) -> Result<Self, StudyError> {
         let [from, to] = search.delta;
         let coarse = grid(from, to);
         let sized = search.sizes.iter();
@@ -156,8 +159,8 @@ impl Study for OperatingPoint {
         Ok(rows.iter().map(quantity).collect())
     }
 
-    fn draw(&self, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
-        figure::operating_point(&self.scenario, rows, manifest)
+    fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
+        Ok(figure::operating_point::plot(rows, &self.scenario, seed))
     }
 
     fn points(&self) -> String {
@@ -178,12 +181,14 @@ fn grid(from: f64, to: f64) -> Vec<f64> {
 }
 
 impl Sized {
-    fn new(scenario: &Scenario, size: usize, coarse: Vec<f64>) -> Result<Self, Problem> {
+    fn new(scenario: &Scenario, size: usize, coarse: Vec<f64>) -> Result<Self, StudyError> {
         let (gap, decimation) = (scenario.samples.gap(), scenario.samples.decimation());
-        let samples = Samples::new(size, size, size, gap, decimation).map_err(Problem::Samples)?;
+        let samples = Samples::new(size, size, size, gap, decimation)?;
         let detector = &scenario.detector;
         let Method::Rule(rule) = &detector.method else {
-            return Err(Problem::NoExactRegion(detector.method.name()));
+            let name = detector.method.name();
+            let rule = "have an exact region (name wilcoxon, product, disjunction or conjunction)";
+            return Err(Unfit::new("detector.rule", rule, name).into());
         };
         let laws = NullLaws::new(detector.alternative, &samples).map_err(RegionError::from)?;
         let region = laws.region(rule, detector.alpha)?;
@@ -196,7 +201,7 @@ impl Sized {
         };
         let scenario = Scenario {
             samples,
-            motion: motion.checked().map_err(Problem::Motion)?,
+            motion: motion.checked().map_err(ScenarioError::from)?,
             ..scenario.clone()
         };
         let parameters = results::parameters(&scenario).into_iter();

@@ -34,8 +34,9 @@ pub use row::Row;
 use super::{Context, Counters, Study, counted};
 use crate::experiment::{RidePoint, RideStudy};
 use crate::counts::{Counts, Sums};
-use crate::figure::{self, Drawing, FigureError};
-use crate::results::{Manifest, Quantity};
+use crate::figure::{self, FigureError};
+use crate::plot::Plot;
+use crate::results::Quantity;
 use crate::run::{Group, Identity, Simulation, StudyError, Target, Trials};
 use std::ops::Range;
 use sums::RideSums;
@@ -131,8 +132,16 @@ impl Study for Rides {
         Ok(rows.iter().map(quantity).collect())
     }
 
-    fn draw(&self, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
-        figure::rides(&self.study, rows, manifest)
+    fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
+        let curves = self.study.curves.iter();
+        let labels: Vec<String> = curves.map(|curve| curve.label.clone()).collect();
+        let rides = figure::ride::Rides {
+            measure: self.study.measure,
+            axis: &self.study.axis,
+            labels: &labels,
+            seed,
+        };
+        Ok(figure::ride::plot(rows, &rides))
     }
 }
 

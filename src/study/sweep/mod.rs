@@ -3,12 +3,14 @@
 mod trials;
 
 use super::{Study, counted};
-use crate::claim::{self, Evidence, Pair};
-use crate::experiment::{Axis, Config, ConfigError};
+use crate::claim::{self, Evidence, Outcome, Pair, Scope};
+use crate::experiment::{Config, ConfigError, Curve};
 use crate::counts::{Counts, DecisionSummary, Key, Shape, Sums};
-use crate::figure::{self, Drawing, FigureError};
+use crate::figure::curves::SweepCurve;
+use crate::figure::{self, FigureError};
+use crate::plot::Plot;
 use crate::plan::{Hypothesis, Plan, Point};
-use crate::results::{self, Comparison, Manifest, Quantity, Row};
+use crate::results::{self, Comparison, Quantity, Row};
 use crate::run::{Identity, StudyError, Target, Trials};
 use crate::stats::tally::Tally;
 use std::collections::BTreeMap;
@@ -63,7 +65,7 @@ impl Sweep {
         let keys: Vec<Key> = identities(&plan)
             .map(|identity| identity.key(Self::NAME, plan.seed, plan.common_random_numbers))
             .collect();
-        let pairs = claim::pairs(config, &plan.points);
+        let pairs = plan.pairs(config);
         let family_of = plan.families();
         let compared: Vec<Compared> = pairs
             .iter()
@@ -146,7 +148,7 @@ impl Study for Sweep {
     }
 
     fn comparisons(&self, rows: &[Row], counts: &Counts) -> Vec<Comparison> {
-        let tallies: Vec<Tally> = rows.iter().map(Row::tally).collect();
+        let tallies: Vec<Tally> = rows.iter().map(|row| row.tally).collect();
         let discordant = |compared: &Compared| match compared {
             Compared::Itself => Some([0, 0]),
             Compared::Paired(key, places) => {
@@ -162,11 +164,11 @@ impl Study for Sweep {
 
     /// The numbers that claims of gains ask for.
     fn quantities(&self, rows: &[Row]) -> Result<Vec<Quantity>, StudyError> {
+        let (scope, outcomes) = self.curves(rows);
         let evidence = Evidence {
-            axis: Some(&self.config.axis),
-            rows,
-            comparisons: &[],
-            quantities: &[],
+            scope,
+            outcomes,
+            ..Evidence::default()
         };
         Ok(claim::gains(&self.config.narrative.claims, &evidence)?)
     }
@@ -183,7 +185,7 @@ impl Study for Sweep {
             }
         };
         for (key, row) in self.keys.iter().zip(rows) {
-            add(key, row.trials, &[row.detections]);
+            add(key, row.tally.trials, &[row.tally.hits]);
         }
         if comparisons.len() == self.compared.len() {
             for (compared, row) in self.compared.iter().zip(comparisons) {
@@ -201,8 +203,21 @@ impl Study for Sweep {
         Some(counts)
     }
 
-    fn draw(&self, rows: &[Row], manifest: &Manifest) -> Result<Drawing, FigureError> {
-        figure::sweep(&self.config, rows, manifest)
+    fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
+        let values = &self.config.axis.values;
+        let curve = |(index, curve): (usize, &Curve)| SweepCurve {
+            panel: curve.panel.clone(),
+            series: curve.series.clone(),
+            step_gain: (values.first())
+                .and_then(|value| self.config.scenario(index, value).ok())
+                .map(|scenario| scenario.sensor.step_gain()),
+        };
+        let sweep = figure::curves::Sweep {
+            axis: self.config.parameter(),
+            values: values.iter().filter_map(|value| value.number()).collect(),
+            curves: self.config.curves.iter().enumerate().map(curve).collect(),
+        };
+        figure::curves::plot(&sweep, rows, seed)
     }
 
     fn points(&self) -> String {
@@ -218,7 +233,9 @@ impl Study for Sweep {
         )
     }
 
-    fn curves(&self, rows: Vec<Row>) -> (Vec<Row>, Option<&Axis>) {
-        (rows, Some(&self.config.axis))
+    fn curves(&self, rows: &[Row]) -> (Scope, Vec<Outcome>) {
+        let parameter = self.config.parameter();
+        let outcomes = rows.iter().map(|row| row.outcome(parameter));
+        (self.config.scope(), outcomes.collect())
     }
 }
