@@ -5,16 +5,17 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each module of the library and its floor.
-const FLOORS: [&[&str]; 9] = [
+const FLOORS: [&[&str]; 10] = [
     &["rng", "stats", "format", "simd"],
-    &["ledger"],
+    &["counts"],
     &["signal", "whiten", "detect"],
     &["chain", "monitor"],
-    &["config", "schedule", "detection"],
+    &["schedule"],
+    &["config", "detection"],
     &["plan"],
-    &["pilot", "run", "gate", "results"],
-    &["exhibit", "claim"],
-    &["figure", "report", "campaign"],
+    &["pilot", "gate", "results"],
+    &["run", "claim"],
+    &["figure", "report", "study"],
 ];
 
 fn source() -> PathBuf {
@@ -73,9 +74,11 @@ fn imports_go_down() {
                     .take_while(|c| c.is_alphanumeric() || *c == '_')
                     .collect();
                 let below = floors.get(name.as_str()).copied();
+                // Pictures stand apart from their studies until they move in with them.
+                let is_picture = *floor == FLOORS.len() - 1 && below == Some(*floor);
                 imports += 1;
                 assert!(
-                    name == module || below.is_some_and(|below| below < *floor),
+                    name == module || is_picture || below.is_some_and(|below| below < *floor),
                     "{}: {module} (floor {floor}) imports {name} (floor {below:?})",
                     relative.display()
                 );

@@ -1,7 +1,7 @@
 //! A config as a study that can be run, whatever its kind.
 
 use super::{Study, Table, build};
-use crate::config::{Axis, ConfigError, Experiment as Config, Narrative};
+use crate::config::{Axis, Experiment as Config, Narrative};
 use crate::counts::Counts;
 use crate::figure::{Drawing, FigureError};
 use crate::report::Section;
@@ -127,7 +127,7 @@ impl Loaded {
     ///
     /// # Errors
     /// Where a parameter of a point is out of range, or no region or record can be made for it.
-    pub fn new(config: &Config) -> Result<Self, ConfigError> {
+    pub fn new(config: &Config) -> Result<Self, StudyError> {
         let study = build(config)?;
         let (question, narrative, confidence) = match config {
             Config::Sweep(c) => (&c.question, &c.narrative, c.confidence),
@@ -263,7 +263,7 @@ impl Loaded {
     ///
     /// # Errors
     /// Where this version cannot read its config.
-    pub fn again(origin: &Origin) -> Result<Self, ConfigError> {
+    pub fn again(origin: &Origin) -> Result<Self, StudyError> {
         let config = Config::parse(&origin.config_name, &origin.config)?;
         let mut config = config.with_trials(origin.trials)?;
         match &mut config {

@@ -29,7 +29,7 @@ pub mod rows {
     pub use super::trace::Row as Trace;
 }
 
-use crate::config::{Axis, ConfigError, ExhibitConfig, ExhibitKind, Experiment};
+use crate::config::{Axis, ExhibitConfig, ExhibitKind, Experiment};
 use crate::counts::{Counts, Key, Shape, Sums};
 use crate::figure::{Drawing, FigureError};
 use crate::results::{self, Comparison, Manifest, Quantity};
@@ -99,6 +99,37 @@ pub trait Study: Send + Sync {
     }
 }
 
+/// More than a study should be asked for.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what}: must be at most {most}, got {got} ({remedy})")]
+pub struct TooMany {
+    /// Of what.
+    what: &'static str,
+    most: usize,
+    got: usize,
+    remedy: &'static str,
+}
+
+impl TooMany {
+    /// Refuses more than `most`.
+    fn check(
+        what: &'static str,
+        got: usize,
+        most: usize,
+        remedy: &'static str,
+    ) -> Result<(), Self> {
+        if got <= most {
+            return Ok(());
+        }
+        Err(Self {
+            what,
+            most,
+            got,
+            remedy,
+        })
+    }
+}
+
 /// A header and lines.
 pub type Table = (&'static [&'static str], Vec<Vec<String>>);
 
@@ -114,7 +145,7 @@ pub struct Context {
 }
 
 /// The study that a config describes.
-fn build(experiment: &Experiment) -> Result<Box<dyn AnyStudy>, ConfigError> {
+fn build(experiment: &Experiment) -> Result<Box<dyn AnyStudy>, StudyError> {
     let config = match experiment {
         Experiment::Sweep(config) => return Ok(Box::new(sweep::Sweep::new(config)?)),
         Experiment::Exhibit(config) => config,
@@ -149,7 +180,7 @@ fn build(experiment: &Experiment) -> Result<Box<dyn AnyStudy>, ConfigError> {
             let study = operating_point::OperatingPoint::new(context, &scenario, search);
             Box::new(study.map_err(|problem| config.refuse(problem))?)
         }
-        ExhibitKind::Ride(study) => Box::new(ride::Rides::new(context, study)),
+        ExhibitKind::Ride(study) => Box::new(ride::Rides::new(context, study)?),
     })
 }
 

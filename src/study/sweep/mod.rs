@@ -2,16 +2,16 @@
 
 mod trials;
 
-use super::{Study, counted};
+use super::{Study, TooMany, counted};
 use crate::claim::{self, Evidence, Pair};
-use crate::config::{Axis, Config, ConfigError};
+use crate::config::{Axis, Config, Test};
 use crate::counts::{Counts, DecisionSummary, Key, Shape, Sums};
 use crate::figure::{self, Drawing, FigureError};
 use crate::plan::{Hypothesis, Plan, Point};
 use crate::results::{self, Comparison, Manifest, Quantity, Row};
 use crate::run::{Identity, StudyError, Target, Trials};
 use crate::stats::tally::Tally;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A plan, and what its claims compare.
 pub(super) struct Sweep {
@@ -58,7 +58,11 @@ impl Subject {
 }
 
 impl Sweep {
-    pub fn new(config: &Config) -> Result<Self, ConfigError> {
+    /// # Errors
+    /// Where a parameter of a point is out of range, no region or record can be made for it, or there is more
+    /// than can be planned, compared or drawn.
+    pub fn new(config: &Config) -> Result<Self, StudyError> {
+        check_sizes(config)?;
         let plan = Plan::new(config)?;
         let keys: Vec<Key> = identities(&plan)
             .map(|identity| identity.key(Self::NAME, plan.seed, plan.common_random_numbers))
@@ -95,6 +99,30 @@ impl Sweep {
         let known = counts.decisions.get(key).copied();
         known.unwrap_or_else(|| Row::new(point, None, NOTHING, 0.5).decision())
     }
+}
+
+const MOST_POINTS: usize = 20_000;
+/// An interval takes a millisecond.
+const MOST_COMPARISONS: usize = 50_000;
+/// A panel takes 16 MB while it is drawn.
+const MOST_PANELS: usize = 12;
+
+/// Refuses what would take hours or gigabytes, before anything is paid for.
+fn check_sizes(config: &Config) -> Result<(), TooMany> {
+    let (curves, values) = (config.curves.len(), config.axis.values.len());
+    let points = curves.saturating_mul(values);
+    TooMany::check("points", points, MOST_POINTS, "take fewer curves or values")?;
+    let claims = config.narrative.claims.iter().map(|claim| &claim.test);
+    let compared = claims.map(|test| match test {
+        Test::Grows { curves } => curves.len(),
+        Test::Exceeds(contrasts) | Test::Equals(contrasts) => contrasts.each.len(),
+        Test::AlphaHeld { .. } | Test::Quantity { .. } | Test::Gain { .. } => 0,
+    });
+    let comparisons = compared.sum::<usize>().saturating_mul(values);
+    let remedy = "make fewer claims, or of fewer curves";
+    TooMany::check("comparisons", comparisons, MOST_COMPARISONS, remedy)?;
+    let panels: BTreeSet<_> = config.curves.iter().map(|curve| &curve.panel).collect();
+    TooMany::check("panels", panels.len(), MOST_PANELS, "split the config")
 }
 
 const NOTHING: Tally = Tally { hits: 0, trials: 1 };
