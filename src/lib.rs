@@ -32,15 +32,16 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | 0 | [`rng`]: coordinates → generator · [`stats`]: exact tails, intervals, tests · [`format`]: numbers and words in print · [`files`]: files that appear whole · [`simd`]: trials side by side |
-//! | 1 | [`ledger`]: which trials have been counted |
+//! | 0 | [`rng`]: coordinates → generator · [`stats`]: exact tails, intervals, tests · [`format`]: numbers in print · [`simd`]: trials side by side |
+//! | 1 | [`counts`]: sums by what they count, and of which trials |
 //! | 2 | [`signal`]: sensor, noise, impulses, motion, rides · [`whiten`]: filters · [`detect`]: W, T, their laws, regions |
 //! | 3 | [`chain`]: one trial, every stage · [`monitor`]: one lift, sample by sample |
-//! | 4 | [`config`]: what the author wrote · [`schedule`]: blocks of trials in parallel · [`detection`]: what a monitor finds in a recording |
-//! | 5 | [`plan`]: what it comes to |
-//! | 6 | [`pilot`]: decisions that no law gives · [`run`]: counts · [`gate`]: the false-alarm test · [`results`]: files |
-//! | 7 | [`exhibit`]: experiments that are no sweep · [`claim`]: verdicts |
-//! | 8 | [`figure`]: pictures · [`report`]: the report · [`campaign`]: what a directory holds, lacks and comes to |
+//! | 4 | [`schedule`]: blocks of trials in parallel |
+//! | 5 | [`config`]: what the author wrote · [`detection`]: what a monitor finds in a recording |
+//! | 6 | [`plan`]: every point with its scenario and region |
+//! | 7 | [`pilot`]: decisions that no law gives · [`gate`]: the false-alarm test · [`results`]: files |
+//! | 8 | [`run`]: what is wanted, what is there, what is missing · [`claim`]: verdicts |
+//! | 9 | [`study`]: what a config's table describes · [`figure`]: pictures · [`report`]: the report |
 //!
 //! # Laws
 //! - A trial cannot fail: what can go wrong goes wrong when the plan is made.

@@ -51,7 +51,7 @@ pub mod words;
 pub use comparison::{Comparison, Place};
 pub use gain::gains;
 pub use narrative::{Claim, Contrasts, Narrative, Test, Words};
-pub use pairs::{Pair, comparisons, confidence, pairs};
+pub use pairs::{Pair, comparisons, confidence, number_of_pairs, pairs};
 pub use quantity::{Quantity, named_quantity};
 pub use scope::{Axis, ClaimProblem, Curve, Scope};
 

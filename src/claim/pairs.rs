@@ -44,6 +44,11 @@ pub fn pairs(claims: &[Claim], scope: &Scope, points: &[Vec<Option<usize>>]) -> 
     pairs
 }
 
+/// How many pairs claims ask for at most.
+pub fn number_of_pairs(claims: &[Claim], scope: &Scope) -> usize {
+    claims.iter().map(|claim| compared(&claim.test, scope).len()).sum()
+}
+
 /// What a test compares, each a curve and a value of the axis.
 fn compared(test: &Test, scope: &Scope) -> Vec<[(usize, usize); 2]> {
     let values = scope.axis.values.len();

@@ -118,7 +118,7 @@ impl Figures {
         }
         Ok(Entry {
             name: name.to_owned(),
-            study: Loaded::new(&config).map_err(Failure::input)?,
+            study: Loaded::new(&config).map_err(Failure::study)?,
             directory: Directory::new(self.results.join(name)),
         })
     }

@@ -32,7 +32,7 @@ impl Merge {
         let origin = joined.state.origin.clone();
         let name = Path::new(&origin.config_name);
         let out = self.out.unwrap_or_else(|| sweep::default_directory(name));
-        let study = Loaded::again(&origin).map_err(Failure::input)?;
+        let study = Loaded::again(&origin).map_err(Failure::study)?;
         let absent = joined.absent.clone();
         let settled = joined.settle(&study, Directory::new(&out));
         let session = settled.map_err(failure)?;

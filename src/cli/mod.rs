@@ -203,7 +203,7 @@ impl Simulation {
             Experiment::Sweep(config) => self.lay_over(config),
             Experiment::Exhibit(config) => config.seed = self.seed.unwrap_or(config.seed),
         }
-        let study = Loaded::new(&config).map_err(Failure::input)?;
+        let study = Loaded::new(&config).map_err(Failure::study)?;
         self.start_threads()?;
         Ok(study)
     }

@@ -22,7 +22,7 @@ impl Plot {
         directory.manifest().map_err(Failure::input)?;
         let _lock = directory.lock().map_err(Failure::input)?;
         let mut manifest = directory.manifest().map_err(Failure::input)?;
-        let study = Loaded::again(&manifest.origin).map_err(Failure::input)?;
+        let study = Loaded::again(&manifest.origin).map_err(Failure::study)?;
         let points = directory.points(&manifest).map_err(Failure::input)?;
         let drawing = study
             .draw(&points, &manifest)

@@ -9,7 +9,7 @@
 mod ranges;
 mod sums;
 
-pub use ranges::{Overlap, Ranges};
+pub use ranges::{Overlap, Ranges, StretchError};
 pub use sums::{Fixed, Shape, Sums, Values};
 
 use serde::{Deserialize, Serialize};

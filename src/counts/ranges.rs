@@ -17,6 +17,16 @@ pub struct Ranges {
 #[error("trials {} to {} are counted twice", .0.start, .0.end - 1)]
 pub struct Overlap(pub Range<u64>);
 
+/// Stretches that are no set of trials.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[allow(missing_docs, reason = "the messages say it")]
+pub enum StretchError {
+    #[error(transparent)]
+    Overlap(#[from] Overlap),
+    #[error("a stretch of trials must end after its start, got {0} to {1}")]
+    Empty(u64, u64),
+}
+
 impl Ranges {
     /// How many trials.
     pub fn len(&self) -> u64 {
@@ -113,11 +123,14 @@ impl From<Ranges> for Vec<[u64; 2]> {
 }
 
 impl TryFrom<Vec<[u64; 2]>> for Ranges {
-    type Error = Overlap;
+    type Error = StretchError;
 
-    fn try_from(stretches: Vec<[u64; 2]>) -> Result<Self, Overlap> {
+    fn try_from(stretches: Vec<[u64; 2]>) -> Result<Self, StretchError> {
         let mut ranges = Self::default();
         for [start, end] in stretches {
+            if end <= start {
+                return Err(StretchError::Empty(start, end));
+            }
             ranges.add(start..end)?;
         }
         Ok(ranges)

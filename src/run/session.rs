@@ -223,15 +223,16 @@ impl<'a> Session<'a> {
 
     /// Whether the counts can be what they say.
     pub(super) fn check(&self) -> Result<(), ResultsError> {
-        let targets = self
-            .trials
-            .as_ref()
-            .map_or(&[][..], |trials| trials.targets());
-        let counts = &self.state.counts;
-        let checked = |target: &super::Target| {
-            counts.check(&target.key, &target.shape, self.state.origin.trials)
+        let Some(trials) = &self.trials else {
+            return Ok(());
         };
-        let checked: Result<(), _> = targets.iter().try_for_each(checked);
+        let (counts, number) = (&self.state.counts, self.state.origin.trials);
+        let each = trials.targets().iter();
+        let checked: Result<(), StudyError> = each
+            .map(|target| counts.check(&target.key, &target.shape, number))
+            .collect::<Result<(), _>>()
+            .map_err(StudyError::from)
+            .and_then(|()| trials.check(counts));
         checked.map_err(|error| self.directory.impossible(&error))
     }
 }

@@ -48,6 +48,14 @@ pub trait Trials: Sync {
         (0..self.targets().len()).collect()
     }
 
+    /// Whether counts that go together can be what they say.
+    ///
+    /// # Errors
+    /// Where two contradict each other.
+    fn check(&self, _counts: &Counts) -> Result<(), StudyError> {
+        Ok(())
+    }
+
     /// Runs what must come before the trials of these targets: pilots. Returns how each point decides.
     ///
     /// # Errors

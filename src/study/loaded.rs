@@ -2,7 +2,7 @@
 
 use super::{Study, Table, build};
 use crate::claim::{Evidence, Narrative, Outcome, Scope};
-use crate::experiment::{ConfigError, Experiment as Config};
+use crate::experiment::Experiment as Config;
 use crate::counts::Counts;
 use crate::figure::{Drawing, FigureError, render};
 use crate::report::Section;
@@ -130,7 +130,7 @@ impl Loaded {
     ///
     /// # Errors
     /// Where a parameter of a point is out of range, or no region or record can be made for it.
-    pub fn new(config: &Config) -> Result<Self, ConfigError> {
+    pub fn new(config: &Config) -> Result<Self, StudyError> {
         let study = build(config)?;
         let (question, narrative, confidence) = match config {
             Config::Sweep(c) => (&c.question, &c.narrative, c.confidence),
@@ -268,7 +268,7 @@ impl Loaded {
     ///
     /// # Errors
     /// Where this version cannot read its config.
-    pub fn again(origin: &Origin) -> Result<Self, ConfigError> {
+    pub fn again(origin: &Origin) -> Result<Self, StudyError> {
         let config = Config::parse(&origin.config_name, &origin.config)?;
         let mut config = config.with_trials(origin.trials)?;
         match &mut config {

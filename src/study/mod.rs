@@ -30,7 +30,7 @@ pub mod rows {
 }
 
 use crate::claim::{Outcome, Scope};
-use crate::experiment::{ConfigError, ExhibitConfig, ExhibitKind, Experiment};
+use crate::experiment::{ExhibitConfig, ExhibitKind, Experiment};
 use crate::counts::{Counts, Key, Shape, Sums};
 use crate::figure::FigureError;
 use crate::plot::Plot;
@@ -101,6 +101,37 @@ pub trait Study: Send + Sync {
     }
 }
 
+/// More than a study should be asked for.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what}: must be at most {most}, got {got} ({remedy})")]
+pub struct TooMany {
+    /// Of what.
+    what: &'static str,
+    most: usize,
+    got: usize,
+    remedy: &'static str,
+}
+
+impl TooMany {
+    /// Refuses more than `most`.
+    fn check(
+        what: &'static str,
+        got: usize,
+        most: usize,
+        remedy: &'static str,
+    ) -> Result<(), Self> {
+        if got <= most {
+            return Ok(());
+        }
+        Err(Self {
+            what,
+            most,
+            got,
+            remedy,
+        })
+    }
+}
+
 /// A header and lines.
 pub type Table = (&'static [&'static str], Vec<Vec<String>>);
 
@@ -116,7 +147,7 @@ pub struct Context {
 }
 
 /// The study that a config describes.
-fn build(experiment: &Experiment) -> Result<Box<dyn AnyStudy>, ConfigError> {
+fn build(experiment: &Experiment) -> Result<Box<dyn AnyStudy>, StudyError> {
     let config = match experiment {
         Experiment::Sweep(config) => return Ok(Box::new(sweep::Sweep::new(config)?)),
         Experiment::Exhibit(config) => config,
@@ -151,7 +182,7 @@ fn build(experiment: &Experiment) -> Result<Box<dyn AnyStudy>, ConfigError> {
             let study = operating_point::OperatingPoint::new(context, &scenario, search);
             Box::new(study.map_err(|problem| config.refuse(problem))?)
         }
-        ExhibitKind::Ride(study) => Box::new(ride::Rides::new(context, study)),
+        ExhibitKind::Ride(study) => Box::new(ride::Rides::new(context, study)?),
     })
 }
 

@@ -64,7 +64,8 @@ fn exhibits_run_and_redraw_to_the_byte() {
         assert!(first["points.csv"].starts_with(head.as_bytes()), "{name}");
         assert!(first["figure.png"].starts_with(b"\x89PNG"));
         for threads in ["2", "7"] {
-            let (code, out, err) = sweep(name, directory.path(), &["--threads", threads]);
+            let again = ["--fresh", "--threads", threads];
+            let (code, out, err) = sweep(name, directory.path(), &again);
             assert_eq!((code, err.as_str()), (0, ""), "{name}");
             assert!(!out.contains("figure.png  written"), "{name}: {out}");
             assert!(
@@ -119,7 +120,7 @@ fn results_of_another_exhibit_are_kept() {
     let kind = sweep("fig5", directory.path(), &[]);
     refused(kind, "[autocorrelation] there, [layout] here");
     let axis = sweep("fig6", directory.path(), &[]);
-    refused(axis, "[autocorrelation] there, a sweep here");
+    refused(axis, "[autocorrelation] there, [axis] here");
 
     let text = fs::read_to_string(project().join("configs/fig1.toml")).unwrap();
     let path = directory.path().join("changed.toml");
@@ -133,9 +134,9 @@ fn results_of_another_exhibit_are_kept() {
     let fewer = changed("", "", "49");
     refused(fewer, "holds 50 trials per point, more than the 49");
     let lags = changed("lags = 40", "lags = 30", "50");
-    refused(lags, "[autocorrelation] says something else there");
+    refused(lags, "lags is 40 there, 30 here");
     let sensor = changed("model = \"adxl105\"", "ar = [0.5]", "50");
-    refused(sensor, "the sections say something else there");
+    refused(sensor, "sensor is ar(-1.5365 -0.75056) there, ar(0.5) here");
     assert!(files(directory.path()) == before);
 
     let rows = || files(directory.path())["points.csv"].clone();
@@ -154,7 +155,7 @@ fn results_of_a_sweep_are_kept_from_an_exhibit() {
     let (code, _, err) = sweep("fig1", directory.path(), &[]);
     assert_eq!(code, 2);
     assert!(
-        err.contains("a sweep there, [autocorrelation] here"),
+        err.contains("[axis] there, [autocorrelation] here"),
         "{err}"
     );
 }
@@ -162,15 +163,17 @@ fn results_of_a_sweep_are_kept_from_an_exhibit() {
 /// A verb that needs a sweep says so; so does one that is given too few trials.
 #[test]
 fn verbs_that_need_a_sweep() {
-    for verb in ["check", "plan"] {
-        let (code, out, err) = outcome(liftsim().args([verb, "configs/fig5.toml"]));
-        assert_eq!((code, out.as_str()), (2, ""), "{err}");
-        let words = "[layout] says what to draw, but nothing is swept here";
-        assert!(
-            err.contains("configs/fig5.toml:16:1") && err.contains(words),
-            "{err}"
-        );
-    }
+    let (code, out, err) = outcome(liftsim().args(["check", "configs/fig5.toml"]));
+    assert_eq!((code, out.as_str()), (2, ""), "{err}");
+    let words = "[layout] says what to draw, but nothing is swept here";
+    assert!(
+        err.contains("configs/fig5.toml:16:1") && err.contains(words),
+        "{err}"
+    );
+    let shard = ["sweep", "configs/fig5.toml", "--shard", "1/2"];
+    let (code, _, err) = outcome(liftsim().args(shard));
+    assert_eq!(code, 2);
+    assert!(err.contains("[layout] counts no trials"), "{err}");
     let one = ["sweep", "configs/fig1.toml", "--trials", "1"];
     let (code, _, err) = outcome(liftsim().args(one));
     assert_eq!(code, 2);
@@ -178,6 +181,19 @@ fn verbs_that_need_a_sweep() {
         err.contains("autocorrelation.trials must be at least 2, got 1"),
         "{err}"
     );
+}
+
+/// Every study can be planned.
+#[test]
+fn studies_are_planned() {
+    for (name, _) in EXHIBITS {
+        let config = format!("configs/{name}.toml");
+        let (code, out, err) = outcome(liftsim().args(["plan", &config, "--trials", "20"]));
+        assert_eq!((code, err.as_str()), (0, ""), "{name}: {out}");
+        let json = outcome(liftsim().args(["plan", &config, "--trials", "20", "--json"])).1;
+        let facts: serde_json::Value = serde_json::from_str(&json).unwrap();
+        assert!(facts["study"].is_string(), "{json}");
+    }
 }
 
 /// Rows that were changed by hand are not drawn.

@@ -1,6 +1,6 @@
 //! Many machines, one result.
 
-use super::survival::{Bench, TINY};
+use super::survival::{Bench, STUDIES, TINY};
 use liftsim::counts::Counts;
 use liftsim::results::{Directory, Shard};
 use liftsim::run;
@@ -38,6 +38,32 @@ fn shards_merge_to_the_same_bytes() {
             "{count} shards"
         );
         assert_eq!(bench.names("merged"), bench.names("whole"));
+    }
+}
+
+/// The same of every study that counts trials.
+#[test]
+fn shards_of_studies_merge_to_the_same_bytes() {
+    for study in STUDIES {
+        let bench = Bench::new(study);
+        bench.sweep("whole", &[]);
+        let shards: Vec<String> = (1..=3)
+            .map(|number| shard(&bench, number, 3, &[]))
+            .collect();
+        let status = bench.run(&["status", &shards[1]]).1;
+        assert!(
+            status.contains("2/3") && status.contains("finished"),
+            "{status}"
+        );
+        let [a, b, c] = [&shards[0], &shards[1], &shards[2]];
+        let (code, out, _) = bench.run(&["merge", b, c, "--out", "merged"]);
+        assert_eq!(code, 0);
+        assert!(out.contains("no directory of shard 1/3"), "{out}");
+        let (code, _, err) = bench.run(&["merge", c, a, b, "--out", "merged"]);
+        assert_eq!((code, err.as_str()), (0, ""));
+        assert!(bench.files("merged") == bench.files("whole"), "{study}");
+        assert_eq!(bench.names("merged"), bench.names("whole"));
+        assert_eq!(bench.sweep("merged", &[]), 0, "all is there");
     }
 }
 

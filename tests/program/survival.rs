@@ -1,7 +1,9 @@
 //! A run that ends however it ends goes on where it stopped, and comes to the same bytes.
 
 use super::{liftsim, outcome};
-use std::collections::BTreeSet;
+use liftsim::results::{Checkpoint, Directory, sha256};
+use serde_json::json;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -36,7 +38,15 @@ claim = "D grows"
 test = { grows = { curves = ["laplace"] } }
 "#;
 
-pub const FILES: [&str; 4] = ["points.csv", "comparisons.csv", "figure.png", "figure.svg"];
+/// One small config of each study that counts trials, apart from sweeps.
+pub const STUDIES: [&str; 4] = [
+    "question = \"?\"\nseed = 3\ntrials = 400\n[autocorrelation]\nlags = 5\nlength = 300\n",
+    "question = \"?\"\nseed = 3\ntrials = 9000\n[impulse_law]\nnu = [0.1, 0.3]\nlength = 20\n",
+    "question = \"?\"\nseed = 3\ntrials = 5000\n[detector]\nalpha = 0.05\n[operating_point]\n\
+     sizes = [6, 8]\npower = [0.5, 0.8]\ndelta = { from = 0.0, to = 3.2 }\n",
+    "question = \"?\"\nseed = 3\ntrials = 24\n[ride]\nmeasure = \"tradeoff\"\nlength = 60\n\
+     rest = [15, 20]\ntrips = 1\n[ride.axis]\ndelta_over_sigma = [1, 16]\n",
+];
 
 /// A directory with a config.
 pub struct Bench(TempDir);
@@ -84,9 +94,13 @@ impl Bench {
             .unwrap()
     }
 
-    pub fn files(&self, out: &str) -> Vec<Vec<u8>> {
-        let read = |name: &&str| fs::read(self.path(out).join(name)).unwrap();
-        FILES.iter().map(read).collect()
+    /// All that does not tell how it came about.
+    pub fn files(&self, out: &str) -> BTreeMap<String, Vec<u8>> {
+        let names = self.names(out).into_iter();
+        names
+            .filter(|name| name != "run.json")
+            .map(|name| (name.clone(), fs::read(self.path(out).join(&name)).unwrap()))
+            .collect()
     }
 
     pub fn names(&self, out: &str) -> BTreeSet<String> {
@@ -112,24 +126,22 @@ fn signal(child: &Child, name: &str) {
     assert!(sent.unwrap().success());
 }
 
-/// Fifty kills that come in time, spread over the whole of a run; after each the same command. How long a run takes
+/// Kills that come in time, spread over the whole of a run; after each the same command. How long a run takes
 /// changes with what else the machine does, so the instants follow it: a kill that comes too late makes those after it
 /// earlier, one before the first save makes them later.
-#[test]
-fn a_killed_run_comes_to_the_same_bytes() {
-    const KILLS: u32 = 50;
-    const MOST_ATTEMPTS: u32 = 2000;
-    let bench = Bench::new(TINY);
+fn kill_and_go_on(text: &str, enough: u32) {
+    let most_attempts = 40 * enough;
+    let bench = Bench::new(text);
     let start = Instant::now();
     assert!(bench.start("whole", &[]).wait().unwrap().success());
     let mut length = start.elapsed().as_secs_f64();
     let (expected, names) = (bench.files("whole"), bench.names("whole"));
     let (mut attempts, mut in_time, mut after_a_save) = (0, 0, 0);
     let mut state = 2014u64;
-    while in_time < KILLS || after_a_save < KILLS / 5 {
+    while in_time < enough || after_a_save < enough / 5 {
         attempts += 1;
         assert!(
-            attempts <= MOST_ATTEMPTS,
+            attempts <= most_attempts,
             "{in_time} in time, {after_a_save} after a save"
         );
         // Knuth's generator.
@@ -156,6 +168,18 @@ fn a_killed_run_comes_to_the_same_bytes() {
         fs::remove_dir_all(bench.path("killed")).unwrap();
     }
     println!("{in_time} kills in time of {attempts}, {after_a_save} after a save");
+}
+
+#[test]
+fn a_killed_run_comes_to_the_same_bytes() {
+    kill_and_go_on(TINY, 50);
+}
+
+#[test]
+fn a_killed_study_comes_to_the_same_bytes() {
+    for study in STUDIES {
+        kill_and_go_on(study, 10);
+    }
 }
 
 /// A result that is only to be drawn anew, and whose run ends between the first file and the manifest that
@@ -415,4 +439,124 @@ fn a_full_or_read_only_disk_is_a_clear_error() {
     });
     signal(&child, "-INT");
     assert_eq!(child.wait_with_output().unwrap().status.code(), Some(130));
+}
+
+/// Counts that cannot have been counted are refused, though their hash is right.
+#[test]
+fn impossible_counts_are_refused() {
+    let bench = Bench::new(TINY);
+    let shard = ["--trials", "3000", "--shard", "1/2"];
+    bench.sweep("out", &shard);
+    let whole = Directory::new(bench.path("out")).checkpoint().unwrap();
+    let whole = serde_json::to_value(whole.unwrap()).unwrap();
+    let refused = |change: &dyn Fn(&mut serde_json::Value), words: &str| {
+        let mut state = whole.clone();
+        let counters = state["counts"]["counters"].as_object_mut().unwrap();
+        counters.values_mut().for_each(change);
+        let text = state.to_string();
+        let json = match serde_json::from_str::<Checkpoint>(&text) {
+            Ok(state) => state.to_json(),
+            // What cannot even be read is written by hand.
+            Err(_) => format!("{{\"sha256\":\"\",\"checkpoint\":{text}}}").into_bytes(),
+        };
+        fs::write(bench.path("out/counts.json"), json).unwrap();
+        for verb in [
+            &[&["sweep", "tiny.toml"], &shard[..], &["--out"]].concat()[..],
+            &["merge"],
+        ] {
+            let (code, _, err) = bench.run(&[verb, &["out"]].concat());
+            assert_eq!(code, 2, "{err}");
+            assert!(err.contains("damaged") && err.contains(words), "{err}");
+        }
+    };
+    let set = |name: &'static str, value: serde_json::Value| {
+        move |counter: &mut serde_json::Value| match name {
+            "trials" => counter["trials"] = value.clone(),
+            _ => counter["sums"][name] = value.clone(),
+        }
+    };
+    refused(&set("counts", json!([2000, 2000])), "not as many sums");
+    refused(&set("counts", json!([])), "not as many sums");
+    let too_many = |counter: &mut serde_json::Value| {
+        let counts = counter["sums"]["counts"].as_array_mut().unwrap();
+        counts.iter_mut().for_each(|count| *count = json!(2000));
+    };
+    refused(&too_many, "2000 of something");
+    refused(&set("trials", json!([[0, 4000]])), "trial 3999 of 3000");
+    refused(&set("trials", json!([[0, 9], [5, 20]])), "counted twice");
+    refused(&set("trials", json!([[9, 5]])), "must end after its start");
+    let lonely = |counter: &mut serde_json::Value| {
+        let counts = counter["sums"]["counts"].as_array_mut().unwrap();
+        if counts.len() == 2 {
+            counts[0] = json!(counts[0].as_u64().unwrap() + 1);
+        }
+    };
+    refused(&lonely, "at one of them alone");
+}
+
+/// A row with more detections than trials is refused, though the manifest vouches for it.
+#[test]
+fn impossible_rows_are_refused() {
+    let bench = Bench::new(TINY);
+    bench.sweep("out", &["--trials", "3000"]);
+    let directory = Directory::new(bench.path("out"));
+    let mut manifest = directory.manifest().unwrap();
+    let points = fs::read_to_string(bench.path("out/points.csv")).unwrap();
+    let mut lines: Vec<String> = points.lines().map(str::to_owned).collect();
+    let column = |name: &str| lines[0].split(',').position(|column| column == name);
+    let detections = column("detections").unwrap();
+    let mut cells: Vec<&str> = lines[1].split(',').collect();
+    cells[detections] = "3001";
+    lines[1] = cells.join(",");
+    let edited = lines.join("\n") + "\n";
+    fs::write(bench.path("out/points.csv"), &edited).unwrap();
+    (manifest.files).insert("points.csv".to_owned(), sha256(edited.as_bytes()));
+    fs::write(bench.path("out/run.json"), manifest.to_json()).unwrap();
+    let (code, _, err) = bench.run(&["sweep", "tiny.toml", "--trials", "5000", "--out", "out"]);
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("points.csv: damaged: counter"), "{err}");
+}
+
+/// Counts are written before anything is drawn, and what cannot be drawn is refused before anything is counted.
+#[test]
+fn what_cannot_be_drawn_loses_no_counts() {
+    let mut text = TINY.split("[[curve]]").next().unwrap().to_owned();
+    for panel in 0..300 {
+        text += &format!("[[curve]]\nlabel = \"{panel}\"\npanel = \"{panel}\"\n");
+    }
+    let bench = Bench::new(&text);
+    for verb in ["sweep", "plan"] {
+        let (code, _, err) = bench.run(&[verb, "tiny.toml"]);
+        assert_eq!(code, 2, "{err}");
+        assert!(err.contains("panels: must be at most 12, got 300"), "{err}");
+    }
+    assert!(!bench.path("results").exists());
+}
+
+/// Sizes are checked before they are paid for.
+#[test]
+fn what_nobody_could_wait_for_is_refused() {
+    let head = "question = \"?\"\nseed = 1\n[axis]\n";
+    let values = "delta = { from = 0.0, to = 2.99, step = 0.01 }\n";
+    let curves = "[[curve]]\nlabel = \"a\"\n[[curve]]\nlabel = \"b\"\n";
+    let claim =
+        "[[claim]]\nclaim = \"?\"\ntest = { exceeds = { first = \"a\", second = \"b\" } }\n";
+    let many: String = (0..100)
+        .map(|i| format!("[[curve]]\nlabel = \"{i}\"\n"))
+        .collect();
+    for (text, words) in [
+        (
+            format!("{head}{values}{curves}{}", claim.repeat(2000)),
+            "comparisons: must be at most 50000, got 600000",
+        ),
+        (
+            format!("{head}{values}{many}"),
+            "points: must be at most 20000, got 30000",
+        ),
+    ] {
+        let bench = Bench::new(&text);
+        let (code, _, err) = bench.run(&["sweep", "tiny.toml"]);
+        assert_eq!(code, 2, "{err}");
+        assert!(err.contains(words), "{err}");
+    }
 }

@@ -31,7 +31,7 @@ mod watch;
 
 pub use row::Row;
 
-use super::{Context, Counters, Study, counted};
+use super::{Context, Counters, Study, TooMany, counted};
 use crate::experiment::{RidePoint, RideStudy};
 use crate::counts::{Counts, Sums};
 use crate::figure::{self, FigureError};
@@ -45,6 +45,8 @@ use watch::Watch;
 /// A trial takes milliseconds.
 const BLOCK: u64 = 4;
 
+const MOST_POINTS: usize = 10_000;
+
 /// Rides along an axis.
 pub(super) struct Rides {
     context: Context,
@@ -53,14 +55,18 @@ pub(super) struct Rides {
 }
 
 impl Rides {
-    pub fn new(context: Context, study: RideStudy) -> Self {
+    /// # Errors
+    /// Where there are more points than anybody would look at.
+    pub fn new(context: Context, study: RideStudy) -> Result<Self, TooMany> {
+        let points = study.curves.iter().map(|curve| curve.points.len()).sum();
+        TooMany::check("points", points, MOST_POINTS, "take fewer curves or values")?;
         let mut rides = Self {
             context,
             study,
             counters: Counters::default(),
         };
         rides.counters = Counters::new(&rides, context.seed, &RideSums::shape());
-        rides
+        Ok(rides)
     }
 
     /// Every point with its curve and its value on the axis.

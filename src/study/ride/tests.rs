@@ -181,7 +181,7 @@ fn study(text: &str) -> (Rides, Vec<Row>) {
     let ExhibitKind::Ride(study) = config.kind.clone() else {
         panic!("no rides");
     };
-    let study = Rides::new(context(&config), study);
+    let study = Rides::new(context(&config), study).unwrap();
     let rows = rows(&study, config.trials);
     (study, rows)
 }

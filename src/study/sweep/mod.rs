@@ -2,9 +2,9 @@
 
 mod trials;
 
-use super::{Study, counted};
+use super::{Study, TooMany, counted};
 use crate::claim::{self, Evidence, Outcome, Pair, Scope};
-use crate::experiment::{Config, ConfigError, Curve};
+use crate::experiment::{Config, Curve};
 use crate::counts::{Counts, DecisionSummary, Key, Shape, Sums};
 use crate::figure::curves::SweepCurve;
 use crate::figure::{self, FigureError};
@@ -13,7 +13,7 @@ use crate::plan::{Hypothesis, Plan, Point};
 use crate::results::{self, Comparison, Quantity, Row};
 use crate::run::{Identity, StudyError, Target, Trials};
 use crate::stats::tally::Tally;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A plan, and what its claims compare.
 pub(super) struct Sweep {
@@ -60,7 +60,11 @@ impl Subject {
 }
 
 impl Sweep {
-    pub fn new(config: &Config) -> Result<Self, ConfigError> {
+    /// # Errors
+    /// Where a parameter of a point is out of range, no region or record can be made for it, or there is more
+    /// than can be planned, compared or drawn.
+    pub fn new(config: &Config) -> Result<Self, StudyError> {
+        check_sizes(config)?;
         let plan = Plan::new(config)?;
         let keys: Vec<Key> = identities(&plan)
             .map(|identity| identity.key(Self::NAME, plan.seed, plan.common_random_numbers))
@@ -97,6 +101,24 @@ impl Sweep {
         let known = counts.decisions.get(key).copied();
         known.unwrap_or_else(|| Row::new(point, None, NOTHING, 0.5).decision())
     }
+}
+
+const MOST_POINTS: usize = 20_000;
+/// An interval takes a millisecond.
+const MOST_COMPARISONS: usize = 50_000;
+/// A panel takes 16 MB while it is drawn.
+const MOST_PANELS: usize = 12;
+
+/// Refuses what would take hours or gigabytes, before anything is paid for.
+fn check_sizes(config: &Config) -> Result<(), TooMany> {
+    let (curves, values) = (config.curves.len(), config.axis.values.len());
+    let points = curves.saturating_mul(values);
+    TooMany::check("points", points, MOST_POINTS, "take fewer curves or values")?;
+    let comparisons = claim::number_of_pairs(&config.narrative.claims, &config.scope());
+    let remedy = "make fewer claims, or of fewer curves";
+    TooMany::check("comparisons", comparisons, MOST_COMPARISONS, remedy)?;
+    let panels: BTreeSet<_> = config.curves.iter().map(|curve| &curve.panel).collect();
+    TooMany::check("panels", panels.len(), MOST_PANELS, "split the config")
 }
 
 const NOTHING: Tally = Tally { hits: 0, trials: 1 };

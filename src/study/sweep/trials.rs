@@ -2,7 +2,7 @@
 
 use super::{NOTHING, Subject, Sweep};
 use crate::chain::Decision;
-use crate::counts::{DecisionSummary, Key, Sums};
+use crate::counts::{Counts, DecisionSummary, Key, Sums};
 use crate::pilot::Pilots;
 use crate::plan::Plan;
 use crate::results::Row;
@@ -55,6 +55,33 @@ impl Trials for Sampling<'_> {
         BLOCK
     }
 
+    /// What both points of a pair detected is the same of either.
+    fn check(&self, counts: &Counts) -> Result<(), StudyError> {
+        let Sweep {
+            targets,
+            subjects,
+            keys,
+            ..
+        } = self.sweep;
+        for (target, subject) in targets.iter().zip(subjects) {
+            let Subject::Pair(points) = *subject else {
+                continue;
+            };
+            let each = points.map(|point| counts.get(&keys[point]));
+            let (Some(pair), [Some(first), Some(second)]) = (counts.get(&target.key), each) else {
+                continue;
+            };
+            let alone = [pair.sums.counts[0], pair.sums.counts[1]];
+            let hits = [first.sums.counts[0], second.sums.counts[0]];
+            let both = [0, 1].map(|at: usize| hits[at].checked_sub(alone[at]));
+            let is_of_same = pair.trials == first.trials && pair.trials == second.trials;
+            if is_of_same && (both[0].is_none() || both[0] != both[1]) {
+                return Err(Contradiction { hits, alone }.into());
+            }
+        }
+        Ok(())
+    }
+
     fn prepare(
         &mut self,
         targets: &[usize],
@@ -86,10 +113,21 @@ impl Trials for Sampling<'_> {
     }
 }
 
+/// A pair and its points that cannot have been counted in the same trials.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "points of {hits:?} detections, of which {alone:?} at one of them alone: the others must be as many at both"
+)]
+struct Contradiction {
+    hits: [u64; 2],
+    alone: [u64; 2],
+}
+
 /// Some of the points, arranged by the noise they share.
 struct Job {
     plan: Plan,
-    decisions: Decisions,
+    /// None before the pilots.
+    decisions: Option<Decisions>,
     families: Families,
     groups: Vec<Group>,
     /// Of each counter of each group what it counts: a place in this plan, or a pair of `families`.
@@ -113,8 +151,10 @@ impl Job {
         });
         let plan = sampling.sweep.plan.subset(&points);
         let families = Families::new(&plan, pairs.collect());
-        let decision = |&point: &usize| sampling.decisions[point].clone().expect("it is prepared");
-        let decisions = Decisions::new(points.iter().map(decision));
+        let decisions: Option<Vec<Decision>> = points
+            .iter()
+            .map(|&point| sampling.decisions[point].clone())
+            .collect();
         let mut groups: Vec<Group> = (plan.schedule.families.iter())
             .map(|family| Group {
                 counters: Vec::new(),
@@ -138,7 +178,7 @@ impl Job {
         }
         Self {
             plan,
-            decisions,
+            decisions: decisions.map(Decisions::new),
             families,
             groups,
             counted,
@@ -152,7 +192,8 @@ impl Simulation for Job {
     }
 
     fn run(&self, group: usize, trials: Range<u64>) -> Vec<Sums> {
-        let mut tallies = Tallies::new(&self.decisions, &self.families);
+        let decisions = self.decisions.as_ref().expect("the pilots have run");
+        let mut tallies = Tallies::new(decisions, &self.families);
         self.plan.schedule.run_block(group, trials, &mut tallies);
         let counted = self.counted[group].iter();
         counted
