@@ -7,8 +7,8 @@ use std::path::Path;
 const CONFIG: &str = r#"
 question = "Does every fit and every rule take a filter of the order that the trial chooses?"
 seed = 5
-trials = 1000
-pilot = 4000
+trials = 500
+pilot = 1000
 [axis]
 delta = [0.5, 1.0, 1.5, 2.0]
 [whitening]

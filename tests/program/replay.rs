@@ -57,7 +57,7 @@ fn replays_are_the_trials_of_the_sweep() {
         .collect();
     let column = |name: &str| rows[0].iter().position(|cell| *cell == name).unwrap();
     let detections = column("detections");
-    for (point, curve) in [(1, "1"), (3, "1"), (8, "2"), (12, "3"), (15, "4")] {
+    for (point, curve) in [(1, "1"), (3, "1"), (8, "2"), (12, "3"), (18, "4")] {
         let row = &rows[point];
         assert_eq!(row[0], curve);
         let mut detected = 0.0;
