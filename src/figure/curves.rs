@@ -3,18 +3,21 @@
 
 use super::FigureError;
 use super::labels::{self, WHITENED_DELTA, axis_label, common_facts, is_held_against_alpha};
-use super::rates::{Curve, Limit, Rate, add_bands, add_bars, rates};
+use super::rates::{Curve, add_bands, add_bars};
 use super::x_axis::XAxis;
 use crate::plot::{
-    Axis, Entry, Key, LONG_RANGE, Legend, Margins, Mark, Panel, Place, Plot, Style, ends,
+    Axis, Entry, Key, LONG_RANGE, Legend, Limit, Mark, Panel, Place, Plot, Point, Style, ends,
 };
 use crate::results::Row;
 use crate::scenario::Parameter;
 
-/// One panel, without its legend above.
-const HEIGHT: f64 = 212.0;
+/// One panel and what stands above it.
+const HEIGHT: f64 = 222.0;
 /// One of several.
 const SMALL_HEIGHT: f64 = 114.0;
+/// Above a panel with a title, and above one with a second axis.
+const TITLE: f64 = 22.0;
+const TOP_AXIS: f64 = 32.0;
 
 /// What is swept.
 #[derive(Clone, Debug)]
@@ -47,72 +50,87 @@ struct Group {
 /// # Errors
 /// Where no row lies on the axis.
 pub fn plot(sweep: &Sweep, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-    let drawn: Vec<Vec<&Row>> = (1..=sweep.curves.len())
-        .map(|curve| rows_of(rows, curve))
-        .collect();
-    let all: Vec<&Row> = drawn.iter().flatten().copied().collect();
+    let curves = 1..=sweep.curves.len();
+    let drawn: Vec<Vec<&Row>> = curves.map(|curve| rows_of(rows, curve)).collect();
+    let all = drawn.concat();
     if all.is_empty() {
         return Err(FigureError::Empty(sweep.axis.name));
     }
-    let x = XAxis::new(sweep, &all);
+    let axis = XAxis::new(sweep, &all);
     let common = common_facts(&all);
-    let (entries, mut groups) = grouped(sweep, &drawn, &x, &common);
+    let (entries, mut groups) = grouped(sweep, &drawn, &axis, &common);
     let is_false_alarm = all.iter().all(|row| row.is_at_rest());
-    let is_logarithmic = is_false_alarm && spans_far(&groups);
-    for rate in rates_of(&mut groups) {
-        match is_logarithmic {
-            true => rate.take_logarithms(),
-            false => rate.limit = None,
-        }
-    }
+    let is_log = is_false_alarm && spans_far(&groups);
+    groups.iter_mut().for_each(|group| group.scale(is_log));
+    let scale: fn(f64) -> f64 = if is_log { libm::log10 } else { f64::from };
+    let level = is_held_against_alpha(&all).then(|| scale(all[0].alpha()));
+    let y = match is_false_alarm {
+        true => rate_axis(&groups, level, is_log),
+        false => power_axis(),
+    };
     let mut plot = panels(
-        &x,
-        &y_axis(&groups, &all, is_false_alarm, is_logarithmic),
-        sweep,
         &groups,
-        &all,
+        &axis,
+        axis_label(sweep.axis, is_whitened(&all)),
+        &y,
     );
-    for (panel, group) in groups.iter().enumerate() {
+    if let Some(unit) = whitened_unit(sweep, &all).filter(|_| !axis.is_logarithmic()) {
+        plot.add_whitened_axis(unit);
+    }
+    plot.set_caption(&labels::caption(&all, common, sweep.axis, seed));
+    if points(&groups).any(|point| point.limit.is_some()) {
+        let arrows = "arrows: upper limits where no trial gave a false alarm";
+        plot.caption.push(arrows.to_owned());
+    }
+    for (panel, group) in groups.into_iter().enumerate() {
         plot.add(panel, Mark::Grid);
-        if let Some(y) = nominal(&all, is_logarithmic) {
-            plot.add(panel, Mark::Level { y, dash: &[] });
+        if let Some(level) = level {
+            plot.add(panel, Mark::Level(level, &[]));
         }
-        match x.is_named() {
-            true => add_bars(&mut plot, panel, &group.curves),
-            false => add_bands(&mut plot, panel, &group.curves, true),
+        if axis.is_named() {
+            add_bars(&mut plot, panel, group.curves);
+        } else {
+            add_bands(&mut plot, panel, &group.curves, true);
         }
         plot.add(panel, Mark::Axes);
     }
     plot.add(0, Mark::Legend);
     // One curve without a name of its own needs no legend.
-    plot.legend =
-        (entries.len() > 1 || entries[0].text != "1").then(|| Legend::new(entries, Place::Free));
-    plot.set_caption(&labels::caption(&all, common, sweep.axis, seed));
-    if rates_of(&mut groups).any(|rate| rate.limit.is_some()) {
-        plot.caption
-            .push("arrows: upper limits where no trial gave a false alarm".to_owned());
-    }
+    let is_plain = entries.len() == 1 && entries[0].text == "1";
+    plot.legend = (!is_plain).then(|| Legend::new(entries, Place::Free));
     Ok(plot)
+}
+
+impl Group {
+    /// Takes logarithms, or leaves rates as they are: then no limits stand for them.
+    fn scale(&mut self, is_logarithmic: bool) {
+        for point in self.curves.iter_mut().flat_map(|curve| &mut curve.points) {
+            *point = match is_logarithmic {
+                true => point.logarithms(),
+                false => Point {
+                    limit: None,
+                    ..*point
+                },
+            };
+        }
+    }
 }
 
 /// The legend, and the curves in the panels that they name.
 fn grouped(
     sweep: &Sweep,
     drawn: &[Vec<&Row>],
-    x: &XAxis,
+    axis: &XAxis,
     common: &[Option<labels::Fact>],
 ) -> (Vec<Entry>, Vec<Group>) {
-    let key = if x.is_named() {
-        Key::Marker
-    } else {
-        Key::MarkedLine
+    let key = match axis.is_named() {
+        true => Key::Marker,
+        false => Key::MarkedLine,
     };
     let mut entries: Vec<Entry> = Vec::new();
     let mut groups: Vec<Group> = Vec::new();
-    for (curve, rows) in sweep.curves.iter().zip(drawn) {
-        if rows.is_empty() {
-            continue;
-        }
+    let curves = sweep.curves.iter().zip(drawn);
+    for (curve, rows) in curves.filter(|(_, rows)| !rows.is_empty()) {
         let series = curve.series.clone();
         let text = series.unwrap_or_else(|| labels::legend(rows, common, sweep.axis));
         let known = entries.iter().find(|entry| entry.text == text);
@@ -120,153 +138,110 @@ fn grouped(
         if known.is_none() {
             entries.push(Entry::new(text, style, key));
         }
-        let places = (0..rows.len()).map(|index| rate(x.place(rows, index), rows[index]));
-        let mut points: Vec<Rate> = places.collect();
+        let places = (0..rows.len()).map(|index| axis.place(rows, index));
+        let mut points: Vec<Point> = places.zip(rows).map(|(x, row)| point(x, row)).collect();
         points.sort_by(|a, b| a.x.total_cmp(&b.x));
         let title = curve.panel.clone().unwrap_or_default();
-        let curve = Curve { style, points };
+        let curves = vec![Curve { style, points }];
         match groups.iter_mut().find(|group| group.title == title) {
-            Some(group) => group.curves.push(curve),
-            None => groups.push(Group {
-                title,
-                curves: vec![curve],
-            }),
+            Some(group) => group.curves.extend(curves),
+            None => groups.push(Group { title, curves }),
         }
     }
     (entries, groups)
 }
 
-/// The panels: one, or two in a row, with words at the left and along the lowest.
-fn panels(x: &XAxis, y: &Axis, sweep: &Sweep, groups: &[Group], rows: &[&Row]) -> Plot {
-    let is_whitened = rows.iter().all(|row| row.values.text("delta_at") == "whitened");
-    let label = axis_label(sweep.axis, is_whitened);
-    let (x_axis, y) = (
-        x.axis(
-            groups
-                .iter()
-                .flat_map(|group| rates(&group.curves).map(|rate| rate.x)),
-        ),
-        y.clone(),
-    );
-    let bottom = 40.0;
-    if let [group] = groups {
-        let unit =
-            whitened_unit(sweep, rows).filter(|_| !x.is_logarithmic() && group.title.is_empty());
-        let top = unit.map(|unit| {
-            let axis = Axis::linear(x_axis.from * unit, x_axis.to * unit, 8);
-            axis.labelled(WHITENED_DELTA)
-        });
-        let above = match (&top, group.title.is_empty()) {
-            (Some(_), _) => 32.0,
-            (None, true) => 10.0,
-            (None, false) => 22.0,
-        };
-        let margins = Margins {
-            top: above,
-            bottom,
-            ..Margins::default()
-        };
-        let height = HEIGHT + 10.0 - above;
-        let panel = Panel {
-            title: group.title.clone(),
-            top,
-            ..Panel::new(height, x_axis.labelled(label), y)
-        };
-        return Plot {
-            margins,
-            ..Plot::of(vec![panel], 1)
-        };
-    }
+/// One panel, or two in a row with words at the left and along the lowest.
+fn panels(groups: &[Group], axis: &XAxis, label: &str, y: &Axis) -> Plot {
+    let x = axis.axis(points(groups).map(|point| point.x));
+    let count = groups.len();
     let panel = |(index, group): (usize, &Group)| {
-        let is_lowest = index + 2 >= groups.len();
-        let x = x_axis.clone().labelled(if is_lowest { label } else { "" });
-        let y = if index.is_multiple_of(2) {
-            y.clone()
-        } else {
-            y.unlabelled()
-        };
-        Panel {
-            title: group.title.clone(),
-            ..Panel::new(SMALL_HEIGHT, x, y)
+        let is_lowest = index + 2 >= count;
+        let x = x.clone().labelled(if is_lowest { label } else { "" });
+        let is_left = index.is_multiple_of(2);
+        let y = if is_left { y.clone() } else { y.unlabelled() };
+        Panel::new(SMALL_HEIGHT, x, y).titled(&group.title)
+    };
+    let panels = groups.iter().enumerate().map(panel).collect();
+    let mut plot = Plot::of(panels, count.min(2));
+    plot.margins.bottom = 40.0;
+    if count > 1 || !groups[0].title.is_empty() {
+        plot.margins.top = TITLE;
+    }
+    if count == 1 {
+        plot.panels[0].height = HEIGHT - plot.margins.top;
+    }
+    plot
+}
+
+impl Plot {
+    /// Δ after whitening, along the top of a single panel without a title.
+    fn add_whitened_axis(&mut self, unit: f64) {
+        if let [panel] = &mut self.panels[..]
+            && panel.title.is_empty()
+        {
+            let axis = Axis::linear(panel.x.from * unit, panel.x.to * unit, 8);
+            panel.top = Some(axis.labelled(WHITENED_DELTA));
+            panel.height = HEIGHT - TOP_AXIS;
+            self.margins.top = TOP_AXIS;
         }
-    };
-    let margins = Margins {
-        top: 22.0,
-        bottom,
-        ..Margins::default()
-    };
-    Plot {
-        margins,
-        ..Plot::of(groups.iter().enumerate().map(panel).collect(), 2)
     }
 }
 
-/// From 0 to 1 for a power; for false-alarm rates around what there is of them.
-fn y_axis(groups: &[Group], rows: &[&Row], is_false_alarm: bool, is_logarithmic: bool) -> Axis {
-    if !is_false_alarm {
-        let axis = Axis::linear(0.0, 1.0, 5).within(0.0, 1.03);
-        return axis.labelled("D, probability of detection");
-    }
-    let all = || groups.iter().flat_map(|group| rates(&group.curves));
-    let nominal = nominal(rows, is_logarithmic);
-    let axis = match is_logarithmic {
-        true => {
-            let (bottom, top) = ends(all().map(|rate| rate.rate).chain(nominal));
-            Axis::decades(bottom - 0.25, (top + 0.15).min(0.08))
-        }
-        false => {
-            let (bottom, top) = ends(all().flat_map(|rate| [rate.low, rate.high]).chain(nominal));
-            let room = (top - bottom).max(1e-9);
-            // Room above for the legend.
-            Axis::linear((bottom - 0.1 * room).max(0.0), top + 0.8 * room, 6)
-        }
+fn power_axis() -> Axis {
+    Axis::linear(0.0, 1.0, 5)
+        .within(0.0, 1.03)
+        .labelled("D, probability of detection")
+}
+
+/// Around what there is of false-alarm rates.
+fn rate_axis(groups: &[Group], level: Option<f64>, is_logarithmic: bool) -> Axis {
+    let axis = if is_logarithmic {
+        let (bottom, top) = ends(points(groups).map(|point| point.y).chain(level));
+        Axis::decades(bottom - 0.25, (top + 0.15).min(0.08))
+    } else {
+        let limits = points(groups).flat_map(|point| [point.low, point.high]);
+        let (bottom, top) = ends(limits.chain(level));
+        let room = (top - bottom).max(1e-9);
+        // Room above for the legend.
+        Axis::linear((bottom - 0.1 * room).max(0.0), top + 0.8 * room, 6)
     };
     axis.labelled("false-alarm rate")
 }
 
-/// Where the level stands that false-alarm rates are compared with.
-fn nominal(rows: &[&Row], is_logarithmic: bool) -> Option<f64> {
-    let alpha = is_held_against_alpha(rows).then_some(rows[0].alpha())?;
-    Some(if is_logarithmic {
-        libm::log10(alpha)
-    } else {
-        alpha
-    })
-}
-
-fn rates_of(groups: &mut [Group]) -> impl Iterator<Item = &mut Rate> {
-    let curves = groups.iter_mut().flat_map(|group| &mut group.curves);
-    curves.flat_map(|curve| &mut curve.points)
+fn points(groups: &[Group]) -> impl Iterator<Item = &Point> {
+    (groups.iter().flat_map(|group| &group.curves)).flat_map(|curve| &curve.points)
 }
 
 /// Whether the largest rate is so many times the smallest that a linear scale would hide it.
 fn spans_far(groups: &[Group]) -> bool {
-    let all = groups.iter().flat_map(|group| rates(&group.curves));
-    let (smallest, largest) = ends(all.map(Rate::shown));
+    let (smallest, largest) = ends(points(groups).map(Point::shown));
     largest >= LONG_RANGE * smallest
 }
 
 /// A row's rate and interval, from its counts.
-fn rate(x: f64, row: &Row) -> Rate {
+fn point(x: f64, row: &Row) -> Point {
     let (low, high) = row.tally.interval(row.confidence);
-    Rate {
-        x,
-        rate: row.tally.rate(),
-        low,
-        high,
-        limit: (row.tally.hits == 0).then_some(Limit::Upper),
+    let limit = (row.tally.hits == 0).then_some(Limit::Upper);
+    Point {
+        limit,
+        ..Point::new(x, [low, row.tally.rate(), high])
     }
 }
 
 /// The rows a curve is drawn from: those in motion, or at rest where nothing ever moves.
 fn rows_of(rows: &[Row], curve: usize) -> Vec<&Row> {
-    let (at_rest, in_motion): (Vec<&Row>, Vec<&Row>) =
-        (rows.iter().filter(|row| row.curve == curve)).partition(|row| row.is_at_rest());
+    let here = rows.iter().filter(|row| row.curve == curve);
+    let (at_rest, in_motion): (Vec<_>, Vec<_>) = here.partition(|row| row.is_at_rest());
     if in_motion.is_empty() {
         at_rest
     } else {
         in_motion
     }
+}
+
+fn is_whitened(rows: &[&Row]) -> bool {
+    rows.iter().all(|row| row.values.text("delta_at") == "whitened")
 }
 
 /// 1 − β, where the axis is Δ in the record and every curve has the same sensor, undecimated.
@@ -275,7 +250,8 @@ fn whitened_unit(sweep: &Sweep, rows: &[&Row]) -> Option<f64> {
     let agrees =
         |row: &&Row| {
             let is_same = |name| row.values.cell(name) == first.values.cell(name);
-            row.values.text("delta_at") == "record" && is_same("sensor") && row.values.number("decimation") == 1.0
+            let is_plain = row.values.number("decimation") == 1.0;
+            row.values.text("delta_at") == "record" && is_same("sensor") && is_plain
         };
     let is_one = sweep.axis.name == "delta" && rows.iter().all(agrees);
     sweep.curves[first.curve - 1].step_gain.filter(|_| is_one)

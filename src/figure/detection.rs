@@ -5,15 +5,11 @@ use super::FigureError;
 use super::phases::{add_phases, phase_colour, phase_words};
 use crate::detection::{Column, Detection};
 use crate::monitor::{Decision, Kind, State};
-use crate::plot::{
-    Axis, Colour, Entry, Key, Legend, Margins, Mark, Place, Plot, Style, ends, literal,
-};
+use crate::plot::{Axis, Colour, Entry, Key, Legend, Mark, Place, Plot, Style, ends, literal};
 
 const PANEL: f64 = 140.0;
 /// Room for the bars of the samples, as a share of the lower panel.
 const BARS: f64 = 0.34;
-/// Of X, Y₁ and Y₂.
-const SAMPLES: [&str; 3] = ["X", "Y_1", "Y_2"];
 
 /// The picture of a recording, whose name is `name`, and what was found in it.
 ///
@@ -30,17 +26,10 @@ pub fn plot(detection: &Detection, name: &str) -> Result<Plot, FigureError> {
     let record = y_axis(columns, &states, 0.08, |column| column.record).labelled("record, m/s²");
     let whitened =
         y_axis(columns, &states, BARS, |column| column.whitened).labelled("whitened, m/s²");
-    let margins = Margins {
-        top: 16.0,
-        legend: (4.0, 4.0),
-        ..Margins::default()
-    };
-    let mut plot = Plot {
-        margins,
-        ..Plot::stack(&x, [(PANEL, record), (PANEL, whitened)])
-    };
+    let mut plot = Plot::stack(&x, [(PANEL, record), (PANEL, whitened)]);
+    (plot.margins.top, plot.margins.legend) = (16.0, (4.0, 4.0));
     add_phases(&mut plot, &states, 5.0);
-    plot.add(1, Mark::Level { y: 0.0, dash: &[] });
+    plot.add(1, Mark::Level(0.0, &[]));
     plot.add(0, values(columns, |column| column.record));
     plot.add(1, values(columns, |column| column.whitened));
     for event in &detection.events {
@@ -52,8 +41,7 @@ pub fn plot(detection: &Detection, name: &str) -> Result<Plot, FigureError> {
             add_decision(&mut plot, &decision, event.reported);
         }
     }
-    plot.add(0, Mark::Axes);
-    plot.add(1, Mark::Axes);
+    plot.add_to_all(&Mark::Axes);
     plot.add(0, Mark::Legend);
     plot.legend = Some(Legend::new(entries(), Place::Across));
     plot.set_caption(&caption(detection, name));
@@ -61,21 +49,21 @@ pub fn plot(detection: &Detection, name: &str) -> Result<Plot, FigureError> {
 }
 
 /// From when to when each state lasted, s, and its name.
-fn states(detection: &Detection, from: f64, to: f64) -> Vec<(f64, f64, &'static str)> {
-    let mut states = vec![(from, to, "unknown")];
+fn states(detection: &Detection, from: f64, to: f64) -> Vec<((f64, f64), &'static str)> {
+    let mut states = vec![((from, to), "unknown")];
     for event in &detection.events {
         if let Kind::Change { state, .. } = event.kind {
             if let Some(last) = states.last_mut() {
-                last.1 = event.time;
+                last.0.1 = event.time;
             }
             let name = match state {
                 State::Unknown => "unknown",
                 State::Known(phase) => phase.name(),
             };
-            states.push((event.time, to, name));
+            states.push(((event.time, to), name));
         }
     }
-    states.retain(|(from, to, _)| from < to);
+    states.retain(|((from, to), _)| from < to);
     states
 }
 
@@ -83,13 +71,13 @@ fn states(detection: &Detection, from: f64, to: f64) -> Vec<(f64, f64, &'static 
 /// would flatten everything else.
 fn y_axis(
     columns: &[Column],
-    states: &[(f64, f64, &str)],
+    states: &[((f64, f64), &str)],
     above: f64,
     value: fn(&Column) -> (f64, f64),
 ) -> Axis {
     let is_known = |column: &&Column| {
-        let mut known = states.iter().filter(|(_, _, name)| *name != "unknown");
-        known.any(|(from, to, _)| *from <= column.times.0 && column.times.1 <= *to)
+        let mut known = states.iter().filter(|(_, name)| *name != "unknown");
+        known.any(|((from, to), _)| *from <= column.times.0 && column.times.1 <= *to)
     };
     let known: Vec<_> = columns.iter().filter(is_known).map(value).collect();
     let shown = match known.is_empty() {
@@ -106,30 +94,18 @@ fn values(columns: &[Column], value: fn(&Column) -> (f64, f64)) -> Mark {
         let ((from, to), (low, high)) = (column.times, value(column));
         [(from, low), (to, high)]
     });
-    Mark::Dense {
-        points: points.collect(),
-        colour: Style::of(0).colour,
-    }
+    Mark::Dense(points.collect(), Style::of(0))
 }
 
 /// A bar for each of X, Y₁ and Y₂, and a dashed line where the decision was made.
 fn add_decision(plot: &mut Plot, decision: &Decision, reported: f64) {
-    let samples = [decision.reference, Some(decision.shift), Some(decision.scale)];
-    for (index, span) in samples.into_iter().enumerate() {
-        if let Some((from, to)) = span {
-            let (below, colour) = (6.0 + 5.0 * index as f64, sample_colour(index));
-            plot.add(
-                1,
-                Mark::Bar {
-                    from,
-                    to,
-                    below,
-                    colour,
-                },
-            );
+    for (index, span) in decision.samples.iter().enumerate() {
+        if let Some(span) = *span {
+            let below = 6.0 + 5.0 * index as f64;
+            plot.add(1, Mark::Bar(span, below, sample_colour(index)));
         }
     }
-    plot.add(1, Mark::Limit { x: reported });
+    plot.add(1, Mark::Limit(reported));
 }
 
 fn sample_colour(index: usize) -> Colour {
@@ -137,34 +113,22 @@ fn sample_colour(index: usize) -> Colour {
 }
 
 /// Phases above samples, in columns of two.
-fn entries() -> Vec<Entry> {
-    let entry = |text: &str, colour: Colour, dash: &'static [f64], key: Key| {
-        Entry::new(
-            text,
-            Style {
-                colour,
-                dash,
-                ..Style::of(0)
-            },
-            key,
-        )
-    };
-    let shade = |name: &str| entry(phase_words(name), phase_colour(name), &[], Key::Shade);
-    let phases = ["acceleration", "inertial", "braking"]
-        .into_iter()
-        .enumerate();
-    phases
-        .flat_map(|(index, name)| {
-            [
-                shade(name),
-                entry(SAMPLES[index], sample_colour(index), &[], Key::Line),
-            ]
-        })
-        .chain([
-            shade("unknown"),
-            entry("decision made", Colour::BLACK, &[2.0, 2.0], Key::Line),
-        ])
-        .collect()
+fn entries() -> [Entry; 8] {
+    let entry =
+        |text: &str, colour: Colour, key: Key| Entry::new(text, Style::of(0).coloured(colour), key);
+    let shade = |name: &str| entry(phase_words(name), phase_colour(name), Key::Shade);
+    let sample = |index: usize, name: &str| entry(name, sample_colour(index), Key::Line);
+    let decision = Style::of(0).coloured(Colour::BLACK).dashed(&[2.0, 2.0]);
+    [
+        shade("acceleration"),
+        sample(0, "X"),
+        shade("inertial"),
+        sample(1, "Y_1"),
+        shade("braking"),
+        sample(2, "Y_2"),
+        shade("unknown"),
+        Entry::new("decision made", decision, Key::Line),
+    ]
 }
 
 fn caption(detection: &Detection, name: &str) -> Vec<String> {

@@ -2,11 +2,10 @@
 
 use crate::study::impulse_law::Row;
 use crate::format::thousands;
-use crate::plot::{Axis, Entry, Key, Legend, Mark, Place, Plot, Point, Style};
+use crate::plot::{Axis, Key, Legend, Mark, Place, Plot, Point, Style};
 
 const UPPER: f64 = 150.0;
 const LOWER: f64 = 110.0;
-const LINE: f64 = 1.0;
 /// Markers along a curve, at most.
 const MARKERS: usize = 34;
 
@@ -14,25 +13,18 @@ const MARKERS: usize = 34;
 pub fn plot(rows: &[Row], confidence: f64, seed: u64) -> Plot {
     let curves: Vec<&[Row]> = rows.chunk_by(|a, b| a.nu == b.nu).collect();
     let last = rows.iter().map(|row| row.sample).max().unwrap_or(1) as f64;
-    let x = Axis::linear(0.0, last, 8)
-        .within(-0.02 * last, 1.02 * last)
-        .labelled("i, samples since S = 0");
+    let x = Axis::linear(0.0, last, 8).within(-0.02 * last, 1.02 * last);
     let lowest = rows.iter().map(|row| row.zero_sum_low).fold(0.5, f64::min);
-    let highest = rows.iter().map(|row| row.positive_high).fold(0.0, f64::max);
     let from = (lowest - 0.05).max(0.0);
     let upper = Axis::linear(from, 1.0, 6)
         .within(from, 1.03)
         .labelled("P(S_i = 0)");
+    let highest = rows.iter().map(|row| row.positive_high).fold(0.0, f64::max);
     let lower = Axis::linear(0.0, 1.12 * highest, 4).labelled("P(λ_i = +θ)");
-    let mut plot = Plot::stack(&x, [(UPPER, upper), (LOWER, lower)]);
+    let panels = [(UPPER, upper), (LOWER, lower)];
+    let mut plot = Plot::stack(&x.labelled("i, samples since S = 0"), panels);
     plot.add(0, Mark::Grid);
-    plot.add(
-        0,
-        Mark::Level {
-            y: 0.5,
-            dash: &[4.0, 2.0],
-        },
-    );
+    plot.add(0, Mark::Level(0.5, &[4.0, 2.0]));
     add_curves(&mut plot, 0, &curves, |row| {
         (
             row.zero_sum,
@@ -49,14 +41,8 @@ pub fn plot(rows: &[Row], confidence: f64, seed: u64) -> Plot {
         )
     });
     plot.add(1, Mark::Axes);
-    let entries = (curves.iter().enumerate()).map(|(index, curve)| {
-        Entry::new(
-            format!("ν = {}", curve[0].nu),
-            Style::of(index),
-            Key::MarkedLine,
-        )
-    });
-    plot.legend = Some(Legend::new(entries.collect(), Place::Free));
+    let names = curves.iter().map(|curve| format!("ν = {}", curve[0].nu));
+    plot.legend = Some(Legend::of_curves(names, Key::MarkedLine, Place::Free));
     plot.set_caption(&[
         "lines: P(S_i = 0) = (1 + (1 − 2ν)ⁱ)/2 and P(λ_i = +θ) = ν/2".to_owned(),
         "dashed: the limit ½ of (6)".to_owned(),
@@ -70,29 +56,11 @@ pub fn plot(rows: &[Row], confidence: f64, seed: u64) -> Plot {
 /// The closed form as a line, and some of the simulated rates with their intervals; `of` gives both.
 fn add_curves(plot: &mut Plot, panel: usize, curves: &[&[Row]], of: fn(&Row) -> (f64, [f64; 3])) {
     for (index, curve) in curves.iter().enumerate() {
-        let style = Style::of(index);
-        let faded = Style {
-            colour: style.colour.faded(0.55),
-            ..style.solid()
-        };
+        let style = Style::of(index).wide(1.0).sized(1.9);
         let line = curve.iter().map(|row| (row.sample as f64, of(row).0));
-        plot.add(panel, Mark::line(line, LINE, faded));
+        plot.add(panel, Mark::Line(line.collect(), style.solid().faded(0.55)));
         let marked = curve.iter().step_by(curve.len().div_ceil(MARKERS));
-        let points = marked.map(|row| {
-            let [low, rate, high] = of(row).1;
-            Point {
-                bar: Some((low, high)),
-                ..Point::at(row.sample as f64, rate)
-            }
-        });
-        plot.add(
-            panel,
-            Mark::Points {
-                points: points.collect(),
-                size: 1.9,
-                width: LINE,
-                style,
-            },
-        );
+        let points = marked.map(|row| Point::new(row.sample as f64, of(row).1));
+        plot.add(panel, Mark::Points(points.collect(), style));
     }
 }

@@ -2,8 +2,9 @@
 
 use crate::study::independence::{Row, findings};
 use crate::format::thousands;
-use crate::plot::{Axis, Colour, Entry, Key, Legend, Mark, Place, Plot, Point, Style};
+use crate::plot::{Axis, Colour, Key, Legend, Mark, Place, Plot, Point, Style};
 
+const DIAGONAL: Style = Style::of(0).wide(0.8).coloured(Colour::BLACK.faded(0.6));
 /// Sizes that a legend can name.
 const NAMED: usize = 18;
 
@@ -13,39 +14,28 @@ pub fn plot(rows: &[Row]) -> Plot {
     let logarithms = rows.iter().flat_map(places).filter(|x| x.is_finite());
     let lowest = logarithms.fold(-1.0, f64::min).floor();
     let axis = Axis::powers_of_ten(lowest - 0.2, 0.2, 8);
-    let (from, to) = (axis.from, axis.to);
-    let (x, y) = (axis.clone().labelled("P(W)·P(T)"), axis.labelled("P(W, T)"));
-    let mut plot = Plot::stack(&x, [(270.0, y)]);
+    let lower_edge = axis.from;
+    let diagonal = vec![(axis.from, axis.from), (axis.to, axis.to)];
+    let x = axis.clone().labelled("P(W)·P(T)");
+    let mut plot = Plot::stack(&x, [(270.0, axis.labelled("P(W, T)"))]);
     plot.add(0, Mark::Grid);
-    let diagonal = Style {
-        colour: Colour::BLACK.faded(0.6),
-        ..Style::of(0).solid()
-    };
-    plot.add(0, Mark::line([(from, from), (to, to)], 0.8, diagonal));
+    plot.add(0, Mark::Line(diagonal, DIAGONAL));
     for (index, rows) in sizes.iter().enumerate() {
         // A cell that never occurs lies on the lower edge.
         let points = rows
             .iter()
             .map(places)
-            .map(|[x, y]| Point::at(x, y.max(from)));
-        let style = Style::of(index);
+            .map(|[x, y]| Point::at((x, y.max(lower_edge))));
         plot.add(
             0,
-            Mark::Points {
-                points: points.collect(),
-                size: 1.8,
-                width: 0.0,
-                style,
-            },
+            Mark::Markers(points.collect(), Style::of(index).sized(1.8)),
         );
     }
     plot.add(0, Mark::Axes);
     plot.add(0, Mark::Legend);
-    let entries = sizes.iter().take(NAMED).enumerate().map(|(index, rows)| {
-        let text = sizes_of(&rows[0]).map(|size| size.to_string()).join("/");
-        Entry::new(text, Style::of(index), Key::Marker)
-    });
-    plot.legend = Some(Legend::new(entries.collect(), Place::Free));
+    let names = sizes.iter().take(NAMED);
+    let names = names.map(|rows| sizes_of(&rows[0]).map(|size| size.to_string()).join("/"));
+    plot.legend = Some(Legend::of_curves(names, Key::Marker, Place::Free));
     plot.set_caption(&caption(rows));
     plot
 }
@@ -63,16 +53,12 @@ fn caption(rows: &[Row]) -> [String; 4] {
     let findings = findings(rows);
     let assignments: u64 = findings.iter().map(|finding| finding.assignments).sum();
     let largest = findings.iter().map(|finding| finding.largest_difference);
+    let (assignments, pairs) = (thousands(assignments), thousands(rows.len() as u64));
+    let largest = largest.max().unwrap_or(0);
     [
         "N/M_1/M_2 as in the legend".to_owned(),
-        format!(
-            "all {} assignments of ranks enumerated",
-            thousands(assignments)
-        ),
-        format!("{} pairs of W and T", thousands(rows.len() as u64)),
-        format!(
-            "largest |n(W, T)·n − n(W)·n(T)| in whole numbers: {}",
-            largest.max().unwrap_or(0)
-        ),
+        format!("all {assignments} assignments of ranks enumerated"),
+        format!("{pairs} pairs of W and T"),
+        format!("largest |n(W, T)·n − n(W)·n(T)| in whole numbers: {largest}"),
     ]
 }

@@ -3,7 +3,7 @@
 use super::phases::add_phases;
 use crate::chain::Scenario;
 use crate::study::layout::Row;
-use crate::plot::{Axis, Margins, Mark, Plot, Style};
+use crate::plot::{Axis, Block, Mark, Plot, Style};
 use crate::signal::{Motion, Profile};
 
 const UPPER: f64 = 84.0;
@@ -21,58 +21,33 @@ pub fn plot(rows: &[Row], scenario: &Scenario) -> Plot {
         .within(from, to)
         .labelled("time, observations after X");
     let ticks = vec![(0.0, "0".to_owned()), (1.0, "Δ".to_owned())];
-    let upper = Axis::at(-0.35, 1.35, ticks).labelled("acceleration, σ_ξ");
-    let lower = Axis::at(0.0, 1.0, Vec::new()).labelled("samples");
-    let margins = Margins {
-        top: 18.0,
-        ..Margins::default()
-    };
-    let mut plot = Plot {
-        margins,
-        ..Plot::stack(&x, [(UPPER, upper), (LOWER, lower)])
-    };
+    let upper = Axis::new(-0.35, 1.35, ticks).labelled("acceleration, σ_ξ");
+    let lower = Axis::new(0.0, 1.0, Vec::new()).labelled("samples");
+    let mut plot = Plot::stack(&x, [(UPPER, upper), (LOWER, lower)]);
+    plot.margins.top = 18.0;
     // Both ends of a stretch, what is cut off left out.
     let ends = |row: &Row| ((row.start as f64).max(from), (row.end as f64).min(to));
     let phases = ["rest", "acceleration", "inertial"]
         .iter()
         .filter_map(|name| {
-            let (from, to) = ends(rows.iter().find(|row| row.name == *name)?);
-            Some((from, to, *name))
+            let row = rows.iter().find(|row| row.name == *name)?;
+            Some((ends(row), *name))
         });
     add_phases(&mut plot, &phases.collect::<Vec<_>>(), 5.0);
-    for row in rows {
-        if let Some((style, lines)) = block(row) {
-            let is_cut = row.start as f64 != ends(row).0;
-            let (from, to) = ends(row);
-            let colour = style.map(|index| Style::of(index).colour);
-            plot.add(
-                1,
-                Mark::Block {
-                    from,
-                    to,
-                    is_cut,
-                    colour,
-                    lines,
-                },
-            );
-        }
+    for block in rows.iter().filter_map(|row| block(row, ends(row))) {
+        plot.add(1, Mark::Block(block));
     }
-    let samples = rows
+    let samples = ["reference", "shift", "scale"];
+    for row in rows
         .iter()
-        .filter(|row| ["reference", "shift", "scale"].contains(&row.name.as_str()));
-    for x in samples.flat_map(|row| [row.start, row.end]) {
-        plot.add(0, Mark::Limit { x: x as f64 });
+        .filter(|row| samples.contains(&row.name.as_str()))
+    {
+        plot.add(0, Mark::Limit(row.start as f64));
+        plot.add(0, Mark::Limit(row.end as f64));
     }
-    plot.add(
-        0,
-        Mark::line(
-            pulse(&scenario.motion, from, end),
-            1.3,
-            Style::of(1).solid(),
-        ),
-    );
-    plot.add(0, Mark::Axes);
-    plot.add(1, Mark::Axes);
+    let pulse = pulse(&scenario.motion, from, end);
+    plot.add(0, Mark::Line(pulse, Style::of(1).solid().wide(1.3)));
+    plot.add_to_all(&Mark::Axes);
     plot.set_caption(&caption(scenario));
     plot
 }
@@ -86,11 +61,11 @@ fn pulse(motion: &Motion, from: f64, end: f64) -> Vec<(f64, f64)> {
         Profile::Rectangular => 0.0,
         Profile::Trapezoid { rise } => rise,
     };
-    let turns = [start, start + rise, stop - rise, stop]
-        .into_iter()
-        .filter(|time| *time < end);
+    let turns = [start, start + rise, stop - rise, stop].into_iter();
     // A jump is upright: both its sides have a point.
-    let corners = turns.flat_map(|time| [-1e-6, 1e-6].map(|side| (time, shape(time + side))));
+    let corners = turns
+        .filter(|time| *time < end)
+        .flat_map(|time| [-1e-6, 1e-6].map(|side| (time, shape(time + side))));
     let last = (end, shape(end - 1e-6));
     [(from, 0.0)]
         .into_iter()
@@ -99,8 +74,8 @@ fn pulse(motion: &Motion, from: f64, end: f64) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// The style of a stretch of samples, none for a gap, and what stands in it.
-fn block(row: &Row) -> Option<(Option<usize>, Vec<String>)> {
+/// What stands for a stretch of samples.
+fn block(row: &Row, ends: (f64, f64)) -> Option<Block> {
     let length = row.end - row.start;
     let (style, lines): (_, &[&str]) = match row.name.as_str() {
         "training" => (Some(5), &["training", &format!("{length}, for the filter")]),
@@ -110,21 +85,24 @@ fn block(row: &Row) -> Option<(Option<usize>, Vec<String>)> {
         "gap" => (None, &["gap"]),
         _ => return None,
     };
-    Some((style, lines.iter().map(|&line| line.to_owned()).collect()))
+    Some(Block {
+        ends,
+        is_cut: row.start as f64 != ends.0,
+        colour: style.map(|index| Style::of(index).colour),
+        lines: lines.iter().map(|&line| line.to_owned()).collect(),
+    })
 }
 
 fn caption(scenario: &Scenario) -> [String; 7] {
     let (samples, motion) = (&scenario.samples, &scenario.motion);
+    let (duration, offset) = (motion.duration, motion.offset);
     [
         format!("N = {}", samples.reference()),
         format!("M_1 = {}", samples.shift()),
         format!("M_2 = {}", samples.scale()),
         format!("gap {}", samples.gap()),
         format!("training {}", scenario.whitening.training()),
-        format!(
-            "acceleration: {} observations from {} on",
-            motion.duration, motion.offset
-        ),
+        format!("acceleration: {duration} observations from {offset} on"),
         "impulses from observation 0 on".to_owned(),
     ]
 }

@@ -78,3 +78,6 @@ impl Drawing {
 fn rounded((x, y): (f64, f64), unit: f64) -> (i32, i32) {
     ((x * unit).round() as i32, (y * unit).round() as i32)
 }
+
+#[cfg(test)]
+mod tests;

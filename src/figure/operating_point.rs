@@ -3,9 +3,7 @@
 use crate::chain::Scenario;
 use crate::study::operating_point::Row;
 use crate::format::thousands;
-use crate::plot::{Axis, Entry, Key, Legend, Margins, Mark, Place, Plot, Point, Style, ends};
-
-const LINE: f64 = 1.1;
+use crate::plot::{Axis, Key, Legend, Mark, Place, Plot, Point, Style, ends};
 
 /// The picture of a search.
 pub fn plot(rows: &[Row], scenario: &Scenario, seed: u64) -> Plot {
@@ -16,63 +14,42 @@ pub fn plot(rows: &[Row], scenario: &Scenario, seed: u64) -> Plot {
             None => curves.push(vec![row]),
         }
     }
-    let (first, last) = ends(rows.iter().map(size));
-    let highest = rows
-        .iter()
-        .filter_map(|row| row.high.or(row.delta))
-        .fold(0.1, f64::max);
-    let x = Axis::at(first - 0.03, last + 0.03, ticks(rows)).labelled("N = M_1 = M_2, samples");
-    let y = Axis::linear(0.0, 1.08 * highest, 6).labelled("Δ/σ_ξ that reaches D");
-    let margins = Margins {
-        bottom: 40.0,
-        ..Margins::default()
-    };
-    let mut plot = Plot {
-        margins,
-        ..Plot::stack(&x, [(190.0, y)])
-    };
+    let (first, last) = ends(rows.iter().map(|row| place(row.all_samples)));
+    let x = Axis::new(first - 0.03, last + 0.03, ticks(rows)).labelled("N = M_1 = M_2, samples");
+    let highest = rows.iter().filter_map(|row| row.high.or(row.delta));
+    let y = Axis::linear(0.0, 1.08 * highest.fold(0.1, f64::max), 6);
+    let mut plot = Plot::stack(&x, [(190.0, y.labelled("Δ/σ_ξ that reaches D"))]);
+    plot.margins.bottom = 40.0;
     plot.add(0, Mark::Grid);
     plot.add(0, Mark::Axes);
     for (index, curve) in curves.iter().enumerate() {
+        let points: Vec<Point> = curve.iter().filter_map(|row| point(row)).collect();
+        let line = points.iter().map(Point::place).collect();
         let style = Style::of(index);
-        let faded = Style {
-            colour: style.colour.faded(0.6),
-            ..style.solid()
-        };
-        let found = || curve.iter().filter_map(|row| Some((*row, row.delta?)));
-        plot.add(
-            0,
-            Mark::line(found().map(|(row, delta)| (size(row), delta)), LINE, faded),
-        );
-        let points = found().map(|(row, delta)| Point {
-            bar: row.low.zip(row.high),
-            ..Point::at(size(row), delta)
-        });
-        plot.add(
-            0,
-            Mark::Points {
-                points: points.collect(),
-                size: 2.3,
-                width: LINE,
-                style,
-            },
-        );
+        plot.add(0, Mark::Line(line, style.solid().faded(0.6)));
+        plot.add(0, Mark::Points(points, style));
     }
     plot.add(0, Mark::Legend);
-    let entries = curves.iter().enumerate().map(|(index, curve)| {
-        Entry::new(
-            format!("D = {}", curve[0].power),
-            Style::of(index),
-            Key::MarkedLine,
-        )
-    });
-    plot.legend = Some(Legend::new(entries.collect(), Place::Inside(80.0, 6.0)));
+    let names = curves.iter().map(|curve| format!("D = {}", curve[0].power));
+    plot.legend = Some(Legend::of_curves(
+        names,
+        Key::MarkedLine,
+        Place::Inside(80.0, 6.0),
+    ));
     plot.set_caption(&caption(scenario, &rows[0], seed));
     plot
 }
 
-fn size(row: &Row) -> f64 {
-    libm::log10(row.all_samples as f64)
+fn place(size: usize) -> f64 {
+    libm::log10(size as f64)
+}
+
+/// Where the power was reached, with both ends of its interval where they were, too.
+fn point(row: &Row) -> Option<Point> {
+    let (x, delta) = (place(row.all_samples), row.delta?);
+    let ends = row.low.zip(row.high);
+    let (low, high) = ends.unwrap_or((delta, delta));
+    Some(Point::new(x, [low, delta, high]))
 }
 
 /// A tick at every size.
@@ -80,8 +57,10 @@ fn ticks(rows: &[Row]) -> Vec<(f64, String)> {
     let mut sizes: Vec<usize> = rows.iter().map(|row| row.all_samples).collect();
     sizes.sort_unstable();
     sizes.dedup();
-    let tick = |size: usize| (libm::log10(size as f64), size.to_string());
-    sizes.into_iter().map(tick).collect()
+    sizes
+        .into_iter()
+        .map(|size| (place(size), size.to_string()))
+        .collect()
 }
 
 fn caption(scenario: &Scenario, row: &Row, seed: u64) -> [String; 11] {

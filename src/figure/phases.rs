@@ -21,28 +21,15 @@ pub(super) fn phase_words(name: &str) -> &str {
     }
 }
 
-/// Shades phases `(from, to, name)` in every panel and names them so many points above the first.
-pub(super) fn add_phases(plot: &mut Plot, phases: &[(f64, f64, &str)], above: f64) {
-    for &(from, to, name) in phases {
+/// Shades phases in every panel, and names them so many points above the first.
+pub(super) fn add_phases(plot: &mut Plot, phases: &[((f64, f64), &str)], above: f64) {
+    for (stretch, name) in phases {
         for panel in 0..plot.panels.len() {
-            plot.add(
-                panel,
-                Mark::Span {
-                    from,
-                    to,
-                    colour: phase_colour(name),
-                },
-            );
+            plot.add(panel, Mark::Span(*stretch, phase_colour(name)));
         }
     }
     let names = phases
         .iter()
-        .map(|&(from, to, name)| (from, to, phase_words(name).to_owned()));
-    plot.add(
-        0,
-        Mark::Names {
-            names: names.collect(),
-            above,
-        },
-    );
+        .map(|(stretch, name)| (*stretch, phase_words(name).to_owned()));
+    plot.add(0, Mark::Names(names.collect(), above));
 }

@@ -28,7 +28,6 @@ pub(super) fn png(canvas: &Canvas, provenance: &str) -> Result<Vec<u8>, FigureEr
     for shape in &canvas.shapes {
         draw(&mut backend, shape)?;
     }
-    backend.present().map_err(refused)?;
     drop(backend);
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
@@ -51,49 +50,29 @@ fn draw(backend: &mut BitMapBackend, shape: &Shape) -> Result<(), FigureError> {
     let unit = f64::from(DPI * OVERSAMPLING) / 72.0;
     let at = |point: &(f64, f64)| super::rounded(*point, unit);
     match shape {
-        Shape::Line {
-            points,
-            width,
-            colour,
-        } => {
+        Shape::Line(points, width, colour) => {
             let width = (width * unit).round().max(1.0) as u32;
             backend.draw_path(points.iter().map(at), &rgba(*colour).stroke_width(width))
         }
-        Shape::Area { points, colour } => {
-            backend.fill_polygon(points.iter().map(at), &rgba(*colour))
-        }
-        Shape::Disc {
-            centre,
-            radius,
-            colour,
-        } => {
+        Shape::Area(points, colour) => backend.fill_polygon(points.iter().map(at), &rgba(*colour)),
+        Shape::Disc(centre, radius, colour) => {
             let radius = (radius * unit).round() as u32;
             backend.draw_circle(at(centre), radius, &rgba(*colour), true)
         }
-        Shape::Text {
-            text,
-            at: place,
-            height,
-            is_upright,
-        } => {
-            let font = (FAMILY, height * unit).into_font();
-            let font = match is_upright {
-                true => font.transform(FontTransform::Rotate270),
-                false => font,
-            };
-            backend.draw_text(text, &TextStyle::from(font), at(place))
+        Shape::Text(text) => {
+            let mut font = (FAMILY, text.height * unit).into_font();
+            if text.is_upright {
+                font = font.transform(FontTransform::Rotate270);
+            }
+            backend.draw_text(&text.text, &TextStyle::from(font), at(&text.at))
         }
     }
-    .map_err(refused)
+    .map_err(|error| FigureError::Drawing(error.to_string()))
 }
 
 fn rgba(colour: Colour) -> RGBAColor {
     let [red, green, blue] = colour.rgb;
     RGBAColor(red, green, blue, colour.alpha)
-}
-
-fn refused(error: impl std::error::Error) -> FigureError {
-    FigureError::Drawing(error.to_string())
 }
 
 fn register_embedded_font() {

@@ -3,9 +3,7 @@
 
 use crate::detect::{Alternative, NullLaws, Samples};
 use crate::study::region::Row;
-use crate::plot::{
-    Axis, Cell, Colour, Entry, Key, Legend, Margins, Mark, Place, Plot, Style, power_of_ten,
-};
+use crate::plot::{Axis, Colour, Entry, Key, Legend, Mark, Place, Plot, Style, power_of_ten};
 
 const HEIGHT: f64 = 238.0;
 /// Cells less probable than this are as pale as it.
@@ -24,36 +22,17 @@ pub fn plot(laws: &NullLaws, rows: &[Row], title: &[String]) -> Plot {
     let x = Axis::linear(low as f64 - 0.5, high as f64 + 0.5, 7).labelled("W, rank sum of Y_1");
     let top = laws.exceedances().last() as f64 + 0.5;
     let y = Axis::linear(-0.5, top, 8).labelled("T, exceedances of Y_2");
-    let (from, to) = (x.from, x.to);
-    let margins = Margins {
-        left: 48.0,
-        right: 76.0,
-        top: 4.0,
-        ..Margins::default()
-    };
-    let mut plot = Plot {
-        margins,
-        ..Plot::stack(&x, [(HEIGHT, y)])
-    };
+    let mut plot = Plot::stack(&x, [(HEIGHT, y)]);
+    (plot.margins.left, plot.margins.right, plot.margins.top) = (48.0, 76.0, 4.0);
     plot.add(0, Mark::Cells(cells(laws)));
-    let shades = (2..=12).step_by(2).map(|exponent| {
-        (
-            shade(libm::pow(10.0, -f64::from(exponent))),
-            power_of_ten(-exponent),
-        )
-    });
-    plot.add(
-        0,
-        Mark::Shades {
-            title: "P(W, T | H_0)".to_owned(),
-            shades: shades.collect(),
-        },
-    );
+    let exponents = (2..=12).step_by(2);
+    let shades = exponents.map(|e| (shade(libm::pow(10.0, -f64::from(e))), power_of_ten(-e)));
+    plot.add(0, Mark::Shades("P(W, T | H_0)", shades.collect()));
     let style = |index: usize| Style::of(STYLES[index % STYLES.len()]);
     for (index, rows) in regions.iter().enumerate() {
-        let wider = 0.5 * (regions.len() - 1 - index) as f64;
-        for line in boundaries(rows, from, to) {
-            plot.add(0, Mark::line(line, LINE + wider, style(index)));
+        let width = LINE + 0.5 * (regions.len() - 1 - index) as f64;
+        for line in boundaries(rows, x.from, x.to) {
+            plot.add(0, Mark::Line(line, style(index).wide(width)));
         }
     }
     plot.add(0, Mark::Axes);
@@ -63,7 +42,7 @@ pub fn plot(laws: &NullLaws, rows: &[Row], title: &[String]) -> Plot {
         let text = format!("{rule}, exact size {:.6}", rows[0].size);
         Entry::new(text, style(index), Key::Line)
     });
-    plot.legend = Some(Legend::new(entries.collect(), Place::Above));
+    plot.legend = Some(Legend::new(entries, Place::Above));
     plot.set_caption(title);
     plot
 }
@@ -98,25 +77,26 @@ fn visible(laws: &NullLaws) -> (u64, u64) {
     (law.first() + law.last() - high, high)
 }
 
-fn cells(laws: &NullLaws) -> Vec<Cell> {
+fn cells(laws: &NullLaws) -> Vec<((f64, f64), (f64, f64), Colour)> {
     let (low, high) = visible(laws);
     let width = (high - low + 1).div_ceil(COLUMNS);
-    let columns: Vec<(u64, u64, f64)> = (low..=high)
+    let largest = |from: u64, to: u64| {
+        (from..=to)
+            .map(|w| laws.rank_sum().mass(w))
+            .fold(0.0, f64::max)
+    };
+    let columns: Vec<(f64, f64, f64)> = (low..=high)
         .step_by(width as usize)
         .map(|from| (from, (from + width - 1).min(high)))
-        .map(|(from, to)| {
-            let masses = (from..=to).map(|w| laws.rank_sum().mass(w));
-            (from, to, masses.fold(0.0, f64::max))
-        })
+        .map(|(from, to)| (from as f64 - 0.5, to as f64 + 0.5, largest(from, to)))
         .collect();
     let rows = (0..=laws.exceedances().last()).map(|t| (t as f64, laws.exceedances().mass(t)));
-    let cell = |(t, mass): (f64, f64), &(from, to, largest): &(u64, u64, f64)| Cell {
-        corner: (from as f64 - 0.5, t + 0.5),
-        opposite: (to as f64 + 0.5, t - 0.5),
-        colour: shade(largest * mass),
-    };
-    rows.flat_map(|row| columns.iter().map(move |column| cell(row, column)))
-        .collect()
+    rows.flat_map(|(t, mass)| {
+        let cell =
+            move |&(from, to, largest)| ((from, t + 0.5), (to, t - 0.5), shade(largest * mass));
+        columns.iter().map(cell)
+    })
+    .collect()
 }
 
 /// The lines around a region: for large W, and for small W where there are such. A part that lies outside

@@ -1,11 +1,13 @@
 //! Rides before the monitor: outcomes against the axis, one panel under the other; of a trade-off, the time
 //! between false motions against the delay.
 
-use super::rates::{Curve, Limit, Rate, add_bands, rates};
+use super::rates::{Curve, add_bands};
 use crate::experiment::Measure;
 use crate::study::ride::Row;
 use crate::format::thousands;
-use crate::plot::{Axis, Entry, Key, Legend, Mark, Place, Plot, Style, ends, is_long, literal};
+use crate::plot::{
+    Axis, Key, Legend, Limit, Mark, Place, Plot, Point, Style, ends, is_long, literal,
+};
 
 /// What was asked of rides along an axis.
 #[derive(Clone, Copy, Debug)]
@@ -41,50 +43,33 @@ enum Kind {
 
 /// The picture of a study.
 pub fn plot(rows: &[Row], rides: &Rides) -> Plot {
-    let shown = shown(rides.measure);
-    let values: Vec<f64> = rows.iter().map(|row| row.x).collect();
-    let places = Places {
-        rows,
-        is_tradeoff: rides.measure == Measure::Tradeoff,
-        is_logarithmic: rides.measure != Measure::Tradeoff && is_long(&values),
-    };
-    let curves = |shown: &Shown| -> Vec<Curve> {
-        let curve = |index| Curve {
+    let places = Places::new(rows, rides.measure);
+    let panels = shown(rides.measure).into_iter().map(|shown| {
+        let curves = (0..rides.labels.len()).map(|index| Curve {
             style: Style::of(index),
-            points: places.rates(shown, index),
-        };
-        (0..rides.labels.len()).map(curve).collect()
-    };
-    let panels: Vec<Vec<Curve>> = shown.iter().map(curves).collect();
-    let x = places.axis(&panels).labelled(axis_label(rides));
-    let y = |index: usize| {
-        let Shown {
-            kind,
-            label,
-            height,
-            ..
-        } = &shown[index];
-        (*height, y_axis(*kind, &panels[index]).labelled(*label))
-    };
-    let mut plot = match shown.len() {
-        1 => Plot::stack(&x, [y(0)]),
-        _ => Plot::stack(&x, [y(0), y(1)]),
-    };
+            points: places.points(&shown, index),
+        });
+        let curves = curves.collect();
+        (shown, curves)
+    });
+    let panels: Vec<(Shown, Vec<Curve>)> = panels.collect();
+    let x = places.axis(panels.iter().flat_map(|(_, curves)| points(curves)));
+    let heights = panels
+        .iter()
+        .map(|(shown, curves)| (shown.height, shown.y_axis(curves)));
+    let mut plot = Plot::stack(&x.labelled(axis_label(rides)), heights);
     plot.margins.legend = (6.0, 6.0);
-    for (panel, curves) in panels.iter().enumerate() {
+    for (panel, (_, curves)) in panels.iter().enumerate() {
         plot.add(panel, Mark::Grid);
         add_bands(&mut plot, panel, curves, false);
         plot.add(panel, Mark::Axes);
     }
     plot.add(0, Mark::Legend);
-    let entries = rides
-        .labels
-        .iter()
-        .enumerate()
-        .map(|(index, label)| Entry::new(literal(label), Style::of(index), Key::MarkedLine));
     // One curve without a name of its own needs no legend.
     let is_plain = rides.labels.len() == 1 && rides.labels[0] == "1";
-    plot.legend = (!is_plain).then(|| Legend::new(entries.collect(), Place::Free));
+    let names = rides.labels.iter().map(|label| literal(label));
+    let legend = Legend::of_curves(names, Key::MarkedLine, Place::Free);
+    plot.legend = (!is_plain).then_some(legend);
     plot.set_caption(&caption(rows, rides));
     plot
 }
@@ -99,23 +84,20 @@ fn shown(measure: Measure) -> Vec<Shown> {
     };
     let share = |outcome, label, height| panel(outcome, label, Kind::Share, height);
     let delay = |outcome, label| panel(outcome, label, Kind::Delay, 105.0);
-    let positive = |outcome, label, limit| panel(outcome, label, Kind::Positive(limit), 210.0);
+    let positive =
+        |outcome, label, limit| vec![panel(outcome, label, Kind::Positive(limit), 210.0)];
     match measure {
         Measure::Rides => vec![
             share("found", "P(every trip is found)", 130.0),
             delay("start_delay", "start to H_1*, s"),
         ],
-        Measure::Rest => vec![positive(
-            "false_motions",
-            "false motions per hour of rest",
-            Limit::Upper,
-        )],
+        Measure::Rest => {
+            let label = "false motions per hour of rest";
+            positive("false_motions", label, Limit::Upper)
+        }
         Measure::Tradeoff => {
-            vec![positive(
-                "hours_between",
-                "hours of rest between false motions",
-                Limit::Lower,
-            )]
+            let label = "hours of rest between false motions";
+            positive("hours_between", label, Limit::Lower)
         }
         Measure::Jam => vec![
             share("alarmed", "P(a jam alarms)", 130.0),
@@ -136,6 +118,17 @@ struct Places<'a> {
 }
 
 impl<'a> Places<'a> {
+    fn new(rows: &'a [Row], measure: Measure) -> Self {
+        let is_tradeoff = measure == Measure::Tradeoff;
+        let values: Vec<f64> = rows.iter().map(|row| row.x).collect();
+        let is_logarithmic = !is_tradeoff && is_long(&values);
+        Self {
+            rows,
+            is_tradeoff,
+            is_logarithmic,
+        }
+    }
+
     /// The rows of an outcome, in the order of the axis.
     fn of(&self, curve: usize, outcome: &str) -> Vec<&'a Row> {
         let here = |row: &&Row| row.curve == curve + 1 && row.outcome == outcome;
@@ -143,47 +136,38 @@ impl<'a> Places<'a> {
     }
 
     /// Those of a curve that lie on the paper.
-    fn rates(&self, shown: &Shown, curve: usize) -> Vec<Rate> {
-        let mut rates = match shown.kind {
+    fn points(&self, shown: &Shown, curve: usize) -> Vec<Point> {
+        let mut points = match shown.kind {
             Kind::Delay => self.delays(shown.outcome, curve),
             kind => {
                 let rows = self.of(curve, shown.outcome);
-                let delays = self.of(curve, "start_delay_50");
-                let x = |index: usize| match self.is_tradeoff {
-                    true => delays.get(index).map(|row| row.estimate),
-                    false => Some(self.x(rows[index])),
-                };
-                let rates = rows
-                    .iter()
-                    .enumerate()
-                    .filter_map(|(i, row)| Some(rate(row, x(i)?, kind)));
-                rates.collect()
+                let places = self.places(curve, &rows).into_iter().zip(rows);
+                places.map(|(x, row)| point(row, x, kind)).collect()
             }
         };
-        rates.retain(|rate| rate.x.is_finite() && rate.rate.is_finite());
-        rates
+        points.retain(|point| point.x.is_finite() && point.y.is_finite());
+        points
+    }
+
+    /// On the axis; of a trade-off, the delays.
+    fn places(&self, curve: usize, rows: &[&Row]) -> Vec<f64> {
+        if self.is_tradeoff {
+            let delays = self.of(curve, "start_delay_50");
+            return delays.iter().map(|row| row.estimate).collect();
+        }
+        rows.iter().map(|row| self.x(row)).collect()
     }
 
     /// Medians, and bands to the quantiles on either side where both are finite.
-    fn delays(&self, outcome: &str, curve: usize) -> Vec<Rate> {
-        let [low, middle, high] =
-            ["05", "50", "95"].map(|name| self.of(curve, &format!("{outcome}_{name}")));
-        let quantiles = middle.into_iter().zip(low.into_iter().zip(high));
-        let rates = quantiles.map(|(row, (low, high))| {
-            let middle = row.estimate;
-            let (low, high) = match high.estimate.is_finite() {
-                true => (low.estimate, high.estimate),
-                false => (middle, middle),
-            };
-            Rate {
-                x: self.x(row),
-                rate: middle,
-                low,
-                high,
-                limit: None,
-            }
-        });
-        rates.collect()
+    fn delays(&self, outcome: &str, curve: usize) -> Vec<Point> {
+        let quantiles = ["05", "50", "95"].map(|name| format!("{outcome}_{name}"));
+        let [low, middle, high] = quantiles.map(|outcome| self.of(curve, &outcome));
+        (middle.iter().zip(low.iter().zip(high)))
+            .map(|(row, (low, high))| match high.estimate.is_finite() {
+                true => Point::new(self.x(row), [low, row, high].map(|row| row.estimate)),
+                false => Point::at((self.x(row), row.estimate)),
+            })
+            .collect()
     }
 
     fn x(&self, row: &Row) -> f64 {
@@ -194,13 +178,9 @@ impl<'a> Places<'a> {
         }
     }
 
-    /// From the first of all rates to the last.
-    fn axis(&self, panels: &[Vec<Curve>]) -> Axis {
-        let mut drawn = panels
-            .iter()
-            .flat_map(|curves| rates(curves))
-            .map(|rate| rate.x)
-            .peekable();
+    /// From the first point to the last.
+    fn axis<'p>(&self, points: impl Iterator<Item = &'p Point>) -> Axis {
+        let mut drawn = points.map(|point| point.x).peekable();
         match drawn.peek() {
             None => Axis::single(0.0),
             Some(_) => Axis::around(drawn, self.is_logarithmic),
@@ -210,37 +190,41 @@ impl<'a> Places<'a> {
 
 /// A rate and its interval; on a logarithmic scale, where nothing was counted, an arrow, which tells more than a
 /// band to the end of the paper.
-fn rate(row: &Row, x: f64, kind: Kind) -> Rate {
-    let mut rate = Rate {
-        x,
-        rate: row.estimate,
-        low: row.low,
-        high: row.high,
-        limit: None,
+fn point(row: &Row, x: f64, kind: Kind) -> Point {
+    let point = Point::new(x, [row.low, row.estimate, row.high]);
+    let Kind::Positive(limit) = kind else {
+        return point;
     };
-    if let Kind::Positive(limit) = kind {
-        rate.limit = (row.count == 0).then_some(limit);
-        rate.take_logarithms();
+    let limit = (row.count == 0).then_some(limit);
+    let point = Point { limit, ..point }.logarithms();
+    match limit {
+        Some(_) => Point {
+            limit,
+            ..Point::at(point.place())
+        },
+        None => point,
     }
-    if rate.limit.is_some() {
-        (rate.low, rate.high) = (rate.rate, rate.rate);
-    }
-    rate
 }
 
-/// From 0 to 1 for a probability; around what there is otherwise.
-fn y_axis(kind: Kind, curves: &[Curve]) -> Axis {
-    let (bottom, top) = ends(rates(curves).map(|rate| rate.rate));
-    match kind {
-        _ if bottom > top => Axis::linear(0.0, 1.0, 5),
-        Kind::Share => Axis::linear(0.0, 1.0, 5).within(-0.03, 1.03),
-        Kind::Delay => {
-            let highest = rates(curves)
-                .map(|rate| rate.high)
-                .filter(|high| high.is_finite());
-            Axis::linear(0.0, 1.08 * highest.fold(top, f64::max), 5)
-        }
-        Kind::Positive(_) => Axis::decades(bottom - 0.35, top + 0.35),
+fn points(curves: &[Curve]) -> impl Iterator<Item = &Point> {
+    curves.iter().flat_map(|curve| &curve.points)
+}
+
+impl Shown {
+    /// From 0 to 1 for a probability; around what there is otherwise.
+    fn y_axis(&self, curves: &[Curve]) -> Axis {
+        let (bottom, top) = ends(points(curves).map(|point| point.y));
+        let axis = match self.kind {
+            _ if bottom > top => Axis::linear(0.0, 1.0, 5),
+            Kind::Share => Axis::linear(0.0, 1.0, 5).within(-0.03, 1.03),
+            Kind::Delay => {
+                let highest = points(curves).map(|point| point.high);
+                let highest = highest.filter(|high| high.is_finite());
+                Axis::linear(0.0, 1.08 * highest.fold(top, f64::max), 5)
+            }
+            Kind::Positive(_) => Axis::decades(bottom - 0.35, top + 0.35),
+        };
+        axis.labelled(self.label)
     }
 }
 

@@ -13,7 +13,7 @@ pub(super) fn svg(canvas: &Canvas, provenance: &str) -> String {
     let (mut shapes, mut glyphs) = (String::new(), String::new());
     for shape in &canvas.shapes {
         let out = match shape {
-            Shape::Text { .. } => &mut glyphs,
+            Shape::Text(_) => &mut glyphs,
             _ => &mut shapes,
         };
         write(out, shape).expect("a string takes all that is written");
@@ -22,69 +22,58 @@ pub(super) fn svg(canvas: &Canvas, provenance: &str) -> String {
     let (width, height) = canvas.size;
     let (w, h) = ((width * UNITS) as u32, (height * UNITS) as u32);
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}pt\" height=\"{height}pt\" viewBox=\"0 0 {w} {h}\">\n\
-         <desc>{provenance}</desc>\n{shapes}{glyphs}</svg>\n"
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}pt" height="{height}pt" viewBox="0 0 {w} {h}">
+<desc>{provenance}</desc>
+{shapes}{glyphs}</svg>
+"#
     )
 }
 
 /// One element.
 fn write(out: &mut String, shape: &Shape) -> fmt::Result {
     match shape {
-        Shape::Line {
-            points,
-            width,
-            colour,
-        } => {
-            let (hex, alpha, points) = (hex(*colour), colour.alpha, list(points));
-            let width = (width * UNITS).round().max(1.0);
+        Shape::Line(points, width, colour) => {
+            let (width, paint) = ((width * UNITS).round().max(1.0), paint("stroke", *colour));
+            let points = list(points);
             writeln!(
                 out,
-                "<polyline fill=\"none\" opacity=\"{alpha}\" stroke=\"{hex}\" stroke-width=\"{width}\" points=\"{points}\"/>"
+                r#"<polyline fill="none" {paint} stroke-width="{width}" points="{points}"/>"#
             )
         }
-        Shape::Area { points, colour } => {
-            let (hex, alpha, points) = (hex(*colour), colour.alpha, list(points));
+        Shape::Area(points, colour) => {
+            let (paint, points) = (paint("fill", *colour), list(points));
+            writeln!(out, r#"<polygon {paint} points="{points}"/>"#)
+        }
+        Shape::Disc(centre, radius, colour) => {
+            let ((x, y), r) = (super::rounded(*centre, UNITS), (radius * UNITS).round());
+            let paint = paint("fill", *colour);
             writeln!(
                 out,
-                "<polygon opacity=\"{alpha}\" fill=\"{hex}\" points=\"{points}\"/>"
+                r#"<circle cx="{x}" cy="{y}" r="{r}" {paint} stroke="none" stroke-width="1"/>"#
             )
         }
-        Shape::Disc {
-            centre,
-            radius,
-            colour,
-        } => {
-            let (hex, alpha, (x, y)) = (hex(*colour), colour.alpha, super::rounded(*centre, UNITS));
-            let radius = (radius * UNITS).round();
-            writeln!(
-                out,
-                "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" opacity=\"{alpha}\" fill=\"{hex}\" stroke=\"none\" stroke-width=\"1\"/>"
-            )
-        }
-        Shape::Text {
-            text,
-            at,
-            height,
-            is_upright,
-        } => {
-            let ((x, y), size) = (super::rounded(*at, UNITS), height * UNITS);
-            let half = size / 2.0;
-            let place = match is_upright {
-                true => format!("translate({:.0} {y}) rotate(-90)", f64::from(x) + half),
-                false => format!("translate({x} {:.0})", f64::from(y) + half),
+        Shape::Text(text) => {
+            let ((x, y), size) = (super::rounded(text.at, UNITS), text.height * UNITS);
+            let place = match text.is_upright {
+                true => format!(
+                    "translate({:.0} {y}) rotate(-90)",
+                    f64::from(x) + size / 2.0
+                ),
+                false => format!("translate({x} {:.0})", f64::from(y) + size / 2.0),
             };
-            let path = outline(text, size)?;
+            let path = outline(&text.text, size)?;
             writeln!(
                 out,
-                "<path transform=\"{place}\" fill=\"#000000\" d=\"{path}\"/>"
+                r##"<path transform="{place}" fill="#000000" d="{path}"/>"##
             )
         }
     }
 }
 
-fn hex(colour: Colour) -> String {
-    let [red, green, blue] = colour.rgb;
-    format!("#{red:02X}{green:02X}{blue:02X}")
+/// A colour for `what` is painted.
+fn paint(what: &str, colour: Colour) -> String {
+    let (alpha, [red, green, blue]) = (colour.alpha, colour.rgb);
+    format!(r##"opacity="{alpha}" {what}="#{red:02X}{green:02X}{blue:02X}""##)
 }
 
 fn list(points: &[(f64, f64)]) -> String {

@@ -5,9 +5,7 @@ use super::phases::add_phases;
 use crate::chain::Scenario;
 use crate::experiment::Trace;
 use crate::study::trace::Row;
-use crate::plot::{
-    Axis, Entry, Key, Legend, Margins, Mark, Place, Plot, Point, Style, ends, literal,
-};
+use crate::plot::{Axis, Entry, Key, Legend, Mark, Place, Plot, Point, Style, ends, literal};
 
 const SINGLE: f64 = 190.0;
 const PANEL: f64 = 128.0;
@@ -24,51 +22,32 @@ pub fn plot(rows: &[Row], trace: &Trace, scenario: &Scenario, seed: u64) -> Plot
     let time = Time::new(trace, rows);
     let unit = unit_words(&trace.unit);
     let record = values(rows, 0.34, |row| Some(row.record)).labelled(format!("record, {unit}"));
-    let (mut plot, brackets) = match trace.whitened {
-        false => (Plot::stack(&time.axis(rows), [(SINGLE, record)]), 0.0),
-        true => {
-            let whitened =
-                values(rows, 0.06, |row| row.whitened).labelled(format!("whitened, {unit}"));
-            let panels = [(PANEL, record), (PANEL, whitened)];
-            (Plot::stack(&time.axis(rows), panels), BRACKETS)
-        }
+    let whitened = values(rows, 0.06, |row| row.whitened).labelled(format!("whitened, {unit}"));
+    let x = time.axis(rows);
+    let (mut plot, brackets) = if trace.whitened {
+        let panels = [(PANEL, record), (PANEL, whitened)];
+        (Plot::stack(&x, panels), BRACKETS)
+    } else {
+        (Plot::stack(&x, [(SINGLE, record)]), 0.0)
     };
-    plot.margins = Margins {
-        top: NAMES + brackets,
-        ..Margins::default()
-    };
-    add_phases(
-        &mut plot,
-        &time.stretches(rows, |row| row.phase.as_str()),
-        5.0 + brackets,
-    );
-    add_samples(
-        &mut plot,
-        &time.stretches(rows, |row| row.sample.as_deref().unwrap_or("")),
-    );
-    for panel in 0..plot.panels.len() {
-        plot.add(panel, Mark::Level { y: 0.0, dash: &[] });
-    }
-    add_values(
-        &mut plot,
-        0,
-        rows.iter().map(|row| (time.of(row), row.record)).collect(),
-    );
-    let steps = time.stretches(rows, |row| row.acceleration);
-    let line = steps.iter().flat_map(|&(from, to, y)| [(from, y), (to, y)]);
-    plot.add(0, Mark::line(line, 1.3, Style::of(1).solid()));
+    plot.margins.top = NAMES + brackets;
+    let phases = time.stretches(rows, |row| row.phase.as_str());
+    add_phases(&mut plot, &phases, 5.0 + brackets);
+    let samples = time.stretches(rows, |row| row.sample.as_deref().unwrap_or(""));
+    add_samples(&mut plot, &samples);
+    plot.add_to_all(&Mark::Level(0.0, &[]));
+    add_values(&mut plot, 0, time.line(rows, |row| Some(row.record)));
+    let steps = time.stretches(rows, |row| row.acceleration).into_iter();
+    let line = steps.flat_map(|((from, to), y)| [(from, y), (to, y)]);
+    let style = Style::of(1).solid().wide(1.3);
+    plot.add(0, Mark::Line(line.collect(), style));
     if trace.whitened {
-        let whitened = rows
-            .iter()
-            .filter_map(|row| Some((time.of(row), row.whitened?)));
-        add_values(&mut plot, 1, whitened.collect());
+        add_values(&mut plot, 1, time.line(rows, |row| row.whitened));
     }
-    for panel in 0..plot.panels.len() {
-        plot.add(panel, Mark::Axes);
-    }
+    plot.add_to_all(&Mark::Axes);
     plot.add(0, Mark::Legend);
     let entry = |index, text| Entry::new(text, Style::of(index).solid(), Key::Line);
-    let entries = vec![entry(0, "record"), entry(1, "acceleration in it")];
+    let entries = [entry(0, "record"), entry(1, "acceleration in it")];
     plot.legend = Some(Legend::new(entries, Place::Free));
     plot.set_caption(&caption(scenario, trace, seed));
     plot
@@ -106,24 +85,29 @@ impl Time {
         Axis::linear(from / self.unit, to / self.unit, 8).labelled(self.label)
     }
 
+    fn line(&self, rows: &[Row], of: fn(&Row) -> Option<f64>) -> Vec<(f64, f64)> {
+        let points = rows.iter().filter_map(|row| Some((self.of(row), of(row)?)));
+        points.collect()
+    }
+
     /// The stretches in which `of` says the same, each with its ends.
     fn stretches<'r, T: Copy + PartialEq>(
         &self,
         rows: &'r [Row],
         of: impl Fn(&'r Row) -> T,
-    ) -> Vec<(f64, f64, T)> {
+    ) -> Vec<((f64, f64), T)> {
         let half = self.half / self.unit;
         let places: Vec<(f64, T)> = rows.iter().map(|row| (self.of(row), of(row))).collect();
         (places.chunk_by(|a, b| a.1 == b.1))
             .map(|stretch| (stretch[0], stretch[stretch.len() - 1]))
-            .map(|((first, said), (last, _))| (first - half, last + half, said))
+            .map(|((first, said), (last, _))| ((first - half, last + half), said))
             .collect()
     }
 }
 
 /// A bracket over each sample, and its limits through the panels.
-fn add_samples(plot: &mut Plot, samples: &[(f64, f64, &str)]) {
-    for &(from, to, name) in samples {
+fn add_samples(plot: &mut Plot, samples: &[((f64, f64), &str)]) {
+    for &(stretch, name) in samples {
         let words = match name {
             "training" => "training",
             "reference" => "X",
@@ -131,44 +115,24 @@ fn add_samples(plot: &mut Plot, samples: &[(f64, f64, &str)]) {
             "scale" => "Y_2",
             _ => continue,
         };
-        plot.add(
-            0,
-            Mark::Bracket {
-                from,
-                to,
-                name: words.to_owned(),
-            },
-        );
-        for x in [from, to].into_iter().filter(|_| name != "training") {
-            plot.add(0, Mark::Limit { x });
+        plot.add(0, Mark::Bracket(stretch, words));
+        if name != "training" {
+            plot.add(0, Mark::Limit(stretch.0));
+            plot.add(0, Mark::Limit(stretch.1));
         }
     }
 }
 
 fn add_values(plot: &mut Plot, panel: usize, line: Vec<(f64, f64)>) {
-    let style = Style::of(0);
+    let style = Style::of(0).wide(0.7).sized(1.4);
     if line.len() >= FEW {
-        return plot.add(
-            panel,
-            Mark::Dense {
-                points: line,
-                colour: style.colour,
-            },
-        );
+        return plot.add(panel, Mark::Dense(line, style));
     }
+    let points = line.iter().copied().map(Point::at).collect();
     if line.len() > 1 {
-        plot.add(panel, Mark::line(line.iter().copied(), 0.7, style));
+        plot.add(panel, Mark::Line(line, style));
     }
-    let points = line.into_iter().map(|(x, y)| Point::at(x, y));
-    plot.add(
-        panel,
-        Mark::Points {
-            points: points.collect(),
-            size: 1.4,
-            width: 0.0,
-            style,
-        },
-    );
+    plot.add(panel, Mark::Markers(points, style));
 }
 
 /// An axis that holds every value and zero, with a share `above` of their range left free on top.

@@ -17,7 +17,8 @@ pub struct Axis {
 }
 
 impl Axis {
-    fn new(from: f64, to: f64, ticks: Vec<(f64, String)>) -> Self {
+    /// Ticks where the caller wants them.
+    pub fn new(from: f64, to: f64, ticks: Vec<(f64, String)>) -> Self {
         let label = String::new();
         Self {
             from,
@@ -82,11 +83,6 @@ impl Axis {
         let to = names.len() as f64 - 0.5;
         let ticks = (0..).map(f64::from).zip(names);
         Self::new(-0.5, to, ticks.collect())
-    }
-
-    /// Ticks where the caller wants them.
-    pub fn at(from: f64, to: f64, ticks: Vec<(f64, String)>) -> Self {
-        Self::new(from, to, ticks)
     }
 
     /// Numbers, or their logarithms, with a little room on either side.

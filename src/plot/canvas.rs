@@ -1,7 +1,7 @@
 //! Lines, areas and texts on a sheet, measured in points (1/72 inch) from its upper left corner.
 
 use super::text::{FONT_HEIGHT, runs, text_width};
-use super::{Colour, Marker};
+use super::{Colour, Marker, Style};
 
 /// A sheet and what lies on it, from the bottom up.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,31 +14,25 @@ pub struct Canvas {
 /// The few things that can be drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// Through its points.
-    Line {
-        points: Vec<(f64, f64)>,
-        width: f64,
-        colour: Colour,
-    },
+    /// Through its points, of this width.
+    Line(Vec<(f64, f64)>, f64, Colour),
     /// A filled polygon.
-    Area {
-        points: Vec<(f64, f64)>,
-        colour: Colour,
-    },
-    Disc {
-        centre: (f64, f64),
-        radius: f64,
-        colour: Colour,
-    },
-    Text {
-        text: String,
-        /// The left end of the baseline, half a `height` above it.
-        at: (f64, f64),
-        /// From descender to ascender.
-        height: f64,
-        /// Reads upwards; `at` lies half a height to the left of the baseline then.
-        is_upright: bool,
-    },
+    Area(Vec<(f64, f64)>, Colour),
+    /// Around its centre, of this radius.
+    Disc((f64, f64), f64, Colour),
+    Text(Text),
+}
+
+/// Black text on one line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Text {
+    pub text: String,
+    /// The left end of the baseline, half a `height` above it.
+    pub at: (f64, f64),
+    /// From descender to ascender.
+    pub height: f64,
+    /// Reads upwards; `at` lies half a height to the left of the baseline then.
+    pub is_upright: bool,
 }
 
 /// Where on a text its position is.
@@ -59,91 +53,62 @@ impl Canvas {
     }
 
     pub(super) fn line(&mut self, points: &[(f64, f64)], width: f64, colour: Colour) {
-        self.shapes.push(Shape::Line {
-            points: points.to_vec(),
-            width,
-            colour,
-        });
+        self.shapes
+            .push(Shape::Line(points.to_vec(), width, colour));
     }
 
-    /// A line through `points`, its `dash` drawn and left out in turn.
-    pub(super) fn dashed(
-        &mut self,
-        points: &[(f64, f64)],
-        width: f64,
-        colour: Colour,
-        dash: &[f64],
-    ) {
-        if dash.is_empty() || points.is_empty() {
-            return self.line(points, width, colour);
+    /// A line, its dash drawn and left out in turn.
+    pub(super) fn dashed(&mut self, points: &[(f64, f64)], style: &Style) {
+        if style.dash.is_empty() || points.is_empty() {
+            return self.line(points, style.width, style.colour);
         }
-        for stroke in strokes(points, dash) {
-            self.line(&stroke, width, colour);
+        for stroke in strokes(points, style.dash) {
+            self.line(&stroke, style.width, style.colour);
         }
     }
 
     pub(super) fn area(&mut self, points: Vec<(f64, f64)>, colour: Colour) {
-        self.shapes.push(Shape::Area { points, colour });
+        self.shapes.push(Shape::Area(points, colour));
     }
 
     /// A filled rectangle between two opposite corners.
-    pub(super) fn rectangle(
-        &mut self,
-        (left, top): (f64, f64),
-        (right, bottom): (f64, f64),
-        colour: Colour,
-    ) {
-        let corners = vec![(left, top), (right, top), (right, bottom), (left, bottom)];
-        self.area(corners, colour);
+    pub(super) fn rectangle(&mut self, from: (f64, f64), to: (f64, f64), colour: Colour) {
+        self.area(corners(from, to).to_vec(), colour);
     }
 
     /// The edge of a rectangle.
-    pub(super) fn outline(
-        &mut self,
-        (left, top): (f64, f64),
-        (right, bottom): (f64, f64),
-        width: f64,
-        colour: Colour,
-    ) {
-        let corners = [
-            (left, top),
-            (right, top),
-            (right, bottom),
-            (left, bottom),
-            (left, top),
-        ];
-        self.line(&corners, width, colour);
+    pub(super) fn outline(&mut self, from: (f64, f64), to: (f64, f64), width: f64, colour: Colour) {
+        let corners = corners(from, to);
+        self.line(&[&corners[..], &[from]].concat(), width, colour);
     }
 
-    /// A marker of half-width `r`.
-    pub(super) fn marker(&mut self, kind: Marker, (x, y): (f64, f64), r: f64, colour: Colour) {
-        let shape = |corners: &[(f64, f64)]| -> Vec<(f64, f64)> {
-            let corners = corners.iter();
-            corners.map(|(dx, dy)| (x + r * dx, y + r * dy)).collect()
-        };
-        let square = [(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)];
-        let diamond = [(0.0, -1.3), (1.1, 0.0), (0.0, 1.3), (-1.1, 0.0)];
-        match kind {
-            Marker::Disc => self.shapes.push(Shape::Disc {
-                centre: (x, y),
-                radius: r,
-                colour,
-            }),
-            Marker::Square => self.area(shape(&square), colour),
-            Marker::Triangle => self.area(shape(&[(0.0, -1.2), (1.1, 0.8), (-1.1, 0.8)]), colour),
-            Marker::Wedge => self.area(shape(&[(0.0, 1.2), (1.1, -0.8), (-1.1, -0.8)]), colour),
-            Marker::Diamond => self.area(shape(&diamond), colour),
+    pub(super) fn marker(&mut self, (x, y): (f64, f64), style: &Style) {
+        let (r, colour) = (style.size, style.colour);
+        let place = |(dx, dy): &(f64, f64)| (x + r * dx, y + r * dy);
+        let corners: &[(f64, f64)] = match style.marker {
+            Marker::Disc => return self.shapes.push(Shape::Disc((x, y), r, colour)),
+            Marker::Square => &[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)],
+            Marker::Triangle => &[(0.0, -1.2), (1.1, 0.8), (-1.1, 0.8)],
+            Marker::Wedge => &[(0.0, 1.2), (1.1, -0.8), (-1.1, -0.8)],
+            Marker::Diamond => &[(0.0, -1.3), (1.1, 0.0), (0.0, 1.3), (-1.1, 0.0)],
             Marker::Cross => {
-                self.line(&shape(&[(-1.0, -1.0), (1.0, 1.0)]), 0.4 * r, colour);
-                self.line(&shape(&[(-1.0, 1.0), (1.0, -1.0)]), 0.4 * r, colour);
+                self.line(
+                    &[(-1.0, -1.0), (1.0, 1.0)].map(|end| place(&end)),
+                    0.4 * r,
+                    colour,
+                );
+                return self.line(
+                    &[(-1.0, 1.0), (1.0, -1.0)].map(|end| place(&end)),
+                    0.4 * r,
+                    colour,
+                );
             }
-            Marker::ArrowDown => self.arrow((x, y), 3.0 * r, colour),
-            Marker::ArrowUp => self.arrow((x, y), -3.0 * r, colour),
-        }
+        };
+        self.area(corners.iter().map(place).collect(), colour);
     }
 
     /// An arrow of so many points downwards, or upwards where they are negative.
-    fn arrow(&mut self, (x, y): (f64, f64), length: f64, colour: Colour) {
+    pub(super) fn arrow(&mut self, (x, y): (f64, f64), length: f64, colour: Colour) {
         let (tip, half) = (y + length, 0.35 * length);
         self.line(&[(x - half, y), (x + half, y)], 0.8, colour);
         self.line(&[(x, y), (x, tip - half)], 0.8, colour);
@@ -172,21 +137,26 @@ impl Canvas {
             let height = size * run.scale() * FONT_HEIGHT;
             let lowered = if run.is_subscript { 0.22 * size } else { 0.0 };
             let across = lowered - height / 2.0;
-            let at = match is_upright {
-                true => (x + across, y - along),
-                false => (x + along, y + across),
+            let at = if is_upright {
+                (x + across, y - along)
+            } else {
+                (x + along, y + across)
             };
             along += run.width(size);
-            self.shapes.push(Shape::Text {
-                text: run.text,
+            let text = run.text;
+            self.shapes.push(Shape::Text(Text {
+                text,
                 at,
                 height,
                 is_upright,
-            });
+            }));
         }
     }
 }
 
+fn corners((left, top): (f64, f64), (right, bottom): (f64, f64)) -> [(f64, f64); 4] {
+    [(left, top), (right, top), (right, bottom), (left, bottom)]
+}
 /// The parts of a line through `points` that a `dash` leaves.
 fn strokes(points: &[(f64, f64)], dash: &[f64]) -> Vec<Vec<(f64, f64)>> {
     let mut strokes = vec![points[..1].to_vec()];

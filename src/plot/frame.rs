@@ -4,7 +4,7 @@ use super::canvas::{Align, Canvas};
 use super::text::{NORMAL, SMALL, text_width};
 use super::{Axis, Colour, Panel};
 
-const AXIS_WIDTH: f64 = 0.6;
+const WIDTH: f64 = 0.6;
 const TICK: f64 = 3.0;
 const GRID: Colour = Colour::new(225, 225, 225);
 
@@ -29,6 +29,10 @@ impl Frame<'_> {
         )
     }
 
+    pub fn all(&self, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+        points.iter().map(|&point| self.at(point)).collect()
+    }
+
     pub fn x(&self, x: f64) -> f64 {
         self.at((x, self.panel.y.from)).0
     }
@@ -37,58 +41,45 @@ impl Frame<'_> {
         self.at((self.panel.x.from, y)).1
     }
 
-    pub fn middle(&self) -> f64 {
-        f64::midpoint(self.left, self.right)
+    /// Both ends of a stretch of x.
+    pub fn stretch(&self, (from, to): (f64, f64)) -> (f64, f64) {
+        (self.x(from), self.x(to))
     }
 
     /// A line at each tick of y.
     pub fn draw_grid(&self, canvas: &mut Canvas) {
-        for (y, _) in &self.panel.y.ticks {
-            let y = self.y(*y);
+        for y in self.panel.y.ticks.iter().map(|(y, _)| self.y(*y)) {
             canvas.line(&[(self.left, y), (self.right, y)], 0.4, GRID);
         }
     }
 
     /// The rectangle, ticks, labels and title.
     pub fn draw_axes(&self, canvas: &mut Canvas) {
-        let corners = ((self.left, self.top), (self.right, self.bottom));
-        canvas.outline(corners.0, corners.1, AXIS_WIDTH, Colour::BLACK);
+        let (left, right, top, bottom) = (self.left, self.right, self.top, self.bottom);
         let Panel { x, y, title, .. } = self.panel;
+        canvas.outline((left, top), (right, bottom), WIDTH, Colour::BLACK);
         for (value, label) in self.spaced_ticks(x) {
-            let (at, bottom) = (self.x(*value), self.bottom);
-            canvas.line(
-                &[(at, bottom), (at, bottom - TICK)],
-                AXIS_WIDTH,
-                Colour::BLACK,
-            );
+            let at = self.x(*value);
+            canvas.line(&[(at, bottom), (at, bottom - TICK)], WIDTH, Colour::BLACK);
             canvas.text(label, (at, bottom + SMALL + 3.0), SMALL, Align::Centre);
         }
         for (value, label) in &y.ticks {
-            let (left, at) = (self.left, self.y(*value));
-            canvas.line(&[(left, at), (left + TICK, at)], AXIS_WIDTH, Colour::BLACK);
-            let beside = (left - 4.0, at + 0.36 * SMALL);
-            canvas.text(label, beside, SMALL, Align::Right);
+            let at = self.y(*value);
+            canvas.line(&[(left, at), (left + TICK, at)], WIDTH, Colour::BLACK);
+            canvas.text(label, (left - 4.0, at + 0.36 * SMALL), SMALL, Align::Right);
         }
-        let below = (self.middle(), self.bottom + 25.0);
-        canvas.text(&x.label, below, NORMAL, Align::Centre);
-        let beside = (12.0, f64::midpoint(self.top, self.bottom));
-        canvas.upright_text(&y.label, beside, NORMAL);
-        let above = (self.middle(), self.top - 5.0);
-        canvas.text(title, above, NORMAL, Align::Centre);
+        let middle = f64::midpoint(left, right);
+        canvas.text(&x.label, (middle, bottom + 25.0), NORMAL, Align::Centre);
+        canvas.upright_text(&y.label, (12.0, f64::midpoint(top, bottom)), NORMAL);
+        canvas.text(title, (middle, top - 5.0), NORMAL, Align::Centre);
         if let Some(axis) = &self.panel.top {
-            self.draw_top(canvas, axis);
+            for (value, label) in &axis.ticks {
+                let at = left + axis.share(*value) * (right - left);
+                canvas.line(&[(at, top), (at, top + TICK)], WIDTH, Colour::BLACK);
+                canvas.text(label, (at, top - 4.0), SMALL, Align::Centre);
+            }
+            canvas.text(&axis.label, (middle, top - 16.0), NORMAL, Align::Centre);
         }
-    }
-
-    fn draw_top(&self, canvas: &mut Canvas, axis: &Axis) {
-        let top = self.top;
-        for (value, label) in &axis.ticks {
-            let x = self.left + axis.share(*value) * (self.right - self.left);
-            canvas.line(&[(x, top), (x, top + TICK)], AXIS_WIDTH, Colour::BLACK);
-            canvas.text(label, (x, top - 4.0), SMALL, Align::Centre);
-        }
-        let above = (self.middle(), top - 16.0);
-        canvas.text(&axis.label, above, NORMAL, Align::Centre);
     }
 
     /// The ticks whose words find room side by side: the first and every so many after it.

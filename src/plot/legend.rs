@@ -7,8 +7,7 @@ use super::{Colour, Style};
 
 const STEP: f64 = 11.5;
 const MARGIN: f64 = 6.0;
-const MARKER: f64 = 2.3;
-const LINE: f64 = 1.1;
+const EDGE: (f64, Colour) = (0.4, Colour::BLACK.faded(0.3));
 
 /// What the styles of a plot stand for.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,8 +57,16 @@ pub(super) struct Placed<'a> {
 }
 
 impl Legend {
-    pub fn new(entries: Vec<Entry>, place: Place) -> Self {
+    pub fn new(entries: impl IntoIterator<Item = Entry>, place: Place) -> Self {
+        let entries = entries.into_iter().collect();
         Self { entries, place }
+    }
+
+    /// Curves in the styles of their places.
+    pub fn of_curves(names: impl IntoIterator<Item = String>, key: Key, place: Place) -> Self {
+        let names = names.into_iter().enumerate();
+        let entries = names.map(|(index, name)| Entry::new(name, Style::of(index), key));
+        Self::new(entries, place)
     }
 }
 
@@ -73,10 +80,11 @@ impl Entry {
 impl<'a> Placed<'a> {
     /// In one column.
     pub fn new(legend: &'a Legend) -> Self {
+        let (entries, corner) = (&legend.entries[..], (0.0, 0.0));
         Self {
-            entries: &legend.entries,
+            entries,
             columns: 1,
-            corner: (0.0, 0.0),
+            corner,
         }
     }
 
@@ -124,16 +132,16 @@ impl<'a> Placed<'a> {
     /// Whether any of `data` lies under it, or close to it.
     pub fn covers(&self, data: &[(f64, f64)]) -> bool {
         let ((x, y), width, height) = (self.corner, self.width(), self.height());
-        data.iter().any(|&(px, py)| {
-            px > x - 4.0 && px < x + width + 4.0 && py > y - 4.0 && py < y + height + 4.0
-        })
+        let near = |at: f64, from: f64, length: f64| at > from - 4.0 && at < from + length + 4.0;
+        data.iter()
+            .any(|point| near(point.0, x, width) && near(point.1, y, height))
     }
 
     pub fn draw(&self, canvas: &mut Canvas) {
         let (x, y) = self.corner;
         let opposite = (x + self.width(), y + self.height());
         canvas.rectangle((x, y), opposite, Colour::WHITE);
-        canvas.outline((x, y), opposite, 0.4, Colour::BLACK.faded(0.3));
+        canvas.outline((x, y), opposite, EDGE.0, EDGE.1);
         for (index, entry) in self.entries.iter().enumerate() {
             let (column, row) = (index / self.rows(), index % self.rows());
             let left = x + column as f64 * self.column_width();
@@ -144,24 +152,20 @@ impl<'a> Placed<'a> {
 
 impl Entry {
     fn draw(&self, canvas: &mut Canvas, left: f64, middle: f64) {
-        let Style {
-            colour,
-            marker,
-            dash,
-        } = self.style;
+        let (style, colour) = (&self.style, self.style.colour);
         let ends = [(left + 4.0, middle), (left + 22.0, middle)];
         match self.key {
             Key::Marker => {}
-            Key::MarkedLine => canvas.line(&ends, LINE, colour),
-            Key::Line => canvas.dashed(&ends, LINE, colour, dash),
+            Key::MarkedLine => canvas.line(&ends, style.width, colour),
+            Key::Line => canvas.dashed(&ends, style),
             Key::Shade => {
-                let corners = [(left + 4.0, middle - 3.5), (left + 22.0, middle + 3.5)];
-                canvas.rectangle(corners[0], corners[1], colour);
-                canvas.outline(corners[0], corners[1], 0.4, Colour::BLACK.faded(0.3));
+                let (corner, opposite) = ((left + 4.0, middle - 3.5), (left + 22.0, middle + 3.5));
+                canvas.rectangle(corner, opposite, colour);
+                canvas.outline(corner, opposite, EDGE.0, EDGE.1);
             }
         }
         if matches!(self.key, Key::Marker | Key::MarkedLine) {
-            canvas.marker(marker, (left + 13.0, middle), MARKER, colour);
+            canvas.marker((left + 13.0, middle), style);
         }
         let baseline = (left + 27.0, middle + 0.36 * SMALL);
         canvas.text(&self.text, baseline, SMALL, Align::Left);

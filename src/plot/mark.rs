@@ -1,8 +1,9 @@
 //! What is drawn in a panel, in its data.
 
-use super::{Colour, Marker, Style};
+use super::{Colour, Style};
 
-/// Something in a panel. What lies outside its axes is drawn on their edge.
+/// Something in a panel. What lies outside its axes is drawn on their edge. Pairs of numbers are `(x, y)`,
+/// or the ends of a stretch of x.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mark {
     /// A pale line at each tick of y.
@@ -11,115 +12,108 @@ pub enum Mark {
     Axes,
     /// The legend of the plot, wherever it found room.
     Legend,
-    Line {
-        points: Vec<(f64, f64)>,
-        width: f64,
-        style: Style,
-    },
+    Line(Vec<(f64, f64)>, Style),
     /// A line so dense that its turns cannot be told apart.
-    Dense {
-        points: Vec<(f64, f64)>,
-        colour: Colour,
-    },
-    /// What lies between two lines, each point `(x, low, high)`.
-    Band {
-        points: Vec<(f64, f64, f64)>,
-        colour: Colour,
-    },
-    /// Upright bars, each `(x, low, high)`.
-    Bars {
-        bars: Vec<(f64, f64, f64)>,
-        width: f64,
-        colour: Colour,
-    },
-    /// Markers, each over the bar of its interval.
-    Points {
-        points: Vec<Point>,
-        /// Half the width of a marker.
-        size: f64,
-        /// The width of a bar.
-        width: f64,
-        style: Style,
-    },
+    Dense(Vec<(f64, f64)>, Style),
+    /// The intervals of all points as one area.
+    Band(Vec<Point>, Style),
+    /// The interval of each point as an upright bar.
+    Bars(Vec<Point>, Style),
+    /// A marker at each point; where a limit stands for it, an arrow.
+    Markers(Vec<Point>, Style),
+    /// The bar and the marker of each point in turn.
+    Points(Vec<Point>, Style),
     /// A shade over the whole height.
-    Span { from: f64, to: f64, colour: Colour },
-    /// Names of stretches `(from, to, name)`, so many points above the panel. Of names that would run into
-    /// each other the first is kept.
-    Names {
-        names: Vec<(f64, f64, String)>,
-        above: f64,
-    },
-    /// A line over the whole width.
-    Level { y: f64, dash: &'static [f64] },
+    Span((f64, f64), Colour),
+    /// Names of stretches, so many points (1/72 inch) above the panel. Of names that would run into each
+    /// other the first is kept.
+    Names(Vec<((f64, f64), String)>, f64),
+    /// A line over the whole width, with its dash.
+    Level(f64, &'static [f64]),
     /// A dashed upright line through all panels.
-    Limit { x: f64 },
+    Limit(f64),
     /// A bracket over the panel with a name on top.
-    Bracket { from: f64, to: f64, name: String },
-    /// A short bar just below the upper edge of the panel, so many points under it.
-    Bar {
-        from: f64,
-        to: f64,
-        below: f64,
-        colour: Colour,
-    },
-    /// Filled rectangles.
-    Cells(Vec<Cell>),
-    /// Beside the panel, what the colours of cells stand for.
-    Shades {
-        title: String,
-        shades: Vec<(Colour, String)>,
-    },
-    /// A labelled stretch in the middle of a panel that has no scale of y; lines for which it is too narrow
-    /// are left out.
-    Block {
-        from: f64,
-        to: f64,
-        /// It goes on before the panel.
-        is_cut: bool,
-        /// No colour, no box.
-        colour: Option<Colour>,
-        lines: Vec<String>,
-    },
+    Bracket((f64, f64), &'static str),
+    /// A thick line so many points below the upper edge.
+    Bar((f64, f64), f64, Colour),
+    /// Filled rectangles, each between two opposite corners.
+    Cells(Vec<((f64, f64), (f64, f64), Colour)>),
+    /// Beside the panel under a title, what the colours of cells stand for.
+    Shades(&'static str, Vec<(Colour, String)>),
+    Block(Block),
 }
 
-/// A marker, and the interval behind it.
+/// An estimate with its interval; on a logarithmic scale, their logarithms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     pub x: f64,
     pub y: f64,
-    pub bar: Option<(f64, f64)>,
-    /// Instead of the marker of its curve.
-    pub arrow: Option<Marker>,
+    pub low: f64,
+    pub high: f64,
+    /// Stands for an estimate that has no logarithm.
+    pub limit: Option<Limit>,
 }
 
-/// A filled rectangle between two opposite corners.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cell {
-    pub corner: (f64, f64),
-    pub opposite: (f64, f64),
-    pub colour: Colour,
+/// An end of an interval beyond which the truth does not lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Limit {
+    Upper,
+    Lower,
+}
+
+/// A labelled stretch in the middle of a panel whose y runs from 0 to 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    pub ends: (f64, f64),
+    /// It goes on before the panel.
+    pub is_cut: bool,
+    /// Without one there is no box.
+    pub colour: Option<Colour>,
+    /// Those for which there is no room are left out.
+    pub lines: Vec<String>,
 }
 
 impl Point {
     /// Without interval.
-    pub const fn at(x: f64, y: f64) -> Self {
+    pub const fn at((x, y): (f64, f64)) -> Self {
+        Self::new(x, [y, y, y])
+    }
+
+    /// An estimate between the ends of its interval.
+    pub const fn new(x: f64, [low, y, high]: [f64; 3]) -> Self {
+        let limit = None;
         Self {
             x,
             y,
-            bar: None,
-            arrow: None,
+            low,
+            high,
+            limit,
         }
     }
-}
 
-impl Mark {
-    /// A line through `points`.
-    pub fn line(points: impl IntoIterator<Item = (f64, f64)>, width: f64, style: Style) -> Self {
-        let points = points.into_iter().collect();
-        Self::Line {
-            points,
-            width,
-            style,
+    pub const fn place(&self) -> (f64, f64) {
+        (self.x, self.y)
+    }
+
+    /// Its logarithms: an estimate of zero has none, a limit stands for it.
+    #[must_use]
+    pub fn logarithms(self) -> Self {
+        let low = libm::log10(self.low.max(f64::MIN_POSITIVE));
+        let (y, high) = (libm::log10(self.shown()), libm::log10(self.high));
+        Self {
+            y,
+            low,
+            high,
+            ..self
+        }
+    }
+
+    /// What stands for it on a logarithmic scale.
+    pub const fn shown(&self) -> f64 {
+        match self.limit {
+            Some(Limit::Upper) => self.high,
+            Some(Limit::Lower) => self.low,
+            None => self.y,
         }
     }
 }

@@ -8,6 +8,7 @@
 
 mod axis;
 mod canvas;
+mod draw;
 mod frame;
 mod layout;
 mod legend;
@@ -16,12 +17,12 @@ mod style;
 mod text;
 
 pub use axis::{Axis, LONG_RANGE, ends, is_long, power_of_ten};
-pub use canvas::{Canvas, Shape};
+pub use canvas::{Canvas, Shape, Text};
 pub use layout::{LayoutError, check_panels, layout};
 pub use legend::{Entry, Key, Legend, Place};
-pub use mark::{Cell, Mark, Point};
+pub use mark::{Block, Limit, Mark, Point};
 pub use style::{Colour, Marker, Style};
-pub use text::{CAPTION, NORMAL, SMALL, font, literal, text_width};
+pub use text::{font, literal, text_width};
 
 /// Width of every sheet, in points.
 pub const WIDTH: f64 = 396.0;
@@ -82,35 +83,41 @@ impl Default for Margins {
 
 impl Plot {
     /// Panels one under the other that share `x`, each `(height, y)`; only the lowest has words along x.
-    pub fn stack<const N: usize>(x: &Axis, panels: [(f64, Axis); N]) -> Self {
-        let mut above = N;
-        let panels = panels.map(|(height, y)| {
-            above -= 1;
-            let x = if above == 0 {
-                x.clone()
-            } else {
-                x.unlabelled()
-            };
-            Panel::new(height, x, y)
-        });
-        Self::of(panels.into(), 1)
+    pub fn stack(x: &Axis, panels: impl IntoIterator<Item = (f64, Axis)>) -> Self {
+        let panels = panels.into_iter();
+        let mut panels: Vec<Panel> = panels
+            .map(|(height, y)| Panel::new(height, x.unlabelled(), y))
+            .collect();
+        if let Some(lowest) = panels.last_mut() {
+            lowest.x = x.clone();
+        }
+        Self::of(panels, 1)
     }
 
     /// Panels in rows of so many.
     pub fn of(panels: Vec<Panel>, columns: usize) -> Self {
+        let (marks, caption) = (Vec::new(), Vec::new());
+        let (legend, margins) = (None, Margins::default());
         Self {
             panels,
             columns,
-            marks: Vec::new(),
-            legend: None,
-            caption: Vec::new(),
-            margins: Margins::default(),
+            marks,
+            legend,
+            caption,
+            margins,
         }
     }
 
     /// Draws `mark` next, in a panel.
     pub fn add(&mut self, panel: usize, mark: Mark) {
         self.marks.push((panel, mark));
+    }
+
+    /// Draws `mark` next, in every panel.
+    pub fn add_to_all(&mut self, mark: &Mark) {
+        for panel in 0..self.panels.len() {
+            self.add(panel, mark.clone());
+        }
     }
 
     /// What the caption says, broken into lines between these parts.
@@ -128,12 +135,21 @@ impl Plot {
 impl Panel {
     /// Without title.
     pub fn new(height: f64, x: Axis, y: Axis) -> Self {
+        let (title, top) = (String::new(), None);
         Self {
-            title: String::new(),
+            title,
             height,
             x,
-            top: None,
+            top,
             y,
         }
     }
+
+    pub fn titled(self, title: &str) -> Self {
+        let title = title.to_owned();
+        Self { title, ..self }
+    }
 }
+
+#[cfg(test)]
+mod tests;

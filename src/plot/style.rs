@@ -8,7 +8,7 @@ pub struct Colour {
     pub alpha: f64,
 }
 
-/// The shapes that tell curves apart without colour, and arrows to where a limit points.
+/// The shapes that tell curves apart without colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Marker {
     Disc,
@@ -17,16 +17,18 @@ pub enum Marker {
     Diamond,
     Wedge,
     Cross,
-    ArrowDown,
-    ArrowUp,
 }
 
-/// What tells one curve from another.
+/// How lines and markers are drawn; lengths in points (1/72 inch).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
     pub colour: Colour,
     pub marker: Marker,
-    /// Points (1/72 inch) drawn and left out in turn; empty for a solid line.
+    /// Half the width of a marker.
+    pub size: f64,
+    /// Of a line.
+    pub width: f64,
+    /// Drawn and left out in turn; empty for a solid line.
     pub dash: &'static [f64],
 }
 
@@ -36,13 +38,11 @@ impl Colour {
 
     /// Opaque.
     pub const fn new(red: u8, green: u8, blue: u8) -> Self {
-        Self {
-            rgb: [red, green, blue],
-            alpha: 1.0,
-        }
+        let rgb = [red, green, blue];
+        Self { rgb, alpha: 1.0 }
     }
 
-    /// The same, as opaque as `alpha` says.
+    /// As opaque as `alpha` says.
     pub const fn faded(self, alpha: f64) -> Self {
         Self { alpha, ..self }
     }
@@ -51,7 +51,7 @@ impl Colour {
 impl Style {
     /// The style of curve `index`: colours that remain apart for colour-blind readers (Okabe and Ito),
     /// and markers that shift against them, so that 36 curves differ.
-    pub fn of(index: usize) -> Self {
+    pub const fn of(index: usize) -> Self {
         const COLOURS: [Colour; 6] = [
             Colour::new(0, 114, 178),
             Colour::new(213, 94, 0),
@@ -72,12 +72,36 @@ impl Style {
         Self {
             colour: COLOURS[index % 6],
             marker: MARKERS[(index + index / 6) % 6],
+            size: 2.3,
+            width: 1.1,
             dash: DASHES[index % 4],
         }
     }
 
-    /// The same without dashes.
+    /// A solid line.
     pub const fn solid(self) -> Self {
-        Self { dash: &[], ..self }
+        self.dashed(&[])
+    }
+
+    pub const fn dashed(self, dash: &'static [f64]) -> Self {
+        Self { dash, ..self }
+    }
+
+    pub const fn coloured(self, colour: Colour) -> Self {
+        Self { colour, ..self }
+    }
+
+    pub const fn faded(self, alpha: f64) -> Self {
+        self.coloured(self.colour.faded(alpha))
+    }
+
+    /// Lines of this width.
+    pub const fn wide(self, width: f64) -> Self {
+        Self { width, ..self }
+    }
+
+    /// Markers of this half-width.
+    pub const fn sized(self, size: f64) -> Self {
+        Self { size, ..self }
     }
 }

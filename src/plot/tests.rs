@@ -1,0 +1,103 @@
+use super::*;
+
+fn axis(label: &str) -> Axis {
+    Axis::linear(0.0, 1.0, 5).labelled(label)
+}
+
+/// One panel with these points and a legend of one line.
+fn plot_of(points: &[(f64, f64)]) -> Plot {
+    let mut plot = Plot::stack(&axis("x"), [(200.0, axis("y"))]);
+    let points = points.iter().copied().map(Point::at).collect();
+    plot.add(0, Mark::Markers(points, Style::of(0)));
+    plot.add(0, Mark::Axes);
+    plot.add(0, Mark::Legend);
+    let names = ["a curve".to_owned()];
+    plot.legend = Some(Legend::of_curves(names, Key::MarkedLine, Place::Free));
+    plot
+}
+
+/// The upper left corner of the legend and the upper edge of the panel.
+fn places(plot: &Plot) -> ((f64, f64), f64) {
+    let (legend, above) = plot.placed_legend();
+    (legend.unwrap().corner, plot.margins.top + above)
+}
+
+#[test]
+fn a_legend_takes_the_first_corner_without_data() {
+    let corners = [(0.95, 0.05), (0.05, 0.95), (0.95, 0.95), (0.05, 0.05)];
+    let found = (0..=4).map(|taken| places(&plot_of(&corners[..taken])));
+    let found: Vec<_> = found.collect();
+    let ((right, bottom), top) = found[0];
+    assert!(right > 250.0 && bottom > 150.0);
+    assert_eq!(found[1].0, (60.0, 16.0), "upper left");
+    assert_eq!(found[2].0, (right, 16.0), "upper right");
+    assert_eq!(found[3].0, (60.0, bottom), "lower left");
+    // Above the panel, which makes room for it.
+    assert_eq!(found[4], ((54.0, 4.0), top + 17.5 + 8.0));
+}
+
+#[test]
+fn bands_and_lines_are_covered_between_their_points() {
+    let mut plot = plot_of(&[(0.05, 0.95), (0.95, 0.95), (0.05, 0.05)]);
+    let across = vec![(0.0, 0.0), (1.0, 0.1)];
+    plot.marks.insert(0, (0, Mark::Line(across, Style::of(1))));
+    assert_eq!(places(&plot).0, (54.0, 4.0));
+}
+
+#[test]
+fn a_text_over_the_edge_is_refused() {
+    let mut plot = plot_of(&[]);
+    plot.panels[0].x.label = "a label ".repeat(12);
+    let Err(LayoutError::Clipped(text)) = layout(&plot) else {
+        panic!("the label is wider than the sheet");
+    };
+    assert!(text.starts_with("a label a label"));
+    plot.panels[0].x.label = "a label".to_owned();
+    plot.legend.as_mut().unwrap().entries[0].text = "a".repeat(1_000_000);
+    let message = layout(&plot).unwrap_err().to_string();
+    assert!(message.len() < 200, "{message}");
+}
+
+#[test]
+fn a_caption_breaks_where_it_must() {
+    let mut plot = plot_of(&[]);
+    plot.set_caption(&["one".to_owned(), "two".to_owned(), "three and ".repeat(20)]);
+    assert!(plot.caption.len() > 2);
+    assert!(plot.caption[0].starts_with("one; two; three and three"));
+    assert!(layout(&plot).is_ok());
+}
+
+#[test]
+fn as_many_panels_as_can_be_drawn() {
+    let grid = |count: usize| {
+        let panel = || Panel::new(114.0, axis("x"), axis("y"));
+        let mut plot = Plot::of((0..count).map(|_| panel()).collect(), 2);
+        plot.caption = vec![String::new(); 8];
+        layout(&plot)
+    };
+    assert_eq!(check_panels(26), Ok(()));
+    assert!(grid(26).is_ok());
+    let refused = LayoutError::Panels {
+        panels: 300,
+        most: 26,
+    };
+    assert_eq!(check_panels(300), Err(refused.clone()));
+    assert_eq!(grid(300), Err(refused));
+    let mut plot = plot_of(&[]);
+    plot.panels[0].height = 3000.0;
+    assert!(matches!(layout(&plot), Err(LayoutError::Height(_))));
+}
+
+#[test]
+fn nothing_is_drawn_outside_its_panel() {
+    let mut plot = plot_of(&[]);
+    plot.marks.clear();
+    let line = vec![(-1.0, f64::NEG_INFINITY), (0.5, 0.5), (2.0, 7.0)];
+    plot.add(0, Mark::Line(line, Style::of(0)));
+    let expected = vec![(54.0, 210.0), (217.0, 110.0), (380.0, 10.0)];
+    let canvas = layout(&plot).unwrap();
+    assert_eq!(
+        canvas.shapes[1],
+        Shape::Line(expected, 1.1, Style::of(0).colour)
+    );
+}
