@@ -98,14 +98,19 @@ fn only_the_program_knows_the_terminal() {
             continue;
         }
         let text = fs::read_to_string(&path).unwrap();
-        for word in [
-            "clap::",
-            "anyhow::",
-            "indicatif::",
-            "process::exit",
-            "eprintln!",
-        ] {
+        for word in ["clap::", "anyhow::", "indicatif::", "process::exit"] {
             assert!(!text.contains(word), "{}: {word}", relative.display());
         }
+    }
+}
+
+/// `eprintln!` panics where standard error is full; the program says things by `cli::say`.
+#[test]
+fn no_message_can_panic() {
+    let mut found = Vec::new();
+    files(&source(), &mut found);
+    for path in found.iter().filter(|path| !path.ends_with("build.rs")) {
+        let text = fs::read_to_string(path).unwrap();
+        assert!(!text.contains("eprint"), "{}", path.display());
     }
 }
