@@ -13,7 +13,7 @@ pub(super) struct Truth {
 /// What came of a trial, or of several.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Account {
-    pub trips: Vec<Trip>,
+    pub trips: Vec<TripOutcome>,
     /// Starts told while the cage stood, of a time when it stood.
     pub false_motions: u64,
     /// Jam alarms without a jam.
@@ -30,7 +30,7 @@ pub(super) struct Account {
 
 /// What was said of one trip; delays in s, infinite where nothing was.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Trip {
+pub(super) struct TripOutcome {
     /// Start, stop and direction.
     pub is_found: bool,
     /// From the start to when it was told.
@@ -69,7 +69,7 @@ impl Account {
         let second = journeys.get(1).map_or(truth.to, |second| second.start);
         Self {
             trips: (journeys.iter())
-                .map(|journey| Trip::new(journey, &sightings, &alarms, tolerance))
+                .map(|journey| TripOutcome::new(journey, &sightings, &alarms, tolerance))
                 .collect(),
             false_motions: (sightings.len() - sightings.iter().filter(belongs).count()) as u64,
             false_alarms: (alarms.len() - alarms.iter().filter(is_of_a_jam).count()) as u64,
@@ -95,7 +95,7 @@ impl Account {
     }
 }
 
-impl Trip {
+impl TripOutcome {
     fn new(journey: &Journey, sightings: &[Sighting], alarms: &[&Event], tolerance: f64) -> Self {
         let is_near = |a: f64, b: f64| (a - b).abs() <= tolerance;
         let direction = Some(Direction::of(f64::from(journey.direction)));
@@ -118,6 +118,13 @@ impl Trip {
             stop_delay: sightings.iter().find_map(stop).unwrap_or(f64::INFINITY),
             alarm_delay: journey.jam().map(alarm),
         }
+    }
+}
+
+impl TripOutcome {
+    /// Whether it jammed and an alarm said so.
+    pub fn is_alarmed(&self) -> bool {
+        self.alarm_delay.is_some_and(f64::is_finite)
     }
 }
 

@@ -1,6 +1,6 @@
-//! From what came of each trial to rates and quantiles with exact intervals.
+//! From sums over trials to rates and quantiles with exact intervals.
 
-use super::account::{Account, Trip};
+use super::sums::{Delays, RideSums};
 use crate::config::Measure;
 use crate::stats::poisson;
 use crate::stats::quantile::Quantile;
@@ -21,62 +21,56 @@ pub(super) struct Estimate {
     pub high: f64,
 }
 
-/// The quantiles told of delays.
+/// The quantiles of delays that are reported.
 const QUANTILES: [(&str, f64); 3] = [("05", 0.05), ("50", 0.5), ("95", 0.95)];
 
 const HOUR: f64 = 3600.0;
 
 /// All outcomes that a measurement is about.
-pub(super) fn of(measure: Measure, accounts: &[Account], confidence: f64) -> Vec<Estimate> {
-    let all = All {
-        accounts,
-        confidence,
-    };
-    let of_trips = || {
-        let trips = |trip: &Trip| trip.is_found;
-        let found = |account: &Account| account.trips.iter().all(trips);
-        let mut estimates = vec![all.share("found", found)];
-        estimates.extend(all.delays("start_delay", |trip| Some(trip.start_delay)));
-        estimates.extend(all.delays("stop_delay", |trip| Some(trip.stop_delay)));
-        estimates
-    };
-    let of_rest = || vec![all.false_motions(), all.hours_between()];
+pub(super) fn of(measure: Measure, sums: &RideSums, confidence: f64) -> Vec<Estimate> {
+    let all = All { sums, confidence };
+    let found = || vec![all.share("found", sums.found)];
+    let start_delays = || all.delays("start_delay", &sums.start_delays);
+    let stop_delays = || all.delays("stop_delay", &sums.stop_delays);
+    let false_motions = || vec![all.false_motions(), all.hours_between()];
+    let false_alarms = || vec![all.false_alarms()];
     match measure {
-        Measure::Rides => [of_trips(), of_rest(), vec![all.false_alarms()]].concat(),
+        Measure::Rides => [
+            found(),
+            start_delays(),
+            stop_delays(),
+            false_motions(),
+            false_alarms(),
+        ]
+        .concat(),
         Measure::Rest => {
-            let disturbed = all.share("disturbed", |account| account.false_motions > 0);
-            [of_rest(), vec![disturbed, all.false_alarms()]].concat()
+            let disturbed = vec![all.share("disturbed", sums.disturbed)];
+            [false_motions(), disturbed, false_alarms()].concat()
         }
-        Measure::Tradeoff => [of_trips(), of_rest()].concat(),
+        Measure::Tradeoff => [found(), start_delays(), stop_delays(), false_motions()].concat(),
         Measure::Jam => {
-            let alarmed = |trip: &Trip| trip.alarm_delay.is_some_and(f64::is_finite);
-            let alarmed = all.share("alarmed", |account| account.trips.iter().any(alarmed));
-            let delays = all.delays("alarm_delay", |trip| trip.alarm_delay);
-            [vec![alarmed], delays, vec![all.false_alarms()]].concat()
+            let alarmed = vec![all.share("alarmed", sums.alarmed)];
+            let delays = all.delays("alarm_delay", &sums.alarm_delays);
+            [alarmed, delays, false_alarms()].concat()
         }
         Measure::SwitchedOn => vec![
-            all.share("misled", |account| account.misled),
-            all.share("knew_soon", |account| account.knew_soon),
-            all.share("knew", |account| account.knew),
+            all.share("misled", sums.misled),
+            all.share("knew_soon", sums.knew_soon),
+            all.share("knew", sums.knew),
         ],
     }
 }
 
 /// The trials of one point.
 struct All<'a> {
-    accounts: &'a [Account],
+    sums: &'a RideSums,
     confidence: f64,
 }
 
 impl All<'_> {
     /// The share of trials, with the interval of Clopper and Pearson.
-    fn share(&self, outcome: &str, is_hit: impl Fn(&Account) -> bool) -> Estimate {
-        let hits = self
-            .accounts
-            .iter()
-            .filter(|account| is_hit(account))
-            .count() as u64;
-        let trials = self.accounts.len() as u64;
+    fn share(&self, outcome: &str, hits: u64) -> Estimate {
+        let trials = self.sums.trials;
         let tally = Tally { hits, trials };
         let (low, high) = tally.interval(self.confidence);
         Estimate {
@@ -108,14 +102,9 @@ impl All<'_> {
         }
     }
 
-    fn sum(&self, number: impl Fn(&Account) -> u64) -> u64 {
-        self.accounts.iter().map(number).sum()
-    }
-
     fn false_motions(&self) -> Estimate {
-        let seconds: f64 = self.accounts.iter().map(|account| account.at_rest).sum();
-        let count = self.sum(|account| account.false_motions);
-        self.rate("false_motions", count, seconds / HOUR, "hours")
+        let hours = self.sums.at_rest as f64 / 1e9 / HOUR;
+        self.rate("false_motions", self.sums.false_motions, hours, "hours")
     }
 
     fn hours_between(&self) -> Estimate {
@@ -130,21 +119,19 @@ impl All<'_> {
     }
 
     fn false_alarms(&self) -> Estimate {
-        let count = self.sum(|account| account.false_alarms);
-        self.rate("false_alarms", count, self.accounts.len() as f64, "trials")
+        let trials = self.sums.trials as f64;
+        self.rate("false_alarms", self.sums.false_alarms, trials, "trials")
     }
 
-    /// Quantiles of a delay, counting those that were told.
-    fn delays(&self, outcome: &str, delay: impl Fn(&Trip) -> Option<f64>) -> Vec<Estimate> {
-        let trips = self.accounts.iter().flat_map(|account| &account.trips);
-        let mut delays: Vec<f64> = trips.filter_map(delay).collect();
-        delays.sort_by(f64::total_cmp);
-        let told = delays.iter().filter(|delay| delay.is_finite()).count() as u64;
+    /// Quantiles of a delay, counting those that ended.
+    fn delays(&self, outcome: &str, delays: &Delays) -> Vec<Estimate> {
+        let delays = delays.ascending();
+        let reported = delays.iter().filter(|delay| delay.is_finite()).count() as u64;
         let quantile = |(name, p)| {
             let Quantile { value, low, high } = Quantile::of(&delays, p, self.confidence);
             Estimate {
                 outcome: format!("{outcome}_{name}"),
-                count: told,
+                count: reported,
                 exposure: delays.len() as f64,
                 unit: "trips",
                 value,

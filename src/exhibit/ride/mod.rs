@@ -24,41 +24,49 @@
 mod account;
 mod estimate;
 mod row;
+mod sums;
 #[cfg(test)]
 mod tests;
-mod watch;
+mod trial;
 
 pub use row::Row;
+pub use sums::RideSums;
 
 use crate::config::{ExhibitConfig, RideStudy};
 use crate::results::Quantity;
-use account::Account;
 use rayon::prelude::*;
-use watch::Watch;
+use trial::PointTrials;
 
 /// All outcomes of every point, in the order of curves and values.
 pub fn rows(config: &ExhibitConfig, study: &RideStudy) -> Vec<Row> {
-    let trials = config.trials as usize;
-    let places: Vec<_> = (study.curves.iter().enumerate())
-        .flat_map(|(index, curve)| curve.points.iter().map(move |point| (index, point)))
-        .collect();
-    let watches: Vec<Watch> = (places.iter())
-        .map(|(_, (_, point))| Watch::new(point, config.seed))
-        .collect();
-    let accounts: Vec<Account> = (0..watches.len() * trials)
+    let curves = study.curves.iter().enumerate();
+    let points = curves.flat_map(|(index, curve)| curve.points.iter().map(move |at| (index, at)));
+    points
+        .flat_map(|(index, (x, point))| {
+            let trials = PointTrials::new(point, config.seed);
+            let estimates = estimate::of(
+                study.measure,
+                &sums(&trials, config.trials),
+                config.confidence,
+            );
+            estimates.into_iter().map(move |estimate| {
+                Row::new(study, index, *x, point, trials.size(), estimate, config)
+            })
+        })
+        .collect()
+}
+
+fn sums(point: &PointTrials, trials: u64) -> RideSums {
+    (0..trials)
         .into_par_iter()
-        .map(|task| watches[task / trials].trial((task % trials) as u64))
-        .collect();
-    let mut rows = Vec::new();
-    for (((index, (x, point)), watch), accounts) in
-        places.iter().zip(&watches).zip(accounts.chunks(trials))
-    {
-        for estimate in estimate::of(study.measure, accounts, config.confidence) {
-            let size = watch.size();
-            rows.push(Row::new(study, *index, *x, point, size, estimate, config));
-        }
-    }
-    rows
+        .fold(RideSums::default, |mut sums, trial| {
+            sums.count(&point.trial(trial));
+            sums
+        })
+        .reduce(RideSums::default, |mut sums, other| {
+            sums += other;
+            sums
+        })
 }
 
 /// Every outcome by name: that of the outcome, of its curve and of its place on the axis.

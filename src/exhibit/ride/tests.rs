@@ -1,5 +1,6 @@
 //! Hand-made events against hand-made truth, and the whole against threads.
 
+use super::RideSums;
 use super::account::{Account, Truth};
 use super::estimate::of;
 use super::{quantities, rows};
@@ -155,8 +156,12 @@ fn what_is_false() {
 fn what_is_never_told_takes_for_ever() {
     let mut silent = said();
     silent.remove(1);
-    let accounts = [account(&said()), account(&silent)];
-    let estimates = of(Measure::Rides, &accounts, 0.5);
+    let mut sums = RideSums::default();
+    sums.count(&account(&said()));
+    let mut more = RideSums::default();
+    more.count(&account(&silent));
+    sums += more;
+    let estimates = of(Measure::Rides, &sums, 0.5);
     let value = |outcome: &str| {
         let estimate = estimates
             .iter()

@@ -9,7 +9,7 @@ use crate::signal::recording::Sample;
 use rand::Rng;
 
 /// A point, ready for trials.
-pub(super) struct Watch<'a> {
+pub(super) struct PointTrials<'a> {
     point: &'a RidePoint,
     design: Design,
     seed: u64,
@@ -25,7 +25,7 @@ enum Part {
 
 const CHECKED: &str = "the config was checked";
 
-impl<'a> Watch<'a> {
+impl<'a> PointTrials<'a> {
     pub fn new(point: &'a RidePoint, seed: u64) -> Self {
         let design = point.settings.at(point.rate).expect(CHECKED);
         Self {
