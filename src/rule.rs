@@ -16,7 +16,7 @@ pub enum Rule {
 
 /// A value that breaks its rule.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{key}: must {rule}, got {got}")]
+#[error("{key}: must {rule}, got {got}{remedy}")]
 pub struct OutOfRange {
     /// The key or the flag, as the user writes it.
     pub key: String,
@@ -24,6 +24,22 @@ pub struct OutOfRange {
     pub rule: String,
     /// As the user wrote it.
     pub got: String,
+    /// Why, or what to do, in brackets after a space; or nothing.
+    pub remedy: &'static str,
+}
+
+/// A rule, and a remedy for who breaks it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Explained(pub Rule, pub &'static str);
+
+impl Explained {
+    /// As [`Rule::check`].
+    ///
+    /// # Errors
+    /// Where the value breaks the rule.
+    pub fn check(self, key: &str, value: &impl Checked) -> Result<(), OutOfRange> {
+        (self.0.check(key, value)).map_err(|error| error.explained(self.1))
+    }
 }
 
 /// A value with a rule; one that may be left out is checked where it is there.
@@ -71,7 +87,14 @@ impl OutOfRange {
             key: key.to_owned(),
             rule: rule.to_string(),
             got: got.to_string(),
+            remedy: "",
         }
+    }
+
+    /// The same with a remedy.
+    #[must_use]
+    pub fn explained(self, remedy: &'static str) -> Self {
+        Self { remedy, ..self }
     }
 }
 

@@ -17,7 +17,7 @@ pub struct MonitorArguments {
     #[arg(long, value_name = "CONFIG")]
     config: Option<PathBuf>,
     /// Start from a state that `detect --save-state` wrote, settings included.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["config", "SettingFlags"])]
+    #[arg(long, value_name = "FILE", conflicts_with = "config")]
     state: Option<PathBuf>,
     #[command(flatten)]
     flags: SettingFlags,
@@ -27,16 +27,16 @@ pub struct MonitorArguments {
 #[derive(Debug, Args, Serialize)]
 struct SettingFlags {
     /// The level of each decision [default: 0.001].
-    #[arg(long, value_name = "A")]
+    #[arg(long, value_name = "A", conflicts_with = "state")]
     alpha: Option<f64>,
     /// The order of the whitening filter, 0 to 8, or `auto`: by BIC [default: auto].
-    #[arg(long, value_name = "M", value_parser = order)]
+    #[arg(long, value_name = "M", conflicts_with = "state", value_parser = order)]
     order: Option<Order>,
     /// Seconds that a block mean spans [default: 0.05].
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", conflicts_with = "state")]
     block: Option<f64>,
     /// The slowest motion there is, m/s [default: 0.2].
-    #[arg(long, value_name = "V")]
+    #[arg(long, value_name = "V", conflicts_with = "state")]
     least_speed: Option<f64>,
 }
 

@@ -1,6 +1,6 @@
 //! Settings at one sampling rate: blocks of whole samples, the region of the decisions.
 
-use super::settings::{LONGEST_BLOCK, Settings};
+use super::settings::{LONGEST_BLOCK, Settings, WHY_SHORT};
 use crate::detect::{
     Alternative, NullLawError, NullLaws, Region, RegionError, Rule, Samples,
 };
@@ -80,8 +80,8 @@ impl Settings {
         // Rounded down up to three quarters, so that 10, 30 and 50 Hz are not on the edge between two lengths.
         let decimation = (self.monitor.block * rate + 0.25).floor().max(1.0) as usize;
         if decimation as f64 / rate > LONGEST_BLOCK {
-            let rule = "be at least 2 Hz, for a lift gains speed in about a second";
-            return Err(OutOfRange::new("rate", rule, rate).into());
+            let error = OutOfRange::new("rate", "be at least 2 Hz", rate);
+            return Err(error.explained(WHY_SHORT).into());
         }
         let sizes = &self.samples;
         let samples = Samples::new(

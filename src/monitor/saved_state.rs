@@ -195,7 +195,7 @@ mod tests {
                 &|saved, _| saved.settings.samples.shift = 3000,
             ),
             (
-                "settings.monitor.block: must lie in [0.001, 0.5] s, for a lift gains speed in about a second, got 0.000001",
+                "settings.monitor.block: must lie in [0.001, 0.5] s, got 0.000001",
                 &|saved, _| saved.settings.monitor.block = 1e-6,
             ),
             ("rate: must lie in [1, 1000000] Hz, got 0", &|saved, _| {

@@ -8,7 +8,7 @@
 //! ranks of levels need.
 
 use super::design::SettingsError;
-use crate::rule::{Checked, OutOfRange, Rule};
+use crate::rule::{Checked, Explained, OutOfRange, Rule};
 pub use crate::whiten::MOST_ORDER;
 use crate::whiten::Order;
 use schemars::JsonSchema;
@@ -20,6 +20,10 @@ pub(super) const LEAST_TRAINING: usize = 24;
 
 /// s: a lift gains speed in about a second.
 pub(super) const LONGEST_BLOCK: f64 = 0.5;
+
+pub(super) const WHY_SHORT: &str = " (a lift gains speed in about a second)";
+
+const BLOCK: Explained = Explained(Rule::Within(0.001, LONGEST_BLOCK, "s"), WHY_SHORT);
 
 /// The exact laws of more blocks take hours.
 const SIZE: Rule = Rule::Within(1.0, 200.0, "blocks");
@@ -100,7 +104,7 @@ settings! {
     /// What a motion is.
     monitor: Limits {
         /// Length of a block, s.
-        block: f64 = 0.05, Rule::Within(0.001, LONGEST_BLOCK, "s, for a lift gains speed in about a second");
+        block: f64 = 0.05, BLOCK;
         /// The slowest motion there is, m/s: a pulse of acceleration changes the speed by that much.
         least_speed: f64 = 0.2, Rule::Positive;
         /// The weakest acceleration of a start or a stop, m/s².

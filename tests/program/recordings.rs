@@ -85,7 +85,7 @@ fn finds_the_rides_of_the_example() {
             assert!((time - true_time.unwrap()).abs() < 0.2, "{ride} {truth}");
         }
         assert_eq!(ride["direction"], cells[2]);
-        assert_eq!(ride["end"], "stop");
+        assert_eq!(ride["ended"], "stop");
     }
     let table = well(detect(directory.path(), &["ride.csv"]));
     assert!(
@@ -181,7 +181,7 @@ fn the_monitor_says_the_same() {
 fn a_jam_is_an_alarm() {
     let directory = recorded(&["--trip", "up:6", "--trip", "down:20:jam"]);
     let found = found(directory.path(), &["ride.csv", "--save-state", "lift.json"]);
-    assert_eq!(found["rides"][1]["end"], "jam", "{found}");
+    assert_eq!(found["rides"][1]["ended"], "jam", "{found}");
     let arguments = ["--state", "lift.json", "--begins", "rest"];
     let said = well(monitor(
         directory.path(),
@@ -510,7 +510,7 @@ fn bad_pipes() {
     let along_z = ["ride.csv", "--axis", "z", "--save-state", "lift.json"];
     well(detect(path, &along_z));
     let state = fs::read_to_string(path.join("lift.json")).unwrap();
-    let hostile = state.replace("\"training\": 72,", "\"training\": 1000000000000,");
+    let hostile = state.replace("\"training\": 72\n", "\"training\": 1000000000000\n");
     assert_ne!(hostile, state);
     fs::write(path.join("hostile.json"), hostile).unwrap();
     fs::write(path.join("empty.json"), "").unwrap();
@@ -539,4 +539,34 @@ fn keeps_going() {
     assert_eq!(code, 0, "{err}");
     assert_eq!(out, expected);
     insta::assert_snapshot!("passed_over", err);
+}
+
+/// Warnings are best effort: where nobody can read them, the work goes on.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_error_stops_nothing() {
+    let directory = recorded(&[]);
+    let path = directory.path();
+    let bad = lines(path, ",").replacen('\n', "\nnine\n", 1);
+    fs::write(path.join("bad.txt"), bad).unwrap();
+    let run = |arguments: &str| {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let program = assert_cmd::cargo::cargo_bin("liftsim");
+        let output = Command::new(program)
+            .current_dir(path)
+            .args(arguments.split(' '))
+            .stdin(fs::File::open(path.join("bad.txt")).unwrap())
+            .stderr(full)
+            .output()
+            .unwrap();
+        (output.status.code(), output.stdout)
+    };
+    let (code, said) = run("monitor --begins rest --keep-going");
+    assert_eq!(code, Some(0));
+    assert!(said.ends_with(b"}\n"));
+    let text = "question = \"?\"\nseed = 1\ntrials = 10\n[axis]\ndelta = [1]\n";
+    fs::write(path.join("small.toml"), text).unwrap();
+    assert_eq!(run("sweep small.toml --out small --json").0, Some(0));
+    // What cannot be used is refused as ever, if without a word.
+    assert_eq!(run("sweep nowhere.toml").0, Some(2));
 }
