@@ -3,8 +3,8 @@
 //! `cargo bench` prints each; the goals are for one core of a recent x86-64 machine.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use liftsim::experiment::Config;
 use liftsim::detect::{Alternative, Crossings, Lines, NullLaws, Pooled, Rule, Samples};
+use liftsim::experiment::Config;
 use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
 use liftsim::rng::Stream;

@@ -3,9 +3,9 @@
 
 use crate::chain::{Detector, Purpose, Scenario};
 use crate::claim::{self, Pair};
+use crate::detect::{Alternative, Method, NullLaws, Region, RegionError, Rule, Samples};
 use crate::experiment::{AxisValue, Config, ConfigError};
 use crate::scenario::{RECORD_KEYS, ScenarioError};
-use crate::detect::{Alternative, Method, NullLaws, Region, RegionError, Rule, Samples};
 use crate::schedule::Schedule;
 use std::sync::Arc;
 
@@ -265,8 +265,7 @@ impl Designer {
         let known = self.laws.take();
         let laws = match known {
             Some((s, a, laws)) if s == samples && a == alternative => laws,
-            _ => NullLaws::new(alternative, &samples)
-                .map_err(RegionError::from)?,
+            _ => NullLaws::new(alternative, &samples).map_err(RegionError::from)?,
         };
         Ok(&self.laws.insert((samples, alternative, laws)).2)
     }

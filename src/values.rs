@@ -159,10 +159,16 @@ mod tests {
         assert!(Probability::new(0.0).is_ok() && Probability::new(1.0).is_ok());
         assert!(Level::new(0.0).is_err() && Level::new(1.0).is_err());
         assert!(Positive::new(0.0).is_err() && NonNegative::new(0.0).is_ok());
-        let is_refused = [Probability::new(f64::NAN).is_err(), Finite::new(f64::NAN).is_err()];
+        let is_refused = [
+            Probability::new(f64::NAN).is_err(),
+            Finite::new(f64::NAN).is_err(),
+        ];
         assert_eq!(is_refused, [true; 2]);
         let error = Probability::new(1.5).unwrap_err();
         assert_eq!(error.to_string(), "must lie in [0, 1], got 1.5");
-        assert_eq!(Size::new(0).unwrap_err().to_string(), "must be at least 1, got 0");
+        assert_eq!(
+            Size::new(0).unwrap_err().to_string(),
+            "must be at least 1, got 0"
+        );
     }
 }

@@ -51,7 +51,9 @@ fn library() -> BTreeMap<String, String> {
         let module = module.strip_suffix("::mod").unwrap_or(&module).to_owned();
         let text = fs::read_to_string(&path).unwrap();
         let text = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
-        let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
+        let code = text
+            .lines()
+            .filter(|line| !line.trim_start().starts_with("//"));
         library.insert(module, code.collect::<Vec<_>>().join("\n"));
     }
     library
@@ -83,7 +85,9 @@ fn expanded(tree: &str) -> Vec<String> {
         }
     }
     let parts = parts.iter().filter(|part| !part.trim().is_empty());
-    parts.flat_map(|part| expanded(&format!("{}{}", prefix.trim(), part.trim()))).collect()
+    parts
+        .flat_map(|part| expanded(&format!("{}{}", prefix.trim(), part.trim())))
+        .collect()
 }
 
 fn uses(text: &str) -> Vec<Use> {
@@ -97,9 +101,12 @@ fn uses(text: &str) -> Vec<Use> {
             let (path, alias) = path.split_once(" as ").unwrap_or((&path, ""));
             let last = path.rsplit("::").next().unwrap_or_default();
             uses.push(Use {
-                is_public: before.trim_end().ends_with("pub")
-                    || before.trim_end().ends_with(')'),
-                name: if alias.is_empty() { last.to_owned() } else { alias.trim().to_owned() },
+                is_public: before.trim_end().ends_with("pub") || before.trim_end().ends_with(')'),
+                name: if alias.is_empty() {
+                    last.to_owned()
+                } else {
+                    alias.trim().to_owned()
+                },
                 path: path.trim().to_owned(),
             });
         }
@@ -115,7 +122,10 @@ struct House {
 impl House {
     fn new() -> Self {
         let library = library();
-        let uses = library.iter().map(|(module, text)| (module.clone(), uses(text))).collect();
+        let uses = library
+            .iter()
+            .map(|(module, text)| (module.clone(), uses(text)))
+            .collect();
         Self { library, uses }
     }
 
@@ -142,7 +152,9 @@ impl House {
 
     /// The file that an absolute path leads to, through what modules pass on.
     fn file(&self, path: &[String], depth: usize) -> Option<String> {
-        let end = (1..=path.len()).rev().find(|&end| self.library.contains_key(&path[..end].join("::")))?;
+        let end = (1..=path.len())
+            .rev()
+            .find(|&end| self.library.contains_key(&path[..end].join("::")))?;
         let module = path[..end].join("::");
         let Some(name) = path.get(end).filter(|_| depth < 20) else {
             return Some(module);
@@ -156,13 +168,24 @@ impl House {
 
     /// The files that a file needs. What it only passes on it does not need.
     fn needs(&self, module: &str) -> BTreeSet<String> {
-        let imported = self.uses[module].iter().filter(|of| !of.is_public).map(|of| of.path.clone());
-        let words = self.library[module].split(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':'));
+        let imported = self.uses[module]
+            .iter()
+            .filter(|of| !of.is_public)
+            .map(|of| of.path.clone());
+        let words =
+            self.library[module].split(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':'));
         let named = words.filter(|word| word.contains("::") && !word.starts_with(':'));
-        let statements: BTreeSet<&str> = self.uses[module].iter().map(|of| of.path.as_str()).collect();
+        let statements: BTreeSet<&str> = self.uses[module]
+            .iter()
+            .map(|of| of.path.as_str())
+            .collect();
         let named = named
             .map(|word| word.trim_end_matches(':').to_owned())
-            .filter(|word| !statements.iter().any(|path| path.starts_with(word.as_str())));
+            .filter(|word| {
+                !statements
+                    .iter()
+                    .any(|path| path.starts_with(word.as_str()))
+            });
         imported
             .chain(named)
             .filter_map(|path| self.absolute(module, &path))
@@ -185,7 +208,9 @@ fn imports_go_down() {
     let mut needs = 0;
     for module in house.library.keys() {
         let own = room(module);
-        let floor = floors.get(own).unwrap_or_else(|| panic!("{own} has no floor: give it one"));
+        let floor = floors
+            .get(own)
+            .unwrap_or_else(|| panic!("{own} has no floor: give it one"));
         for file in house.needs(module) {
             needs += 1;
             let other = room(&file);
@@ -202,23 +227,36 @@ fn imports_go_down() {
 #[test]
 fn nothing_needs_itself() {
     let house = House::new();
-    let needs: BTreeMap<&String, BTreeSet<String>> =
-        house.library.keys().map(|module| (module, house.needs(module))).collect();
+    let needs: BTreeMap<&String, BTreeSet<String>> = house
+        .library
+        .keys()
+        .map(|module| (module, house.needs(module)))
+        .collect();
     // What is needed by nothing that is left takes part in no circle; nor does what needs nothing.
     let mut left: BTreeSet<String> = house.library.keys().cloned().collect();
     loop {
-        let needed: BTreeSet<String> = left.iter().flat_map(|module| needs[module].clone()).collect();
+        let needed: BTreeSet<String> = left
+            .iter()
+            .flat_map(|module| needs[module].clone())
+            .collect();
         let is_inside = |module: &String| {
             needed.contains(module) && needs[module].iter().any(|file| left.contains(file))
         };
-        let inside: BTreeSet<String> = left.iter().filter(|module| is_inside(module)).cloned().collect();
+        let inside: BTreeSet<String> = left
+            .iter()
+            .filter(|module| is_inside(module))
+            .cloned()
+            .collect();
         if inside.len() == left.len() {
             break;
         }
         left = inside;
     }
     let circle = |module: &String| {
-        let to: Vec<&String> = needs[module].iter().filter(|file| left.contains(*file)).collect();
+        let to: Vec<&String> = needs[module]
+            .iter()
+            .filter(|file| left.contains(*file))
+            .collect();
         format!("{module} needs {to:?}\n")
     };
     let circles: String = left.iter().map(circle).collect();
@@ -236,7 +274,13 @@ fn only_the_program_knows_the_terminal() {
             continue;
         }
         let text = fs::read_to_string(&path).unwrap();
-        for word in ["clap::", "anyhow::", "indicatif::", "process::exit", "eprintln!"] {
+        for word in [
+            "clap::",
+            "anyhow::",
+            "indicatif::",
+            "process::exit",
+            "eprintln!",
+        ] {
             assert!(!text.contains(word), "{}: {word}", relative.display());
         }
     }

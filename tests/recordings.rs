@@ -7,6 +7,7 @@
 
 use liftsim::detection::{Detection, End, Trip};
 use liftsim::monitor::{Direction, Event, Knowledge, Monitor, Settings, State};
+use liftsim::whiten::Order;
 use liftsim::signal::recording::{Reading, Recording, Sample};
 use liftsim::signal::{
     Digitiser, Drive, Ending, Journey, Law, Noise, Pickup, Ride as Simulation, Sensor,
@@ -234,7 +235,7 @@ fn choices() -> Vec<Choice> {
         Choice {
             name: "order",
             values: (0..=8).map(f64::from).collect(),
-            set: |settings, value| settings.whitening.order = Some(value as usize),
+            set: |settings, value| settings.whitening.order = Order::Fixed(value as usize),
         },
         Choice {
             name: "training",

@@ -1,8 +1,8 @@
 //! Statistical tests of whole runs. Seeds are fixed; every test states its false-failure rate.
 
 use liftsim::chain::{Decision, Observation, Trial};
-use liftsim::experiment::Config;
 use liftsim::detect::{NullLaw, Samples};
+use liftsim::experiment::Config;
 use liftsim::pilot::Pilots;
 use liftsim::plan::{Design, Hypothesis, Plan};
 use liftsim::run;

@@ -2,9 +2,9 @@
 //! branches (digitiser, filter) → courses (impulses, shape of the acceleration) → stages (Δ) →
 //! places (points that decide on the same samples).
 
-use crate::scenario::Scenario;
 use crate::detect::{Samples, Ties};
 use crate::rng::Stream;
+use crate::scenario::Scenario;
 use crate::signal::{Digitiser, Disturbance, During, Impulses, Noise, Sensor};
 use crate::simd::LANES;
 use crate::whiten::Whitening;

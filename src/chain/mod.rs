@@ -21,8 +21,8 @@ mod replay;
 mod tests;
 mod trial;
 
+pub use crate::scenario::{Calibration, Detector, Scenario};
 pub use family::{Family, Purpose, RecordTooLong};
 pub use observation::{Decision, Observation, Score, View};
 pub use replay::Replay;
-pub use crate::scenario::{Calibration, Detector, Scenario};
 pub use trial::Trial;

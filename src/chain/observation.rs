@@ -1,11 +1,11 @@
 //! What one trial gives at one point, and the decision on it.
 
-use crate::scenario::Scenario;
 use super::trial::Keys;
 use crate::detect::{
     Alternative, Baseline, Clairvoyant, Forward, Method, Pooled, Region, Samples, Statistics, Ties,
     block_means, student_t, variance_ratio,
 };
+use crate::scenario::Scenario;
 use crate::signal::During;
 use crate::whiten::{step, whiten};
 use std::sync::Arc;

@@ -3,9 +3,9 @@
 use super::batch::observe;
 use super::family::{Family, Purpose, RecordTooLong};
 use super::observation::{Decision, Observation};
-use crate::scenario::Scenario;
 use super::trial::Trial;
 use crate::detect::{Samples, Statistics, Ties};
+use crate::scenario::Scenario;
 use crate::simd::{LANES, Wide};
 use crate::whiten::Order;
 

@@ -46,7 +46,10 @@ pub fn pairs(claims: &[Claim], scope: &Scope, points: &[Vec<Option<usize>>]) -> 
 
 /// How many pairs claims ask for at most.
 pub fn number_of_pairs(claims: &[Claim], scope: &Scope) -> usize {
-    claims.iter().map(|claim| compared(&claim.test, scope).len()).sum()
+    claims
+        .iter()
+        .map(|claim| compared(&claim.test, scope).len())
+        .sum()
 }
 
 /// What a test compares, each a curve and a value of the axis.

@@ -1,7 +1,7 @@
 //! Every verdict of every test on made-up results, and the boundaries between verdicts.
 
 use super::*;
-use crate::config::Config;
+use crate::experiment::Config;
 use crate::plan::Plan;
 use crate::results::Row;
 use crate::stats::tally::Tally;
@@ -33,7 +33,7 @@ fn judge_first(
     rows: &[Row],
     comparisons: Vec<Comparison>,
 ) -> Result<Judgement, ClaimError> {
-    let outcomes = rows.iter().map(|row| row.outcome(config.axis.parameter));
+    let outcomes = rows.iter().map(|row| row.outcome(config.parameter()));
     let evidence = Evidence {
         scope: config.scope(),
         outcomes: outcomes.collect(),

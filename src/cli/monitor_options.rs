@@ -5,8 +5,8 @@ use anyhow::anyhow;
 use clap::Args;
 use liftsim::experiment::MonitorOptions;
 use liftsim::monitor::{MOST_ORDER, STRONGEST, SavedState};
-use serde::Serialize;
 use liftsim::whiten::Order;
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// How the monitor is set up. Flags go over the config, the config over the defaults.

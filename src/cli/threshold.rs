@@ -4,8 +4,8 @@ use super::output::Output;
 use super::{Failure, Outcome, print, table};
 use clap::{Args, ValueEnum};
 use liftsim::detect::{Alternative, NullLaws, Region, Rule, Samples};
-use liftsim::study::rows::boundary;
 use liftsim::figure::{region, render};
+use liftsim::study::rows::boundary;
 use serde_json::json;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -99,7 +99,9 @@ impl Threshold {
             let plot = region::plot(&laws, &boundary(&rule, &region), &title);
             let version = env!("CARGO_PKG_VERSION");
             let provenance = format!("liftsim {version}, rule {rule}, {}", title.join("; "));
-            figure.draw(&render(&plot, &provenance).map_err(Failure::run)?)?.publish()?;
+            figure
+                .draw(&render(&plot, &provenance).map_err(Failure::run)?)?
+                .publish()?;
         }
         print(&text)?;
         Ok(ExitCode::SUCCESS)

@@ -37,9 +37,7 @@ struct Steps {
 /// Why an axis was refused.
 #[derive(Debug, thiserror::Error)]
 enum AxisError {
-    #[error(
-        "axis: exactly one key says what is swept, got {0} (for instance delta = [0.0, 1.0])"
-    )]
+    #[error("axis: exactly one key says what is swept, got {0} (for instance delta = [0.0, 1.0])")]
     Keys(usize),
     #[error("axis: unknown parameter {0}")]
     Unknown(String),
@@ -93,7 +91,9 @@ impl Axis {
     /// What is wrong with a key that is swept and set.
     pub fn swept_and_set(&self) -> String {
         let name = &self.name;
-        format!("the axis sweeps {name}, so it cannot be set here too (take it out here, or sweep another)")
+        format!(
+            "the axis sweeps {name}, so it cannot be set here too (take it out here, or sweep another)"
+        )
     }
 }
 
@@ -131,7 +131,10 @@ fn values(name: &str, node: &Node) -> Result<Vec<Node>, AxisError> {
                 let name = name.to_owned();
                 AxisError::Value { name, refusal }
             })?;
-            let place = |value| Node { span: node.span.clone(), value };
+            let place = |value| Node {
+                span: node.span.clone(),
+                value,
+            };
             range(name, &steps)?.into_iter().map(place).collect()
         }
         _ => vec![node.clone()],
@@ -160,7 +163,11 @@ fn range(name: &str, &Steps { from, to, step }: &Steps) -> Result<Vec<Value>, Ax
     let value = |i: usize| {
         let value = from + i as f64 * step;
         // What rounding leaves of a zero is a zero.
-        let value = if value.abs() < 1e-9 * step { 0.0 } else { twelve_digits(value) };
+        let value = if value.abs() < 1e-9 * step {
+            0.0
+        } else {
+            twelve_digits(value)
+        };
         if is_whole && value.fract() == 0.0 && value.abs() < 1e15 {
             Value::Integer(value as i64)
         } else {
@@ -182,7 +189,10 @@ mod tests {
     fn numbers(value: &str) -> Vec<f64> {
         let root = Node::parse(&format!("x = {value}")).unwrap();
         let axis = Axis::read(&root, ["x"]).unwrap();
-        axis.values.iter().map(|value| value.number().unwrap()).collect()
+        axis.values
+            .iter()
+            .map(|value| value.number().unwrap())
+            .collect()
     }
 
     #[test]

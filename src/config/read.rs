@@ -86,10 +86,7 @@ impl Error for Refusal {
 
     fn unknown_field(got: &str, known: &'static [&'static str]) -> Self {
         let known = known.iter().copied();
-        Self::custom(format_args!(
-            "unknown key {}",
-            among(&shorten(got), known)
-        ))
+        Self::custom(format_args!("unknown key {}", among(&shorten(got), known)))
     }
 
     fn missing_field(name: &'static str) -> Self {
@@ -209,7 +206,10 @@ impl<'de> Deserializer<'de> for &'de Node {
     ) -> Result<V::Value, Refusal> {
         let choice = match &self.value {
             Value::Table(table) if table.len() != 1 => {
-                let second = table.values().map(|(span, _)| span.clone()).max_by_key(|s| s.start);
+                let second = table
+                    .values()
+                    .map(|(span, _)| span.clone())
+                    .max_by_key(|s| s.start);
                 let refusal = Refusal::custom(format_args!(
                     "must have exactly one of {}, got {}",
                     known.join(", "),
@@ -329,7 +329,9 @@ impl<'de> Choice<'de> {
 
     fn needs_parameters(&self) -> Refusal {
         let name = self.name;
-        Refusal::custom(format_args!("needs its parameters (write {{ {name} = ... }})"))
+        Refusal::custom(format_args!(
+            "needs its parameters (write {{ {name} = ... }})"
+        ))
     }
 }
 

@@ -180,7 +180,12 @@ impl Source {
     }
 
     /// A conflict of values of `tree`; `otherwise` is where it stands if nothing to blame is written there.
-    pub fn conflict(&self, tree: &Node, conflict: Conflict, otherwise: &Range<usize>) -> ConfigError {
+    pub fn conflict(
+        &self,
+        tree: &Node,
+        conflict: Conflict,
+        otherwise: &Range<usize>,
+    ) -> ConfigError {
         let blamed = conflict.keys.iter().find_map(|path| tree.get(path));
         let span = conflict.span.or(blamed.map(|node| node.span.clone()));
         self.at(Some(span.unwrap_or(otherwise.clone())), conflict.error)

@@ -138,7 +138,9 @@ mod tests {
 
     #[test]
     fn refusals() {
-        for [reference, shift, scale, decimation] in [[0, 1, 1, 1], [1, 0, 1, 1], [1, 1, 0, 1], [1, 1, 1, 0]] {
+        for [reference, shift, scale, decimation] in
+            [[0, 1, 1, 1], [1, 0, 1, 1], [1, 1, 0, 1], [1, 1, 1, 0]]
+        {
             assert!(Samples::new(reference, shift, scale, 0, decimation).is_err());
         }
     }

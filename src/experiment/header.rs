@@ -105,9 +105,10 @@ impl Header {
                 Err(Unfit { remedy, ..unfit }.into())
             }
             (Some(trials), None) => Ok(trials),
-            (None, Some(half_width)) => {
-                Ok(trials_for_half_width(half_width.get(), self.confidence.get()))
-            }
+            (None, Some(half_width)) => Ok(trials_for_half_width(
+                half_width.get(),
+                self.confidence.get(),
+            )),
             (None, None) => Ok(DEFAULT_TRIALS),
         }
     }

@@ -14,14 +14,14 @@ mod tests;
 mod trace;
 
 pub use header::{DEFAULT_PILOT_TRIALS, Header, MOST_PILOT_TRIALS};
+pub use monitor_options::MonitorOptions;
 pub use ride::{Measure, RideCurve, RidePoint, RideStudy};
 pub use sweep::{Config, Curve};
 pub use tables::{ExhibitKind, Search};
 pub use trace::{Part, Trace};
-pub use monitor_options::MonitorOptions;
 
-pub use crate::config::{Axis, AxisValue, ConfigError};
 use crate::claim::{Narrative, Scope};
+pub use crate::config::{Axis, AxisValue, ConfigError};
 use crate::config::{Conflict, Node, Source, Unfit};
 use crate::detect::RegionError;
 use crate::scenario::{Scenario, ScenarioError, Sections};
@@ -126,8 +126,14 @@ impl File {
             return Err(source.at(Some(span.clone()), ExperimentError::Unknown(among)));
         }
         let header: Header = source.read(&root.only(|key| Header::KEYS.contains(&key)), "")?;
-        let trials = (header.trials()).map_err(|conflict| source.conflict(&root, conflict, &root.span))?;
-        Ok(Self { source, root, header, trials })
+        let trials =
+            (header.trials()).map_err(|conflict| source.conflict(&root, conflict, &root.span))?;
+        Ok(Self {
+            source,
+            root,
+            header,
+            trials,
+        })
     }
 
     /// What the sections of the file say, laid under those of a curve.
@@ -172,12 +178,10 @@ fn scenario(
     otherwise: &Range<usize>,
 ) -> Result<Scenario, ConfigError> {
     let sections: Sections = source.read(laid, "")?;
-    sections
-        .scenario(pilot)
-        .map_err(|error: ScenarioError| {
-            let conflict = Conflict::of(error.keys().iter().copied(), error);
-            source.conflict(laid, conflict, otherwise)
-        })
+    sections.scenario(pilot).map_err(|error: ScenarioError| {
+        let conflict = Conflict::of(error.keys().iter().copied(), error);
+        source.conflict(laid, conflict, otherwise)
+    })
 }
 
 impl Experiment {
@@ -322,9 +326,15 @@ fn check_heeded(file: &File, kind: &ExhibitKind) -> Result<(), ConfigError> {
         }));
     match strange.next() {
         Some((key, span)) => {
-            let span = if key == "curve" { file.key_span(&key).unwrap_or(span) } else { span };
+            let span = if key == "curve" {
+                file.key_span(&key).unwrap_or(span)
+            } else {
+                span
+            };
             let kind = kind.name();
-            Err(file.source.at(Some(span), ExperimentError::Unheeded { key, kind }))
+            Err(file
+                .source
+                .at(Some(span), ExperimentError::Unheeded { key, kind }))
         }
         None => Ok(()),
     }

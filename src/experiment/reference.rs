@@ -35,9 +35,19 @@ pub fn schema() -> Value {
         json!({ "description": description, "type": "array", "items": curve }),
     );
     let studies = tables::schemas(&mut generator);
-    let names: Vec<&str> = ["axis"].into_iter().chain(studies.iter().map(|(name, _)| *name)).collect();
-    let one_thing: Vec<Value> = names.iter().map(|name| json!({ "required": [name] })).collect();
-    all.extend(studies.into_iter().map(|(name, schema)| (name.to_owned(), schema)));
+    let names: Vec<&str> = ["axis"]
+        .into_iter()
+        .chain(studies.iter().map(|(name, _)| *name))
+        .collect();
+    let one_thing: Vec<Value> = names
+        .iter()
+        .map(|name| json!({ "required": [name] }))
+        .collect();
+    all.extend(
+        studies
+            .into_iter()
+            .map(|(name, schema)| (name.to_owned(), schema)),
+    );
     all.extend(sections);
     json!({
         "$schema": "http://json-schema.org/draft-07/schema#",
@@ -67,7 +77,8 @@ fn at(sections: &Map<String, Value>, path: &str) -> Value {
 
 /// An axis of one of these keys, each with the schema of its values.
 pub(super) fn axis<'a>(keys: impl Iterator<Item = (&'a str, Value)>) -> Value {
-    let values = |value: Value| json!({ "anyOf": [
+    let values = |value: Value| {
+        json!({ "anyOf": [
         { "type": "array", "minItems": 1, "items": value },
         {
             "type": "object",
@@ -80,8 +91,11 @@ pub(super) fn axis<'a>(keys: impl Iterator<Item = (&'a str, Value)>) -> Value {
             "additionalProperties": false,
         },
         value,
-    ] });
-    let keys: Map<String, Value> = keys.map(|(name, value)| (name.to_owned(), values(value))).collect();
+    ] })
+    };
+    let keys: Map<String, Value> = keys
+        .map(|(name, value)| (name.to_owned(), values(value)))
+        .collect();
     json!({
         "description": "What the x axis sweeps, exactly one key: a list of values, or { from, to, step }.",
         "type": "object",
@@ -97,17 +111,28 @@ pub fn markdown() -> String {
     let schema = schema();
     let empty = Map::new();
     let all = schema["properties"].as_object().unwrap_or(&empty);
-    let is_table = |schema: &Value| schema["type"] == "object" || schema["items"]["type"] == "object";
+    let is_table =
+        |schema: &Value| schema["type"] == "object" || schema["items"]["type"] == "object";
     let mut text = HEAD.to_owned();
     let plain: Vec<_> = all.iter().filter(|(_, schema)| !is_table(schema)).collect();
     text += &keys("the top of the file", "", plain.into_iter());
     for (name, schema) in all.iter().filter(|(_, schema)| is_table(schema)) {
-        let table = if schema["items"]["type"] == "object" { &schema["items"] } else { schema };
-        let title = if std::ptr::eq(table, schema) { format!("[{name}]") } else { format!("[[{name}]]") };
+        let table = if schema["items"]["type"] == "object" {
+            &schema["items"]
+        } else {
+            schema
+        };
+        let title = if std::ptr::eq(table, schema) {
+            format!("[{name}]")
+        } else {
+            format!("[[{name}]]")
+        };
         let description = schema["description"].as_str().unwrap_or_default();
         let own = table["properties"].as_object().unwrap_or(&empty);
         // A curve's sections are those of the file.
-        let entries = own.iter().filter(|(key, _)| name != "curve" || !all.contains_key(*key));
+        let entries = own
+            .iter()
+            .filter(|(key, _)| name != "curve" || !all.contains_key(*key));
         text += &keys(&title, description, entries);
     }
     text
@@ -136,20 +161,28 @@ fn keys<'a>(
             value => format!("`{value}`"),
         };
         let kind = kind(schema).replace('|', "\\|");
-        writeln!(text, "| `{key}` | {kind} | {default} | {meaning} |").expect("a string takes every line");
+        writeln!(text, "| `{key}` | {kind} | {default} | {meaning} |")
+            .expect("a string takes every line");
     }
     text + "\n"
 }
 
 fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|")
+    text.split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ")
+        .replace('|', "\\|")
 }
 
 /// What a value looks like, in words.
 fn kind(schema: &Value) -> String {
     for key in ["anyOf", "oneOf"] {
         if let Some(choices) = schema[key].as_array() {
-            let choices: Vec<String> = choices.iter().map(kind).filter(|kind| kind != "null").collect();
+            let choices: Vec<String> = choices
+                .iter()
+                .map(kind)
+                .filter(|kind| kind != "null")
+                .collect();
             return choices.join(", ");
         }
     }
@@ -171,7 +204,11 @@ fn kind(schema: &Value) -> String {
         },
         Some("object") => {
             let keys = schema["properties"].as_object();
-            let keys: Vec<&str> = keys.into_iter().flat_map(Map::keys).map(String::as_str).collect();
+            let keys: Vec<&str> = keys
+                .into_iter()
+                .flat_map(Map::keys)
+                .map(String::as_str)
+                .collect();
             format!("`{{ {} }}`", keys.join(", "))
         }
         Some("integer") => format!("whole number{}", bounds(schema)),

@@ -119,7 +119,12 @@ impl Config {
     /// # Errors
     /// Where a parameter is out of range or does not fit another.
     pub fn scenario(&self, curve: usize, value: &AxisValue) -> Result<Scenario, ConfigError> {
-        scenario(&self.source, &self.laid(curve, value), self.pilot, &self.axis.span)
+        scenario(
+            &self.source,
+            &self.laid(curve, value),
+            self.pilot,
+            &self.axis.span,
+        )
     }
 
     /// The sections of a curve with a value of the axis laid over them.
@@ -161,12 +166,19 @@ fn scope(axis: &Axis, curves: &[Curve]) -> Scope {
         panel: curve.panel.clone(),
         series: curve.series.clone(),
     };
-    let values = axis.values.iter().map(|value| (value.to_string(), value.number()));
+    let values = axis
+        .values
+        .iter()
+        .map(|value| (value.to_string(), value.number()));
     Scope {
         curves: curves.iter().map(curve).collect(),
         axis: claim::Axis {
             name: parameter.name,
-            symbol: if parameter.symbol.is_empty() { parameter.name } else { parameter.symbol },
+            symbol: if parameter.symbol.is_empty() {
+                parameter.name
+            } else {
+                parameter.symbol
+            },
             values: values.collect(),
         },
     }
@@ -219,7 +231,11 @@ fn curves(file: &File, axis: &Axis) -> Result<Vec<Curve>, ConfigError> {
             Err(source.at(span, Unfit::new(path, rule, got)))
         };
         if label.trim().is_empty() || curves.iter().any(|other| other.label == label) {
-            return refuse("label", "be there and differ from every other", &format!("\"{label}\""));
+            return refuse(
+                "label",
+                "be there and differ from every other",
+                &format!("\"{label}\""),
+            );
         }
         let curve = Curve {
             label,
@@ -229,10 +245,18 @@ fn curves(file: &File, axis: &Axis) -> Result<Vec<Curve>, ConfigError> {
         };
         let first = curves.first().unwrap_or(&curve);
         if curve.panel.is_some() != first.panel.is_some() {
-            return refuse("panel", "be named by every curve or by none", curve.panel.as_deref().unwrap_or("none"));
+            return refuse(
+                "panel",
+                "be named by every curve or by none",
+                curve.panel.as_deref().unwrap_or("none"),
+            );
         }
         let is_same = |other: &Curve| other.panel == curve.panel && other.series == curve.series;
-        if let Some(series) = curve.series.as_deref().filter(|_| curves.iter().any(is_same)) {
+        if let Some(series) = curve
+            .series
+            .as_deref()
+            .filter(|_| curves.iter().any(is_same))
+        {
             return refuse("series", "differ from the others of its panel", series);
         }
         curves.push(curve);

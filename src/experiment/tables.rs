@@ -178,7 +178,8 @@ impl ExhibitKind {
             "autocorrelation" => {
                 let AutocorrelationTable { lags, length } = source.read(table, name)?;
                 within("autocorrelation.length", length, 2..=LONGEST).map_err(refused)?;
-                within("autocorrelation.lags", lags, 1..=length.min(10_000) - 1).map_err(refused)?;
+                within("autocorrelation.lags", lags, 1..=length.min(10_000) - 1)
+                    .map_err(refused)?;
                 Self::Autocorrelation { lags, length }
             }
             "trace" => Self::Trace(Trace::checked(source.read(table, name)?).map_err(refused)?),
@@ -188,7 +189,9 @@ impl ExhibitKind {
             }
             "region" => {
                 let RegionTable { rules } = source.read(table, name)?;
-                Self::Region { rules: with_regions(rules).map_err(refused)? }
+                Self::Region {
+                    rules: with_regions(rules).map_err(refused)?,
+                }
             }
             "independence" => {
                 let IndependenceTable { sizes } = source.read(table, name)?;
@@ -204,8 +207,16 @@ impl ExhibitKind {
             "operating_point" => {
                 let table: OperatingPointTable = source.read(table, name)?;
                 check_search(&table).map_err(refused)?;
-                let OperatingPointTable { sizes, power, delta } = table;
-                Self::OperatingPoint(Search { sizes, power, delta: [delta.from, delta.to] })
+                let OperatingPointTable {
+                    sizes,
+                    power,
+                    delta,
+                } = table;
+                Self::OperatingPoint(Search {
+                    sizes,
+                    power,
+                    delta: [delta.from, delta.to],
+                })
             }
             _ => Self::Ride(ride::read(source, root)?),
         })
@@ -332,7 +343,9 @@ fn check_sizes(sizes: &[[usize; 3]]) -> Result<(), Conflict> {
             return unfit("be at least 1 each".to_owned());
         }
         if assignments(*triple).is_none() {
-            return unfit(format!("have at most {MOST_ASSIGNMENTS} assignments of ranks"));
+            return unfit(format!(
+                "have at most {MOST_ASSIGNMENTS} assignments of ranks"
+            ));
         }
     }
     distinct(PATH, "[N, M1, M2]", sizes, |triple| format!("{triple:?}"))
@@ -358,18 +371,29 @@ fn check_nu(nu: &[f64]) -> Result<(), Conflict> {
         let rule = format!("list at most {MOST_CURVES} probabilities");
         return Err(Unfit::new(PATH, rule, nu.len()).into());
     }
-    each(PATH, nu, "lie strictly between 0 and 1", |nu| *nu > 0.0 && *nu < 1.0)?;
+    each(PATH, nu, "lie strictly between 0 and 1", |nu| {
+        *nu > 0.0 && *nu < 1.0
+    })?;
     distinct(PATH, "probability", nu, f64::to_string)
 }
 
 fn check_search(table: &OperatingPointTable) -> Result<(), Conflict> {
-    let OperatingPointTable { sizes, power, delta } = table;
+    let OperatingPointTable {
+        sizes,
+        power,
+        delta,
+    } = table;
     distinct("operating_point.sizes", "size", sizes, usize::to_string)?;
     distinct("operating_point.power", "power", power, f64::to_string)?;
-    each("operating_point.sizes", sizes, "be at least 1", |size| *size > 0)?;
-    each("operating_point.power", power, "lie strictly between 0 and 1", |power| {
-        (f64::EPSILON..1.0).contains(power)
+    each("operating_point.sizes", sizes, "be at least 1", |size| {
+        *size > 0
     })?;
+    each(
+        "operating_point.power",
+        power,
+        "lie strictly between 0 and 1",
+        |power| (f64::EPSILON..1.0).contains(power),
+    )?;
     if delta.from >= delta.to {
         let got = format!("{} to {}", delta.from, delta.to);
         return Err(Unfit::new("operating_point.delta", "rise from `from` to `to`", got).into());
@@ -411,7 +435,10 @@ pub(super) fn schemas(generator: &mut SchemaGenerator) -> Vec<(&'static str, Val
         ImpulseLawTable::json_schema(generator),
         OperatingPointTable::json_schema(generator),
     ];
-    let mut schemas: Vec<Value> = schemas.into_iter().map(schemars::Schema::to_value).collect();
+    let mut schemas: Vec<Value> = schemas
+        .into_iter()
+        .map(schemars::Schema::to_value)
+        .collect();
     schemas.push(ride::schema(generator));
     ExhibitKind::NAMES.into_iter().zip(schemas).collect()
 }

@@ -1,8 +1,10 @@
 //! How the parts of a config are laid over each other.
 
-use super::{Claim, Config, Narrative, Parameter, Test};
-use crate::chain::{Calibration, Detector, Scenario};
+use super::Config;
+use crate::claim::Test;
 use crate::detect::{Alternative, Method, Rule, Samples, Ties};
+use crate::scenario::PARAMETERS;
+use crate::scenario::{Calibration, Detector, Scenario};
 use crate::signal::{
     DeltaAt, Digitiser, Disturbance, During, Impulses, Law, Motion, Noise, Profile, Sensor,
 };
@@ -62,7 +64,7 @@ fn duration_follows_the_samples() {
 #[test]
 fn all_samples_moves_three_sizes() {
     let config = config("[axis]\nall_samples = [20]\n");
-    assert_eq!(config.axis.parameter, Parameter::AllSamples);
+    assert_eq!(config.parameter().name, "all_samples");
     let samples = config.scenario(0, &config.axis.values[0]).unwrap().samples;
     assert_eq!(samples.to_string(), "20/20/20");
 }
@@ -70,7 +72,7 @@ fn all_samples_moves_three_sizes() {
 /// Every parameter an axis can sweep does what the key of that name does in its section.
 #[test]
 fn every_parameter_does_what_its_key_does() {
-    for &(name, _) in Parameter::ALL {
+    for name in PARAMETERS.iter().filter(|p| p.is_swept()).map(|p| p.name) {
         let (section, value) = match name {
             "delta" | "duration" | "offset" => ("motion", "7"),
             "nu" => ("impulses", "0.25"),
@@ -98,7 +100,7 @@ fn every_parameter_does_what_its_key_does() {
         let axis_says = config(&format!("[axis]\n{name} = [{value}]\n"));
         let scenario = |config: &Config| config.scenario(0, &config.axis.values[0]).unwrap();
         assert_eq!(scenario(&section_says), scenario(&axis_says), "{name}");
-        assert_eq!(axis_says.axis.parameter.name(), name);
+        assert_eq!(axis_says.parameter().name, name);
         let default = config("[axis]\nnu = [0.1]\n");
         assert_ne!(scenario(&axis_says), scenario(&default), "{name}");
     }
@@ -226,59 +228,37 @@ fn duration_follows_the_offset() {
 /// What a claim leaves out, and what it says in full; a text in several lines is one paragraph.
 #[test]
 fn claims_say_what_they_say() {
-    let file = |story: &str, claims: &str| {
+    let file = |report: &str, claims: &str| {
         let axis =
             "[axis]\ndelta = [0.0, 1.0]\n[[curve]]\nlabel = \"a\"\n[[curve]]\nlabel = \"b\"\n";
-        config(&format!("{story}{axis}{claims}")).narrative
+        config(&format!("{report}{axis}{claims}")).narrative
     };
-    let nothing = Narrative {
-        title: None,
-        text: None,
-        order: 1000,
-        claims: Vec::new(),
-    };
-    assert_eq!(file("", ""), nothing);
     let claim = |test: &str| {
         let claim = format!("[[claim]]\nclaim = \"c\"\nsource = \"s\"\ntest = {test}\n");
         file("", &claim).claims[0].clone()
     };
-    let labels =
-        |labels: &[&str]| -> Vec<String> { labels.iter().map(|&label| label.to_owned()).collect() };
-    let default = Claim {
-        claim: "c".to_owned(),
-        source: Some("s".to_owned()),
-        level: 0.001,
-        margin: 0.005,
-        test: Test::Grows {
-            curves: labels(&["a", "b"]),
-        },
+    let nothing = file("", "");
+    assert!(nothing.title.is_none() && nothing.text.is_none() && nothing.claims.is_empty());
+    let short = claim("\"grows\"");
+    assert_eq!((short.level.get(), short.margin.get()), (0.001, 0.005));
+    assert_eq!(short.test, Test::Grows { curves: None });
+    assert_eq!(claim("{ grows = {} }"), short);
+    let some = claim("{ alpha_held = { curves = [\"b\"] } }").test;
+    let Test::AlphaHeld { curves, excess } = some else {
+        panic!("{some:?}");
     };
-    assert_eq!(claim("\"grows\""), default);
-    assert_eq!(claim("{ grows = {} }"), default);
-    let curves = labels(&["b"]);
-    let some = "{ alpha_held = { curves = [\"b\"], excess = 2 } }";
-    assert_eq!(
-        claim(some).test,
-        Test::AlphaHeld {
-            curves,
-            excess: 2.0
-        }
-    );
-    let gain = Test::Gain {
-        first: "b".to_owned(),
-        second: "a".to_owned(),
-        power: 0.9,
-        from: 0.0,
+    assert_eq!((curves, excess.get()), (Some(vec!["b".to_owned()]), 1.2));
+    let gain = claim("{ gain = { first = \"b\", second = \"a\" } }").test;
+    let Test::Gain { power, from, .. } = gain else {
+        panic!("{gain:?}");
     };
-    assert_eq!(
-        claim("{ gain = { first = \"b\", second = \"a\" } }").test,
-        gain
-    );
-    let told = file(
+    assert_eq!((power.get(), from), (0.9, 0.0));
+    let full = file(
         "title = \"t\"\norder = 3\ntext = \"\"\"\none\ntwo\"\"\"\n",
-        "[[claim]]\nclaim = \"c\"\nsource = \"s\"\nlevel = 0.05\nmargin = 0\ntest = \"grows\"\n",
+        "[[claim]]\nclaim = \"c\"\nlevel = 0.05\nmargin = 0\ntest = \"grows\"\n",
     );
-    assert_eq!((told.title.as_deref(), told.order), (Some("t"), 3));
-    assert_eq!(told.text.as_deref(), Some("one two"));
-    assert_eq!((told.claims[0].level, told.claims[0].margin), (0.05, 0.0));
+    assert_eq!((full.title.as_deref(), full.order), (Some("t"), 3));
+    assert_eq!(full.text.as_deref(), Some("one two"));
+    let claim = &full.claims[0];
+    assert_eq!((claim.level.get(), claim.margin.get()), (0.05, 0.0));
 }

@@ -98,7 +98,10 @@ impl From<PhaseTable> for Part {
             PhaseTable::Inertial(length) => (Phase::Inertial, length),
             PhaseTable::Braking(length) => (Phase::Braking, length),
         };
-        Self { phase, length: length.get() }
+        Self {
+            phase,
+            length: length.get(),
+        }
     }
 }
 
@@ -152,7 +155,13 @@ impl Trace {
         let accelerated = self.parts.iter().filter(|part| part.phase.sign() != 0.0);
         let shortest = accelerated.map(|part| part.length as i64).min();
         let value = Value::Integer(shortest.unwrap_or(1));
-        sections.set("motion.duration", Node { span: table.clone(), value });
+        sections.set(
+            "motion.duration",
+            Node {
+                span: table.clone(),
+                value,
+            },
+        );
     }
 
     /// Training, X, Y₁ and Y₂ must lie inside the ride.

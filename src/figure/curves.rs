@@ -241,18 +241,18 @@ fn rows_of(rows: &[Row], curve: usize) -> Vec<&Row> {
 }
 
 fn is_whitened(rows: &[&Row]) -> bool {
-    rows.iter().all(|row| row.values.text("delta_at") == "whitened")
+    rows.iter()
+        .all(|row| row.values.text("delta_at") == "whitened")
 }
 
 /// 1 − β, where the axis is Δ in the record and every curve has the same sensor, undecimated.
 fn whitened_unit(sweep: &Sweep, rows: &[&Row]) -> Option<f64> {
     let first = rows[0];
-    let agrees =
-        |row: &&Row| {
-            let is_same = |name| row.values.cell(name) == first.values.cell(name);
-            let is_plain = row.values.number("decimation") == 1.0;
-            row.values.text("delta_at") == "record" && is_same("sensor") && is_plain
-        };
+    let agrees = |row: &&Row| {
+        let is_same = |name| row.values.cell(name) == first.values.cell(name);
+        let is_plain = row.values.number("decimation") == 1.0;
+        row.values.text("delta_at") == "record" && is_same("sensor") && is_plain
+    };
     let is_one = sweep.axis.name == "delta" && rows.iter().all(agrees);
     sweep.curves[first.curve - 1].step_gain.filter(|_| is_one)
 }

@@ -99,7 +99,12 @@ fn values(columns: &[Column], value: fn(&Column) -> (f64, f64)) -> Mark {
 
 /// A bar for each of X, Y₁ and Y₂, and a dashed line where the decision was made.
 fn add_decision(plot: &mut Plot, decision: &Decision, reported: f64) {
-    for (index, span) in decision.samples.iter().enumerate() {
+    let samples = [
+        decision.reference,
+        Some(decision.shift),
+        Some(decision.scale),
+    ];
+    for (index, span) in samples.iter().enumerate() {
         if let Some(span) = *span {
             let below = 6.0 + 5.0 * index as f64;
             plot.add(1, Mark::Bar(span, below, sample_colour(index)));

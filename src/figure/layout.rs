@@ -2,9 +2,9 @@
 
 use super::phases::add_phases;
 use crate::chain::Scenario;
-use crate::study::layout::Row;
 use crate::plot::{Axis, Block, Mark, Plot, Style};
 use crate::signal::{Motion, Profile};
+use crate::study::layout::Row;
 
 const UPPER: f64 = 84.0;
 const LOWER: f64 = 74.0;

@@ -2,8 +2,8 @@
 //! C_W(T) of each region as a line of its own colour, dash and width.
 
 use crate::detect::{Alternative, NullLaws, Samples};
-use crate::study::region::Row;
 use crate::plot::{Axis, Colour, Entry, Key, Legend, Mark, Place, Plot, Style, power_of_ten};
+use crate::study::region::Row;
 
 const HEIGHT: f64 = 238.0;
 /// Cells less probable than this are as pale as it.

@@ -3,11 +3,11 @@
 
 use super::rates::{Curve, add_bands};
 use crate::experiment::Measure;
-use crate::study::ride::Row;
 use crate::format::thousands;
 use crate::plot::{
     Axis, Key, Legend, Limit, Mark, Place, Plot, Point, Style, ends, is_long, literal,
 };
+use crate::study::ride::Row;
 
 /// What was asked of rides along an axis.
 #[derive(Clone, Copy, Debug)]

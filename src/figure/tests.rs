@@ -1,12 +1,12 @@
 //! What the pictures of the committed results say, without pixels.
 
 use super::curves::{Sweep, SweepCurve};
-use crate::scenario::{Parameter, parameter};
 use super::*;
-use crate::experiment::{ExhibitConfig, ExhibitKind, Experiment};
 use crate::detect::NullLaws;
+use crate::experiment::{ExhibitConfig, ExhibitKind, Experiment};
 use crate::plot::{Limit, Mark, Panel, Place, Point};
 use crate::results::Row;
+use crate::scenario::{Parameter, parameter};
 use serde::de::DeserializeOwned;
 use std::path::{Path, PathBuf};
 
@@ -106,8 +106,12 @@ fn a_sweep_of_power_shows_each_curve_in_its_band() {
         .find(|row| !row.is_at_rest() && row.curve == 2)
         .unwrap();
     let drawn = points(&plot, 0)[1][0];
-    assert_eq!((drawn.x, drawn.y), (moving.delta, moving.rate));
-    assert!((drawn.low - moving.low).abs() < 1e-7 && (drawn.high - moving.high).abs() < 1e-7);
+    assert_eq!(
+        (drawn.x, drawn.y),
+        (moving.values.number("delta"), moving.tally.rate())
+    );
+    let (low, high) = moving.tally.interval(moving.confidence);
+    assert!((drawn.low - low).abs() < 1e-7 && (drawn.high - high).abs() < 1e-7);
     assert!(!plot.marks_of(0).any(|mark| matches!(mark, Mark::Level(..))));
     assert!(
         plot.caption
@@ -120,7 +124,11 @@ fn a_sweep_of_power_shows_each_curve_in_its_band() {
 fn false_alarms_by_rule_are_bars_around_their_level() {
     let rows: Vec<Row> = rows("rest");
     let curves = rows.iter().map(|row| row.curve).max().unwrap();
-    let plot = curves::plot(&sweep(parameter("rule").unwrap(), &[], &vec![None; curves]), &rows, 7);
+    let plot = curves::plot(
+        &sweep(parameter("rule").unwrap(), &[], &vec![None; curves]),
+        &rows,
+        7,
+    );
     let plot = checked(plot.unwrap());
     assert_eq!(
         labels(&plot.panels[0]),
@@ -210,10 +218,7 @@ fn an_autocorrelation_shows_theory_and_simulation() {
 
 #[test]
 fn traces_name_what_lies_in_them() {
-    let (rows, config) = (
-        rows::<crate::study::trace::Row>("fig3_4"),
-        config("fig3_4"),
-    );
+    let (rows, config) = (rows::<crate::study::trace::Row>("fig3_4"), config("fig3_4"));
     let ExhibitKind::Trace(trace) = &config.kind else {
         panic!("fig3_4 is a trace")
     };
@@ -323,7 +328,7 @@ fn rides_show_rates_above_delays() {
         .collect();
     let rides = ride::Rides {
         measure: study.measure,
-        axis: study.axis,
+        axis: &study.axis,
         labels: &labels,
         seed: 7,
     };

@@ -4,8 +4,8 @@
 use super::phases::add_phases;
 use crate::chain::Scenario;
 use crate::experiment::Trace;
-use crate::study::trace::Row;
 use crate::plot::{Axis, Entry, Key, Legend, Mark, Place, Plot, Point, Style, ends, literal};
+use crate::study::trace::Row;
 
 const SINGLE: f64 = 190.0;
 const PANEL: f64 = 128.0;

@@ -1,9 +1,7 @@
 //! Settings at one sampling rate: blocks of whole samples, the region of the decisions.
 
 use super::settings::{LONGEST_BLOCK, Settings, WHY_SHORT};
-use crate::detect::{
-    Alternative, NullLawError, NullLaws, Region, RegionError, Rule, Samples,
-};
+use crate::detect::{Alternative, NullLawError, NullLaws, Region, RegionError, Rule, Samples};
 use crate::rule::{self, OutOfRange};
 
 /// Settings at one sampling rate.

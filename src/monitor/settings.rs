@@ -14,7 +14,6 @@ use crate::whiten::Order;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-
 /// Blocks that a filter needs: the choice of its order is then among few.
 pub(super) const LEAST_TRAINING: usize = 24;
 
@@ -169,4 +168,3 @@ impl Checked for Order {
 pub(super) fn last_word(path: &str) -> &str {
     path.rsplit('.').next().unwrap_or(path)
 }
-

@@ -37,9 +37,17 @@ impl Manifest {
 
     /// What made a picture, for whoever finds it alone.
     pub fn provenance(&self) -> String {
-        let Origin { version, config_name, seed, trials, .. } = &self.origin;
+        let Origin {
+            version,
+            config_name,
+            seed,
+            trials,
+            ..
+        } = &self.origin;
         let hash = self.short_hash();
-        format!("liftsim {version}, config {config_name} ({hash}), seed {seed}, {trials} trials per point")
+        format!(
+            "liftsim {version}, config {config_name} ({hash}), seed {seed}, {trials} trials per point"
+        )
     }
 
     /// Enough of the config's hash to tell it from others.

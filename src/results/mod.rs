@@ -14,12 +14,12 @@ mod manifest;
 mod origin;
 mod row;
 
+pub use crate::claim::{Comparison, Place, Quantity};
+pub use crate::format::eight_digits;
 pub use checkpoint::{Checkpoint, NoShard, Shard};
 pub use directory::Directory;
 pub use error::ResultsError;
 pub use lock::Lock;
 pub use manifest::{Manifest, sha256};
 pub use origin::{Origin, RESULTS, file_name};
-pub use crate::claim::{Comparison, Place, Quantity};
-pub use crate::format::eight_digits;
 pub use row::{Row, csv_bytes, parameters};

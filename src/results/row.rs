@@ -122,7 +122,9 @@ impl Row {
 /// Every parameter of a scenario by its column.
 pub fn parameters(scenario: &Scenario) -> Vec<(String, String)> {
     let values = Values::of(scenario);
-    let named = values.iter().map(|(name, cell)| (name.to_owned(), cell.to_string()));
+    let named = values
+        .iter()
+        .map(|(name, cell)| (name.to_owned(), cell.to_string()));
     named.collect()
 }
 
@@ -206,7 +208,9 @@ impl<'de> Visitor<'de> for RowVisitor {
         }
         if row.tally.hits > row.tally.trials || row.tally.trials == 0 {
             let Tally { hits, trials } = row.tally;
-            return Err(A::Error::custom(format_args!("{hits} detections in {trials} trials")));
+            return Err(A::Error::custom(format_args!(
+                "{hits} detections in {trials} trials"
+            )));
         }
         Ok(row)
     }

@@ -2,9 +2,9 @@
 
 use crate::signal::{Law, Noise, Sensor, SensorChoice};
 use schemars::JsonSchema;
+use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserializer, MapAccess, Visitor};
-use serde::Deserialize;
 use std::fmt;
 
 /// Where a threshold comes from.
@@ -66,7 +66,11 @@ impl<'de> Visitor<'de> for CalibrationVisitor {
     }
 
     fn visit_bool<E>(self, promises: bool) -> Result<Calibration, E> {
-        Ok(if promises { Calibration::Promise } else { Calibration::None })
+        Ok(if promises {
+            Calibration::Promise
+        } else {
+            Calibration::None
+        })
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Calibration, A::Error> {
@@ -91,7 +95,10 @@ impl fmt::Display for Calibration {
         match self {
             Self::None => f.write_str("no"),
             Self::Promise => f.write_str("promise"),
-            Self::Measured { sensor: Some(sensor), noise: Some(noise) } => {
+            Self::Measured {
+                sensor: Some(sensor),
+                noise: Some(noise),
+            } => {
                 write!(f, "measured({sensor} {noise})")
             }
             Self::Measured { .. } => f.write_str("measured"),

@@ -13,7 +13,8 @@ pub use parameters::{Caption, Cell, PARAMETERS, Parameter, Values, Words, column
 
 use crate::detect::{Alternative, Method, Rule, Samples, Ties};
 use crate::signal::{
-    DeltaAt, Digitiser, Disturbance, Impulses, Motion, Noise, Profile, Quantum, Sensor, SensorChoice,
+    DeltaAt, Digitiser, Disturbance, Impulses, Motion, Noise, Profile, Quantum, Sensor,
+    SensorChoice,
 };
 use crate::values::{Level, Positive};
 use crate::whiten::Whitening;
@@ -132,7 +133,15 @@ impl Sections {
     /// # Errors
     /// Where two sections do not fit each other.
     pub fn scenario(self, pilot: u64) -> Result<Scenario, ScenarioError> {
-        let Self { sensor, noise, mut motion, mut detector, samples, whitening, .. } = self;
+        let Self {
+            sensor,
+            noise,
+            mut motion,
+            mut detector,
+            samples,
+            whitening,
+            ..
+        } = self;
         if motion.duration == 0 {
             motion.duration = samples.acceleration().saturating_sub(motion.offset);
         }

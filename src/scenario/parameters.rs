@@ -87,12 +87,26 @@ const fn column(
     paths: &'static [&'static str],
     cell: fn(&Scenario) -> Cell,
 ) -> Parameter {
-    Parameter { name, paths, symbol: "", axis_label: "", cell: Some(cell), caption: None }
+    Parameter {
+        name,
+        paths,
+        symbol: "",
+        axis_label: "",
+        cell: Some(cell),
+        caption: None,
+    }
 }
 
 /// Parameters that an axis sweeps together.
 const fn together(name: &'static str, paths: &'static [&'static str]) -> Parameter {
-    Parameter { name, paths, symbol: "", axis_label: "", cell: None, caption: None }
+    Parameter {
+        name,
+        paths,
+        symbol: "",
+        axis_label: "",
+        cell: None,
+        caption: None,
+    }
 }
 
 impl Parameter {
@@ -105,7 +119,11 @@ impl Parameter {
 
     /// The same, which a caption names.
     const fn said(mut self, place: u8, words: Words, usual: Usual) -> Self {
-        self.caption = Some(Caption { place, words, usual });
+        self.caption = Some(Caption {
+            place,
+            words,
+            usual,
+        });
         self
     }
 }
@@ -211,7 +229,12 @@ fn calibration(values: &Values) -> String {
 impl Values {
     /// Of a scenario.
     pub fn of(scenario: &Scenario) -> Self {
-        Self(columns().filter_map(|parameter| parameter.cell).map(|cell| cell(scenario)).collect())
+        Self(
+            columns()
+                .filter_map(|parameter| parameter.cell)
+                .map(|cell| cell(scenario))
+                .collect(),
+        )
     }
 
     /// None of them known.
@@ -231,7 +254,8 @@ impl Values {
     /// A value; absent for a name without a column.
     pub fn cell(&self, name: &str) -> &Cell {
         let mut all = self.iter();
-        all.find(|(known, _)| *known == name).map_or(&Cell::None, |(_, cell)| cell)
+        all.find(|(known, _)| *known == name)
+            .map_or(&Cell::None, |(_, cell)| cell)
     }
 
     /// A value that is a number; NaN for any other.
@@ -264,7 +288,9 @@ impl Values {
 
 /// The parameters that have a column.
 pub fn columns() -> impl Iterator<Item = &'static Parameter> {
-    PARAMETERS.iter().filter(|parameter| parameter.cell.is_some())
+    PARAMETERS
+        .iter()
+        .filter(|parameter| parameter.cell.is_some())
 }
 
 impl Usual {
@@ -300,7 +326,10 @@ impl Parameter {
     pub fn column(&self) -> &'static str {
         match self.cell {
             Some(_) => self.name,
-            None => self.paths[0].rsplit('.').next().expect("a path has a last part"),
+            None => self.paths[0]
+                .rsplit('.')
+                .next()
+                .expect("a path has a last part"),
         }
     }
 }
@@ -400,7 +429,11 @@ impl Visitor<'_> for CellVisitor {
     }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<Cell, E> {
-        Ok(if text.is_empty() { Cell::None } else { Cell::text(text) })
+        Ok(if text.is_empty() {
+            Cell::None
+        } else {
+            Cell::text(text)
+        })
     }
 
     fn visit_unit<E: Error>(self) -> Result<Cell, E> {

@@ -130,7 +130,10 @@ impl fmt::Display for Disturbance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (drift, swell) = (self.drift(), self.swell());
         let (footfalls, jolt) = (self.footfalls(), self.jolt());
-        write!(f, "drift {drift} swell {swell} footfalls {footfalls} {jolt}")
+        write!(
+            f,
+            "drift {drift} swell {swell} footfalls {footfalls} {jolt}"
+        )
     }
 }
 

@@ -52,9 +52,17 @@ pub enum Choice {
     /// A sensor by its name.
     Model(Model),
     /// φ₁, φ₂, … of x_i = φ₁ x_(i−1) + φ₂ x_(i−2) + … + ξ_i; none for white noise.
-    Ar(#[serde(deserialize_with = "coefficients")] #[schemars(with = "Vec<f64>")] Sensor),
+    Ar(
+        #[serde(deserialize_with = "coefficients")]
+        #[schemars(with = "Vec<f64>")]
+        Sensor,
+    ),
     /// K(p) = 1/(a p² + b p + c), sampled with a period in s.
-    Transfer(#[serde(deserialize_with = "transfer")] #[schemars(with = "Transfer")] Sensor),
+    Transfer(
+        #[serde(deserialize_with = "transfer")]
+        #[schemars(with = "Transfer")]
+        Sensor,
+    ),
 }
 
 /// A sensor by its name.

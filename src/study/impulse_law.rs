@@ -126,7 +126,11 @@ impl Study for ImpulseLaw {
     }
 
     fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        Ok(figure::impulse_law::plot(rows, self.context.confidence, seed))
+        Ok(figure::impulse_law::plot(
+            rows,
+            self.context.confidence,
+            seed,
+        ))
     }
 }
 

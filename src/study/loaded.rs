@@ -2,13 +2,12 @@
 
 use super::{Study, Table, build};
 use crate::claim::{Evidence, Narrative, Outcome, Scope};
-use crate::experiment::Experiment as Config;
 use crate::counts::Counts;
+use crate::experiment::Experiment as Config;
 use crate::figure::{Drawing, FigureError, render};
 use crate::report::Section;
 use crate::results::{
-    Comparison, Directory, Manifest, Origin, Quantity, RESULTS, ResultsError, csv_bytes,
-    file_name,
+    Comparison, Directory, Manifest, Origin, Quantity, RESULTS, ResultsError, csv_bytes, file_name,
 };
 use crate::run::{Experiment, Identity, StudyError, Trials};
 use crate::schedule::DEFAULT_PILOT_TRIALS;

@@ -30,8 +30,8 @@ pub mod rows {
 }
 
 use crate::claim::{Outcome, Scope};
-use crate::experiment::{ExhibitConfig, ExhibitKind, Experiment};
 use crate::counts::{Counts, Key, Shape, Sums};
+use crate::experiment::{ExhibitConfig, ExhibitKind, Experiment};
 use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::{Comparison, Quantity};

@@ -13,8 +13,8 @@
 
 use super::Study;
 use crate::chain::Scenario;
-use crate::experiment::{Part, Trace};
 use crate::counts::Counts;
+use crate::experiment::{Part, Trace};
 use crate::figure::{self, FigureError};
 use crate::plot::Plot;
 use crate::results::{self, Quantity, eight_digits};

@@ -28,8 +28,8 @@ pub use portmanteau::{LjungBox, PortmanteauError};
 pub use schwarz::{Chosen, OrderError, coefficients};
 
 use crate::simd::Value;
-use schwarz::SAMPLES_PER_COEFFICIENT;
 use schemars::JsonSchema;
+use schwarz::SAMPLES_PER_COEFFICIENT;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -175,7 +175,12 @@ impl Whitening {
     /// # Errors
     /// As [`Whitening::new`].
     pub fn checked(self, sensor_order: usize) -> Result<Self, WhiteningError> {
-        let Self { order, fit, training, includes_reference } = self;
+        let Self {
+            order,
+            fit,
+            training,
+            includes_reference,
+        } = self;
         Self::new(order, fit, training, includes_reference, sensor_order)
     }
 

@@ -37,11 +37,17 @@ fn every_shipped_config_names_the_schema_and_keeps_it() {
     let mut configs = 0;
     for entry in fs::read_dir(project().join("configs")).unwrap() {
         let path = entry.unwrap().path();
-        if path.extension().is_some_and(|extension| extension == "toml") {
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "toml")
+        {
             let text = fs::read_to_string(&path).unwrap();
             let first = text.lines().next();
             assert_eq!(first, Some("#:schema ./schema.json"), "{}", path.display());
-            let errors = validator.iter_errors(&json(&text).unwrap()).map(|e| e.to_string()).collect::<Vec<_>>();
+            let errors = validator
+                .iter_errors(&json(&text).unwrap())
+                .map(|e| e.to_string())
+                .collect::<Vec<_>>();
             assert!(errors.is_empty(), "{}: {errors:?}", path.display());
             configs += 1;
         }
@@ -56,7 +62,10 @@ fn broken_configs_are_refused_where_a_schema_can() {
     let passes = |body: &str| json(body).is_some_and(|json| validator.is_valid(&json));
     let ride = |body: &&str| passes(&format!("{GOOD}[ride]\n{body}"));
     let mut passed = String::new();
-    for (name, body) in CONFIGS.iter().filter(|(_, body)| passes(&format!("{GOOD}{body}"))) {
+    for (name, body) in CONFIGS
+        .iter()
+        .filter(|(_, body)| passes(&format!("{GOOD}{body}")))
+    {
         assert!(!body.is_empty());
         passed += &format!("{name}\n");
     }

@@ -3,11 +3,11 @@
 mod naive;
 mod order;
 
-use super::scenario::{Calibration, Detector, Scenario};
 use super::{Decision, Family, Observation, Purpose, Score, Trial};
 use crate::detect::{
     Alternative, Baseline, Clairvoyant, Forward, Method, NullLaws, Region, Rule, Samples, Ties,
 };
+use crate::scenario::{Calibration, Detector, Scenario};
 use crate::signal::{
     DeltaAt, Digitiser, Disturbance, During, Impulses, Law, Motion, Noise, Profile, Sensor,
 };

@@ -134,11 +134,18 @@ fn study(measure: Measure, table: &Node) -> Result<RideStudy, Conflict> {
         keys::check_used(measure, &values)?;
         let label = label(curve, index, &curves)?;
         let values = values.over(&base, &[&STRENGTH]);
-        let points = axis.values.iter().map(|value| point(measure, &axis, value, &values));
+        let points = axis
+            .values
+            .iter()
+            .map(|value| point(measure, &axis, value, &values));
         let points = points.collect::<Result<_, _>>()?;
         curves.push(RideCurve { label, points });
     }
-    Ok(RideStudy { measure, axis: axis.name, curves })
+    Ok(RideStudy {
+        measure,
+        axis: axis.name,
+        curves,
+    })
 }
 
 /// The curves, or the one that a table without any stands for.
@@ -158,8 +165,14 @@ fn label(table: &Node, index: usize, before: &[RideCurve]) -> Result<String, Con
     let label = label.unwrap_or((index + 1).to_string());
     let name = RideCurve::name_of(&label);
     if name.is_empty() || before.iter().any(|other| other.name() == name) {
-        let (path, rule) = (format!("ride.curve[{index}].label"), "be there and differ from every other");
-        return Err(Conflict::at(span, Unfit::new(path, rule, format_args!("\"{label}\""))));
+        let (path, rule) = (
+            format!("ride.curve[{index}].label"),
+            "be there and differ from every other",
+        );
+        return Err(Conflict::at(
+            span,
+            Unfit::new(path, rule, format_args!("\"{label}\"")),
+        ));
     }
     Ok(label)
 }
@@ -181,7 +194,10 @@ impl RideCurve {
 fn check_axis(measure: Measure, axis: &Axis) -> Result<(), Conflict> {
     if measure.unused().contains(&axis.name.as_str()) {
         let key = axis.name.clone();
-        return Err(Conflict::at(&axis.key_span, RideProblem::Unused { key, measure }));
+        return Err(Conflict::at(
+            &axis.key_span,
+            RideProblem::Unused { key, measure },
+        ));
     }
     Ok(())
 }
@@ -208,7 +224,10 @@ fn point(
     let (keys, settings) = keys::read(&values)?;
     let point = RidePoint::new(measure, &keys, settings).map_err(|problem| {
         let span = problem.key().and_then(|key| place(&values, key));
-        Conflict { span, ..Conflict::of([""; 0], problem) }
+        Conflict {
+            span,
+            ..Conflict::of([""; 0], problem)
+        }
     })?;
     Ok((number, point))
 }
@@ -216,7 +235,11 @@ fn point(
 /// Where the value of a key stands, or that of a key that says the same in another way.
 fn place(values: &Node, key: &str) -> Option<Range<usize>> {
     let own = [key];
-    let rivals: &[&str] = if STRENGTH.contains(&key) { &STRENGTH } else { &own };
+    let rivals: &[&str] = if STRENGTH.contains(&key) {
+        &STRENGTH
+    } else {
+        &own
+    };
     let mut found = rivals.iter().filter_map(|key| values.get(key));
     found.next().map(|node| node.span.clone())
 }
@@ -229,10 +252,16 @@ pub(super) fn schema(generator: &mut SchemaGenerator) -> serde_json::Value {
     for table in tables.values() {
         keys.extend(table["properties"].as_object().cloned().unwrap_or_default());
     }
-    let axis = super::reference::axis(keys.iter().map(|(key, schema)| (key.as_str(), schema.clone())));
+    let axis = super::reference::axis(
+        keys.iter()
+            .map(|(key, schema)| (key.as_str(), schema.clone())),
+    );
     let mut curve = keys.clone();
     curve.insert("label".to_owned(), serde_json::json!({ "type": "string" }));
-    keys.insert("measure".to_owned(), Measure::json_schema(generator).to_value());
+    keys.insert(
+        "measure".to_owned(),
+        Measure::json_schema(generator).to_value(),
+    );
     keys.insert("axis".to_owned(), axis);
     keys.insert(
         "curve".to_owned(),

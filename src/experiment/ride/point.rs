@@ -174,8 +174,16 @@ impl RideKeys {
             sensor: Sensor::from_ar(self.ar.clone())?,
             digitiser: Digitiser::from((self.quantum, None)),
             vibration: self.vibration,
-            impulses: Impulses { nu: self.nu, theta: self.theta, during: During::Motion },
-            disturbance: Disturbance { footfalls: self.footfalls, jolt: self.jolt, ..Disturbance::default() },
+            impulses: Impulses {
+                nu: self.nu,
+                theta: self.theta,
+                during: During::Motion,
+            },
+            disturbance: Disturbance {
+                footfalls: self.footfalls,
+                jolt: self.jolt,
+                ..Disturbance::default()
+            },
             ..Pickup::white(self.sigma(drive)?)
         }
         .checked()?)

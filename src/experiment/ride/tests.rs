@@ -1,7 +1,7 @@
 //! What a `[ride]` table comes to.
 
 use super::{RideCurve, RidePoint, RideStudy};
-use crate::config::{ExhibitKind, Experiment};
+use crate::experiment::{ExhibitKind, Experiment};
 use crate::signal::Ending;
 
 fn study(text: &str) -> RideStudy {

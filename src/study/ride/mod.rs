@@ -32,8 +32,8 @@ mod watch;
 pub use row::Row;
 
 use super::{Context, Counters, Study, TooMany, counted};
-use crate::experiment::{RidePoint, RideStudy};
 use crate::counts::{Counts, Sums};
+use crate::experiment::{RidePoint, RideStudy};
 use crate::figure::{self, FigureError};
 use crate::plot::Plot;
 use crate::results::Quantity;

@@ -4,12 +4,12 @@ mod trials;
 
 use super::{Study, TooMany, counted};
 use crate::claim::{self, Evidence, Outcome, Pair, Scope};
-use crate::experiment::{Config, Curve};
 use crate::counts::{Counts, DecisionSummary, Key, Shape, Sums};
+use crate::experiment::{Config, Curve};
 use crate::figure::curves::SweepCurve;
 use crate::figure::{self, FigureError};
-use crate::plot::Plot;
 use crate::plan::{Hypothesis, Plan, Point};
+use crate::plot::Plot;
 use crate::results::{self, Comparison, Quantity, Row};
 use crate::run::{Identity, StudyError, Target, Trials};
 use crate::stats::tally::Tally;
