@@ -11,7 +11,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "The monitor")]
 pub struct Watch {
-    /// Settings, a TOML file; see README.md for its keys.
+    /// Settings, a TOML file; see configs/README.md for its keys.
     #[arg(long, value_name = "CONFIG")]
     config: Option<PathBuf>,
     /// Start from a state that `detect --save-state` wrote, settings included.

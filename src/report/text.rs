@@ -135,7 +135,7 @@ fn find<'a>(
     let rows = placed(evidence.axis, evidence.rows, label, is_at_rest);
     let placeholder = placeholder.to_owned();
     if rows.is_empty() {
-        let known = labels(evidence, is_at_rest);
+        let known = labels(evidence, placeholder.starts_with("false_alarm"));
         return Err(PlaceholderError::Curve { placeholder, known });
     }
     let is_meant = |there: &str| value.is_none_or(|value| is_same(value, there));
@@ -165,13 +165,13 @@ fn is_same(a: &str, b: &str) -> bool {
     }
 }
 
-/// The curves that have rows of this kind.
-fn labels(evidence: &Evidence, is_at_rest: bool) -> String {
-    let rows = evidence
-        .rows
-        .iter()
-        .filter(|row| row.is_at_rest() == is_at_rest);
-    let mut labels: Vec<&str> = rows.map(|row| row.label.as_str()).collect();
-    labels.dedup();
+/// Every curve, or those alone that have rows at rest.
+fn labels(evidence: &Evidence, must_rest: bool) -> String {
+    let mut labels: Vec<&str> = Vec::new();
+    for row in evidence.rows {
+        if (row.is_at_rest() || !must_rest) && !labels.contains(&row.label.as_str()) {
+            labels.push(&row.label);
+        }
+    }
     labels.join(", ")
 }
