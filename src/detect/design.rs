@@ -6,15 +6,16 @@ use super::region::{NEVER, Region, RegionError};
 use super::rule::{Alternative, Rule};
 use super::samples::Samples;
 use num_bigint::BigUint;
+use std::sync::Arc;
 
 /// The exact laws that all rules at one set of sizes and one alternative share.
 #[derive(Clone, Debug)]
 pub struct NullLaws {
     samples: Samples,
     alternative: Alternative,
-    rank_sum: NullLaw,
+    rank_sum: Arc<NullLaw>,
     /// Of what the alternative looks at.
-    pub(super) score: NullLaw,
+    pub(super) score: Arc<NullLaw>,
     pub(super) exceedances: NullLaw,
 }
 
@@ -27,17 +28,17 @@ impl NullLaws {
     /// # Errors
     /// Where their counts would not fit in memory.
     pub fn new(alternative: Alternative, samples: &Samples) -> Result<Self, NullLawError> {
-        // Both before either is paid for; the rank sum's counts are held twice, as its own and as the score's.
+        // Both before either is paid for.
         let (w, t) = (
             NullLaw::rank_sum_bytes(samples),
             NullLaw::exceedances_bytes(samples),
         );
-        check_memory(samples, 2.0 * w + t)?;
-        let rank_sum = NullLaw::rank_sum(samples)?;
+        check_memory(samples, w + t)?;
+        let rank_sum = Arc::new(NullLaw::rank_sum(samples)?);
         let score = match alternative {
             // W is symmetric about its mean, so its mirror image has the same law.
-            Alternative::Greater | Alternative::Less => rank_sum.clone(),
-            Alternative::TwoSided => rank_sum.doubled_deviation(),
+            Alternative::Greater | Alternative::Less => Arc::clone(&rank_sum),
+            Alternative::TwoSided => Arc::new(rank_sum.doubled_deviation()),
         };
         Ok(Self {
             samples: *samples,

@@ -35,20 +35,20 @@ pub struct NullLaw {
 pub enum NullLawError {
     /// The counts would not fit in memory.
     #[error(
-        "the exact laws of W and T at {samples} need {gigabytes:.1} GB of counts, more than the {limit:.0} GB allowed \
+        "the exact laws of W and T at {samples} need {megabytes:.0} MB of counts, more than the {limit:.0} MB allowed \
          (lower reference, shift or scale)",
-        limit = MEMORY_LIMIT / 1e9
+        limit = MEMORY_LIMIT / 1e6
     )]
     TooLarge {
         /// Their sizes.
         samples: Samples,
         /// What it would take.
-        gigabytes: f64,
+        megabytes: f64,
     },
 }
 
-/// The most memory that counts may take, in bytes.
-const MEMORY_LIMIT: f64 = 1e9;
+/// The most memory that counts may take, in bytes: they are minutes of work.
+const MEMORY_LIMIT: f64 = 1e8;
 
 impl NullLaw {
     /// The law of the rank sum W.
@@ -222,13 +222,12 @@ fn gaussian_binomial(chosen: usize, others: usize) -> Vec<BigUint> {
 
 /// Refuses counts that take more memory than is allowed.
 pub(super) fn check_memory(samples: &Samples, bytes: f64) -> Result<(), NullLawError> {
-    // NaN, of sizes near the largest integer, is too large as well.
     if bytes <= MEMORY_LIMIT {
         return Ok(());
     }
     Err(NullLawError::TooLarge {
         samples: *samples,
-        gigabytes: bytes / 1e9,
+        megabytes: bytes / 1e6,
     })
 }
 
@@ -236,9 +235,11 @@ pub(super) fn check_memory(samples: &Samples, bytes: f64) -> Result<(), NullLawE
 /// beside them.
 fn bytes(values: f64, chosen: usize, others: usize) -> f64 {
     let n = chosen as f64 + others as f64;
-    let share = chosen as f64 / n;
-    let entropy = -share * libm::log2(share) - (1.0 - share) * libm::log2(1.0 - share);
-    values * (n * entropy / 8.0 + 40.0)
+    let entropy = [chosen, others].map(|part| {
+        let share = part as f64 / n;
+        -share * libm::log2(share)
+    });
+    values * (n * (entropy[0] + entropy[1]) / 8.0 + 40.0)
 }
 
 #[cfg(test)]

@@ -768,7 +768,7 @@ fn arguments_and_places() {
                 "--alpha",
                 "0.5",
             ],
-            "GB of counts",
+            "MB of counts",
         ),
     ] {
         let (code, out, err) = outcome(liftsim().current_dir(&directory).args(&arguments));
