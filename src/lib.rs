@@ -33,14 +33,14 @@
 //! | floor | modules |
 //! |---|---|
 //! | 0 | [`rng`]: coordinates → generator · [`stats`]: exact tails, intervals, tests · [`format`]: numbers in print · [`simd`]: trials side by side |
-//! | 1 | [`ledger`]: which trials have been counted |
+//! | 1 | [`ledger`]: which trials have been counted · [`plot`]: what a picture says, and where it lies on a sheet |
 //! | 2 | [`signal`]: sensor, noise, impulses, motion, rides · [`whiten`]: filters · [`detect`]: W, T, their laws, regions |
 //! | 3 | [`chain`]: one trial, every stage · [`monitor`]: one lift, sample by sample |
 //! | 4 | [`config`]: what the author wrote · [`ensemble`]: blocks of trials in parallel · [`detection`]: what a monitor finds in a recording |
 //! | 5 | [`plan`]: what it comes to |
 //! | 6 | [`pilot`]: decisions that no law gives · [`run`]: counts · [`gate`]: the false-alarm test · [`results`]: files |
 //! | 7 | [`exhibit`]: experiments that are no sweep · [`claim`]: verdicts |
-//! | 8 | [`figure`]: pictures · [`report`]: the report · [`campaign`]: what a directory holds, lacks and comes to |
+//! | 8 | [`figure`]: what each picture says, PNG and SVG · [`report`]: the report · [`campaign`]: what a directory holds, lacks and comes to |
 //!
 //! # Laws
 //! - A trial cannot fail: what can go wrong goes wrong when the plan is made.

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 /// Each module of the library and its floor.
 const FLOORS: [&[&str]; 9] = [
-    &["rng", "stats", "format", "simd", "plot"],
-    &["ledger"],
+    &["rng", "stats", "format", "simd"],
+    &["ledger", "plot"],
     &["signal", "whiten", "detect"],
     &["chain", "monitor"],
     &["config", "ensemble", "detection"],
