@@ -68,12 +68,8 @@ pub fn plot(sweep: &Sweep, rows: &[Row], seed: u64) -> Result<Plot, FigureError>
         true => rate_axis(&groups, level, is_log),
         false => power_axis(),
     };
-    let mut plot = panels(
-        &groups,
-        &axis,
-        axis_label(sweep.axis, is_whitened(&all)),
-        &y,
-    );
+    let label = axis_label(sweep.axis, is_whitened(&all));
+    let mut plot = panels(&groups, &axis, label, &y);
     if let Some(unit) = whitened_unit(sweep, &all).filter(|_| !axis.is_logarithmic()) {
         plot.add_whitened_axis(unit);
     }
@@ -83,22 +79,26 @@ pub fn plot(sweep: &Sweep, rows: &[Row], seed: u64) -> Result<Plot, FigureError>
         plot.caption.push(arrows.to_owned());
     }
     for (panel, group) in groups.into_iter().enumerate() {
-        plot.add(panel, Mark::Grid);
-        if let Some(level) = level {
-            plot.add(panel, Mark::Level(level, &[]));
-        }
-        if axis.is_named() {
-            add_bars(&mut plot, panel, group.curves);
-        } else {
-            add_bands(&mut plot, panel, &group.curves, true);
-        }
-        plot.add(panel, Mark::Axes);
+        add_panel(&mut plot, panel, group, level, axis.is_named());
     }
     plot.add(0, Mark::Legend);
     // One curve without a name of its own needs no legend.
     let is_plain = entries.len() == 1 && entries[0].text == "1";
     plot.legend = (!is_plain).then(|| Legend::new(entries, Place::Free));
     Ok(plot)
+}
+
+fn add_panel(plot: &mut Plot, panel: usize, group: Group, level: Option<f64>, is_named: bool) {
+    plot.add(panel, Mark::Grid);
+    if let Some(level) = level {
+        plot.add(panel, Mark::Level(level, &[]));
+    }
+    if is_named {
+        add_bars(plot, panel, group.curves);
+    } else {
+        add_bands(plot, panel, &group.curves, true);
+    }
+    plot.add(panel, Mark::Axes);
 }
 
 impl Group {
