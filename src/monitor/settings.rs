@@ -90,7 +90,7 @@ settings! {
     }
     /// The filter that is learnt from rest.
     whitening: Whitening {
-        /// By BIC, up to [`MOST_ORDER`], where none is given.
+        /// By BIC, up to [`MOST_ORDER`], where it is `None`.
         #[serde(with = "order")]
         order: Option<usize> = None, Rule::Within(0.0, MOST_ORDER as f64, "");
         /// Blocks of rest before X, when the filter is learnt anew.
@@ -208,5 +208,33 @@ mod order {
                 other => Err(E::invalid_value(Unexpected::Str(other), &self)),
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_key_is_known_by_its_last_word() {
+        for path in Settings::KEYS {
+            assert_eq!(Settings::path(last_word(path)), Some(*path));
+        }
+    }
+
+    #[test]
+    fn values_by_last_words() {
+        let values = "alpha = 0.5\norder = 2\n".parse().unwrap();
+        let changed = Settings::default().with(&values, str::to_owned).unwrap();
+        assert_eq!(
+            (changed.detector.alpha, changed.whitening.order),
+            (0.5, Some(2))
+        );
+        let far = "least_speed = -1.0".parse().unwrap();
+        let refused = Settings::default().with(&far, |key| format!("--{key}"));
+        assert_eq!(
+            refused.unwrap_err().to_string(),
+            "--least_speed: must be positive and finite, got -1"
+        );
     }
 }

@@ -64,7 +64,7 @@ pub struct RideStudy {
 pub struct RideCurve {
     /// What tells it from the others.
     pub label: String,
-    /// Each value of the axis and what it comes to here.
+    /// Each value of the axis and its point.
     pub points: Vec<(f64, RidePoint)>,
 }
 

@@ -1,4 +1,4 @@
-//! What a monitor said, held against the truth.
+//! What a monitor reported, compared with the truth.
 
 use crate::monitor::{Alarm, Direction, Event, Kind, State};
 use crate::signal::{Journey, Phase};
@@ -10,11 +10,11 @@ pub(super) struct Truth {
     pub to: f64,
 }
 
-/// What came of a trial, or of several.
+/// The outcome of a trial, or of a part of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Account {
     pub trips: Vec<TripOutcome>,
-    /// Starts told while the cage stood, of a time when it stood.
+    /// Starts reported while the cage stood, of a time when it stood.
     pub false_motions: u64,
     /// Jam alarms without a jam.
     pub false_alarms: u64,
@@ -33,7 +33,7 @@ pub(super) struct Account {
 pub(super) struct TripOutcome {
     /// Start, stop and direction.
     pub is_found: bool,
-    /// From the start to when it was told.
+    /// From the start to its report.
     pub start_delay: f64,
     /// From the stop.
     pub stop_delay: f64,
@@ -41,7 +41,7 @@ pub(super) struct TripOutcome {
     pub alarm_delay: Option<f64>,
 }
 
-/// A motion as the monitor told it: times in s, of the event and of its report.
+/// A motion as the monitor reported it: times in s, of the event and of its report.
 struct Sighting {
     direction: Option<Direction>,
     start: (f64, f64),
@@ -57,13 +57,13 @@ impl Account {
         let said = Said::new(truth, events);
         let journeys = &truth.journeys;
         let belongs = |sighting: &&Sighting| {
-            let (start, told) = sighting.start;
+            let (start, reported) = sighting.start;
             let mut near = journeys.iter();
-            near.any(|of| of.start - tolerance <= told && start <= of.stop + tolerance)
+            near.any(|of| of.start - tolerance <= reported && start <= of.stop + tolerance)
         };
         let is_of_a_jam = |alarm: &&&Event| {
             let mut near = journeys.iter();
-            near.any(|journey| journey.is_told_by(alarm, tolerance))
+            near.any(|journey| journey.is_reported_by(alarm, tolerance))
         };
         let first = journeys.first();
         let second = journeys.get(1).map_or(truth.to, |second| second.start);
@@ -109,7 +109,7 @@ impl TripOutcome {
         let start = sightings.iter().find(starts);
         let alarm = |jam: f64| {
             let mut alarms = alarms.iter();
-            let alarm = alarms.find(|alarm| journey.is_told_by(alarm, tolerance));
+            let alarm = alarms.find(|alarm| journey.is_reported_by(alarm, tolerance));
             alarm.map_or(f64::INFINITY, |alarm| alarm.reported - jam)
         };
         Self {
@@ -129,10 +129,9 @@ impl TripOutcome {
 }
 
 impl Journey {
-    /// Whether it jammed and an alarm is of that: told since, of the jam or of what came before.
-    fn is_told_by(&self, alarm: &Event, tolerance: f64) -> bool {
-        let told = |jam| jam <= alarm.reported && alarm.time <= self.stop + tolerance;
-        self.jam().is_some_and(told)
+    /// Whether it jammed and an alarm is of that: reported since, of the jam or of what came before.
+    fn is_reported_by(&self, alarm: &Event, tolerance: f64) -> bool {
+        (self.jam()).is_some_and(|jam| jam <= alarm.reported && alarm.time <= self.stop + tolerance)
     }
 }
 

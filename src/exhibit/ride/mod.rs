@@ -1,25 +1,25 @@
 //! Whole rides before the monitor: is every trip found, how late, how often does rest look like motion, does a jam
 //! alarm, and what becomes of a monitor that is switched on in motion?
 //!
-//! A trial is one ride, one rest, or both, simulated, watched, and held against the truth. Every point sees the
+//! A trial is one ride, one rest, or both, simulated, watched, and compared with the truth. Every point sees the
 //! same draws of a trial, so points that differ in strength or in the monitor's settings alone are compared on the
 //! same noise.
 //!
 //! | outcome | of | is |
 //! |---|---|---|
-//! | `found` | trials | rides of which every trip is found: start and stop told within the tolerance of the truth, in the right direction |
-//! | `start_delay_05`, `_50`, `_95` | trips | quantiles of the time from a start to when it is told |
+//! | `found` | trials | rides of which every trip is found: start and stop reported within the tolerance of the truth, in the right direction |
+//! | `start_delay_05`, `_50`, `_95` | trips | quantiles of the time from a start to its report |
 //! | `stop_delay_…` | trips | the same for stops |
-//! | `false_motions` | hours | starts told while the cage stood, of a time when it stood, per hour for which the monitor said `rest` of a cage at rest |
+//! | `false_motions` | hours | starts reported while the cage stood, of a time when it stood, per hour for which the monitor said `rest` of a cage at rest |
 //! | `hours_between` | hours | the mean time between them |
 //! | `disturbed` | trials | rests with a false motion |
-//! | `alarmed` | trials | jams with an alarm that is told after them, of no later time than the stand |
+//! | `alarmed` | trials | jams with an alarm that comes after them, of no later time than the stand |
 //! | `alarm_delay_…` | jams | the time from a jam to its alarm |
 //! | `false_alarms` | trials | jam alarms without a jam, per trial |
 //! | `misled` | trials | switched on in motion, the monitor said `rest` before the cage stood |
 //! | `knew_soon`, `knew` | trials | it said `rest` when the next trip began, and when the record ended |
 //!
-//! What was never told took infinitely long: a quantile beyond the share that was told is infinite.
+//! What was never reported took infinitely long: a quantile beyond the share that was reported is infinite.
 
 mod account;
 mod estimate;

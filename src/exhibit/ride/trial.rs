@@ -109,7 +109,7 @@ impl<'a> PointTrials<'a> {
         knowledge
     }
 
-    /// A rest that is long enough to learn from, should a part of it be none to learn from.
+    /// A rest that is long enough to learn from, even if a part of it cannot be used.
     fn lesson(&self) -> Ride {
         let settings = &self.design.settings;
         let blocks =
