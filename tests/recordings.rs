@@ -7,12 +7,12 @@
 
 use liftsim::detection::{Detection, End, Trip};
 use liftsim::monitor::{Direction, Event, Knowledge, Monitor, Settings, State};
-use liftsim::whiten::Order;
 use liftsim::signal::recording::{Reading, Recording, Sample};
 use liftsim::signal::{
     Digitiser, Drive, Ending, Journey, Law, Noise, Pickup, Ride as Simulation, Sensor,
     Trip as SimulatedTrip,
 };
+use liftsim::whiten::Order;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 

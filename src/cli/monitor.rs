@@ -15,7 +15,7 @@ use std::process::ExitCode;
 /// with # are passed over. What goes out is one JSON object a line: the state at first, and every change of it,
 /// with when it happened (time), when that was known (reported) and the decision that made it known; and alarms.
 ///
-/// States are unknown, rest, accelerating, inertial, braking. A cage that moves smoothly looks like one that
+/// States are unknown, rest, acceleration, inertial, braking. A cage that moves smoothly looks like one that
 /// stands, so a monitor says unknown until it knows better: until the direction of motion has turned, or
 /// until rest is seen, if you say that the cage stands (--begins rest). In the state unknown there are no alarms.
 ///
@@ -69,9 +69,10 @@ impl MonitorCommand {
         let Setup { config, saved } = self.options.setup()?;
         let input = BufReader::with_capacity(1 << 16, io::stdin().lock());
         let mut readings = Readings {
-            lines: match self.expected_moving {
-                true => LineReader::with_drum(input),
-                false => LineReader::new(input),
+            lines: if self.expected_moving {
+                LineReader::with_drum(input)
+            } else {
+                LineReader::new(input)
             },
             rate: None,
             last: None,

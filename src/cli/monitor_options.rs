@@ -50,12 +50,12 @@ pub struct Setup {
 
 /// Refuses an acceleration that a monitor would take for a weaker one.
 pub fn check_strength(acceleration: f64) -> anyhow::Result<()> {
-    match acceleration.abs() > STRONGEST {
-        true => Err(anyhow!(
+    if acceleration.abs() > STRONGEST {
+        return Err(anyhow!(
             "accelerations must lie within {STRONGEST} m/s^2, got {acceleration} (are they in another unit?)"
-        )),
-        false => Ok(()),
+        ));
     }
+    Ok(())
 }
 
 fn order(text: &str) -> Result<Order, String> {

@@ -46,8 +46,8 @@ pub struct UnitArguments {
 }
 
 impl UnitArguments {
-    /// The unit, if anything is said of it.
-    pub fn told(&self) -> Result<Option<Unit>, Failure> {
+    /// The unit, if one is given.
+    pub fn given(&self) -> Result<Option<Unit>, Failure> {
         Unit::told(self.unit.as_deref(), self.scale, self.offset).map_err(Failure::input)
     }
 }
@@ -58,7 +58,7 @@ impl ReadingArguments {
         let name =
             |given: &Option<String>, config: &Option<String>| given.clone().or(config.clone());
         Ok(Reading {
-            unit: self.unit.told()?.unwrap_or(config.unit),
+            unit: self.unit.given()?.unwrap_or(config.unit),
             time: name(&self.time, &config.time),
             acceleration: name(&self.acceleration, &config.acceleration),
             time_unit: self.time_unit.or(config.time_unit),

@@ -13,7 +13,7 @@ use crate::rng::Stream;
 use rand::Rng;
 use std::ops::Range;
 
-/// W, T and what they come to.
+/// W, T and the decision they make.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Verdict {
     pub statistics: Statistics,
@@ -83,7 +83,7 @@ impl Decider {
         }
     }
 
-    /// W and T at these windows; `None` where blocks are no longer or not yet held.
+    /// W and T at these windows; `None` where blocks are no longer or not yet in the history.
     pub fn decide(
         &mut self,
         design: &Design,

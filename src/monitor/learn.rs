@@ -94,7 +94,7 @@ impl Knowledge {
                 motions.step(event);
             }
         }
-        // Behind a high-pass filter no motion is as it seems, and none tells how the record begins.
+        // Behind a high-pass filter no motion is as it seems, and no motion shows how the record begins.
         let begins_at_rest = motions.first_is_whole() || monitor.is_high_passed();
         Ok(windows.knowledge(&motions, begins_at_rest))
     }
@@ -216,9 +216,10 @@ impl Windows {
             (Some(inside), Some(outside)) => inside < QUIETER * outside,
             _ => false,
         };
-        let reference = match is_inverted {
-            true => self.reference(inside)?,
-            false => self.reference(outside)?,
+        let reference = if is_inverted {
+            self.reference(inside)?
+        } else {
+            self.reference(outside)?
         };
         Ok(Knowledge {
             begins_at_rest: begins_at_rest && !is_inverted,
@@ -278,7 +279,7 @@ impl Motions {
         }
     }
 
-    /// Whether there is none, or the first has an end that fits its start. Where a record begins in
+    /// Whether there are no motions, or the first has an end that fits its start. Where a record begins in
     /// motion, a braking is taken for a start, and the start after it does not end it.
     fn first_is_whole(&self) -> bool {
         self.0.first().is_none_or(|first| first.is_whole)

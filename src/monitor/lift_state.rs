@@ -21,7 +21,7 @@
 //! |---|---|
 //! | unknown | see above |
 //! | rest | a pulse changes the speed enough, and the decision forwards is H₁* with its sign |
-//! | accelerating | the pulse ends |
+//! | acceleration | the pulse ends |
 //! | inertial | a pulse against the motion takes half of its speed, or as much as the slowest motion has |
 //! | braking | the pulse has ended, no speed is left, and the decision backwards says that it was a stop; or some is left, and the cage creeps on |
 //!
@@ -29,7 +29,7 @@
 //! is unknown again. So it is after a motion longer than any, after a gap, and when a pulse does not
 //! end, because the sensor's own level has changed.
 //!
-//! A pulse stronger than any acceleration of a lift is no start: at rest it is a shock, or, if it lasts,
+//! A pulse stronger than any acceleration of a lift does not start a motion: at rest it is a shock, or, if it lasts,
 //! somebody carrying the sensor. In motion and against it, it is a jam if it takes half of the speed, or if
 //! the decision backwards says that the vibration of motion has ended with it (a sensor at its limit does
 //! not see all of the speed go); else it was a shock, and the motion goes on.
@@ -188,10 +188,12 @@ impl Unknown {
             }
         }
         let still = (input.now - self.still_since) as f64 * input.design.block;
-        match still > input.longest_motion() {
-            true => (LiftState::Rest, input.time, None),
-            false => (LiftState::Unknown(self), input.time, None),
-        }
+        let next = if still > input.longest_motion() {
+            LiftState::Rest
+        } else {
+            LiftState::Unknown(self)
+        };
+        (next, input.time, None)
     }
 
     /// What a pulse that has ended tells together with those before it.
@@ -240,9 +242,11 @@ fn start(input: &mut StepInput) -> Next {
     };
     let start = input.starts(pulse.onset);
     if input.is_violent(&pulse) {
-        return match input.lasts(&pulse) > LONGEST_SHOCK {
-            true => (LiftState::unknown(input.now), start, None),
-            false => stay,
+        let is_carried = input.lasts(&pulse) > LONGEST_SHOCK;
+        return if is_carried {
+            (LiftState::unknown(input.now), start, None)
+        } else {
+            stay
         };
     }
     if !(input.verdict.moves && input.verdict.sign == pulse.sign) {
@@ -293,7 +297,7 @@ impl Motion {
         self.on(self.phase, input.time)
     }
 
-    /// The pulse under way against the motion, when it is no mere sway.
+    /// The pulse under way against the motion, when it is more than sway.
     fn against(&self, input: &StepInput) -> Option<Pulse> {
         let enough = input.least_speed().min(self.speed / 2.0);
         input

@@ -14,7 +14,7 @@
 //! (`liftsim detect` prints it), and the time between false motions is simulated
 //! (`configs/ride_*.toml`).
 //!
-//! # What is asked beside the decision
+//! # What a motion needs beside the decision
 //! Ranks know no size: a tilt of the floor by a milliradian is as significant as a start. So a motion
 //! must also change the speed by [`Settings::least_speed`], in one pulse of acceleration.
 //!
@@ -114,7 +114,7 @@ pub struct Monitor {
     shown: u32,
     /// Whether a motion has shown the marks of a high-pass filter.
     is_high_passed: bool,
-    /// What the newest block came to, if a sample has just completed one.
+    /// The newest block, if a sample has just completed it.
     newest: Option<Observation>,
     /// Blocks for which the cage has stood while the drum turned.
     slack: u64,
@@ -160,7 +160,7 @@ impl Monitor {
         }
     }
 
-    /// What it is told, at the rate of the samples.
+    /// The settings, at the rate of the samples.
     pub fn design(&self) -> &Design {
         &self.design
     }
@@ -170,7 +170,7 @@ impl Monitor {
         self.reference.as_ref()
     }
 
-    /// What there is to say before the first sample, which is taken at `time`.
+    /// The event before the first sample, which is taken at `time`.
     pub fn beginning(&self, time: f64) -> Event {
         self.cage.change(time, time, None)
     }
@@ -270,7 +270,7 @@ impl Monitor {
         self.remember(was, now);
     }
 
-    /// A pulse that does not end is no pulse: the sensor's level has changed, and nothing is known any more.
+    /// A pulse that does not end is a change of the sensor's level, and nothing is known any more.
     fn doubt_level(&mut self, now: u64, block: &Block) {
         let longest = (LONGEST_PULSE / self.design.block) as u64;
         let mut pulses = self.cusums.iter().filter_map(Cusum::pulse);
@@ -281,7 +281,7 @@ impl Monitor {
         }
     }
 
-    /// What a change of state tells of this cage.
+    /// What a change of state shows of this cage.
     fn remember(&mut self, was: LiftState, now: u64) {
         self.is_high_passed |= self.cage.decays();
         if self.cage.state() != was.state() {
@@ -318,7 +318,7 @@ impl Monitor {
             return;
         };
         let record: Vec<f64> = record.iter().map(|block| block.mean).collect();
-        // Not at every block, if this record is none to learn from.
+        // Not at every block, if this record cannot be learnt from.
         self.learns_from += needed / 4;
         let drift = self.design.settings.monitor.least_acceleration / 2.0;
         let bound = self.design.settings.monitor.least_speed / 2.0;

@@ -117,10 +117,8 @@ impl Cusum {
             pulse.speed = self.speed;
             pulse.centre = self.moment / self.speed / (pulse.end - pulse.onset) as f64;
         }
-        match index + 1 - pulse.end >= self.patience {
-            true => self.end(),
-            false => None,
-        }
+        let is_over = index + 1 - pulse.end >= self.patience;
+        if is_over { self.end() } else { None }
     }
 
     /// Forgets the pulse under way.

@@ -168,3 +168,31 @@ impl Checked for Order {
 pub(super) fn last_word(path: &str) -> &str {
     path.rsplit('.').next().unwrap_or(path)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_key_is_known_by_its_last_word() {
+        for path in Settings::KEYS {
+            assert_eq!(Settings::path(last_word(path)), Some(*path));
+        }
+    }
+
+    #[test]
+    fn values_by_last_words() {
+        let values = "alpha = 0.5\norder = 2\n".parse().unwrap();
+        let changed = Settings::default().with(&values, str::to_owned).unwrap();
+        assert_eq!(
+            (changed.detector.alpha, changed.whitening.order),
+            (0.5, Order::Fixed(2))
+        );
+        let far = "least_speed = -1.0".parse().unwrap();
+        let refused = Settings::default().with(&far, |key| format!("--{key}"));
+        assert_eq!(
+            refused.unwrap_err().to_string(),
+            "--least_speed: must be positive and finite, got -1"
+        );
+    }
+}

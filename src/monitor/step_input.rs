@@ -1,5 +1,4 @@
-//! What there is to go by when the cage's next state is asked for: the newest block's decision, the pulses,
-//! and what can be looked up in the blocks before.
+//! Inputs of one state transition: the newest block's decision, the pulses, and the blocks before.
 
 use super::blocks::Block;
 use super::decide::{Decider, Verdict, Windows};
@@ -13,7 +12,7 @@ use std::ops::Range;
 /// What pulses of real rides leave of the speed, at most.
 const ROUNDING: f64 = 0.1;
 
-/// The view from the newest block.
+/// What is known at the newest block.
 pub(super) struct StepInput<'a> {
     pub design: &'a Design,
     pub history: &'a History,

@@ -25,19 +25,19 @@ pub struct RidePoint {
     pub length: f64,
     /// In how many s a jam brings the cage to a stand.
     pub jam_within: f64,
-    /// How far from the truth, s, a start, a stop or a jam may be told to have been.
+    /// How far from the truth, s, a start, a stop or a jam may be reported.
     pub tolerance: f64,
     /// Hz.
     pub rate: f64,
     /// In the cage.
     pub pickup: Pickup,
-    /// What the monitor is told.
+    /// Of the monitor.
     pub settings: Settings,
     /// Whether it has learnt what rest is like, from another rest.
     pub learnt: bool,
-    /// Whether it is told that the record begins at rest; what it is told need not be true.
+    /// Whether it assumes that the record begins at rest, true or not.
     pub begins_at_rest: bool,
-    /// Whether it is told that motion shows.
+    /// Whether it assumes that motion shows.
     pub motion_shows: bool,
 }
 

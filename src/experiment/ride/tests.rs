@@ -1,4 +1,4 @@
-//! What a `[ride]` table comes to.
+//! Studies of `[ride]` tables.
 
 use super::{RideCurve, RidePoint, RideStudy};
 use crate::experiment::{ExhibitKind, Experiment};
@@ -66,4 +66,23 @@ fn labels_become_names() {
     let text = "measure = \"rest\"\nlength = 60\n[ride.axis]\nalpha = [0.01]\n\
         [[ride.curve]]\nlabel = \"σ = 0.4 m/s², 100 Hz\"\n";
     assert_eq!(study(text).curves[0].name(), "σ_0_4_m_s²_100_hz");
+}
+
+/// Every setting of the monitor is a key here, by the last word of its path, for the table, a curve and an axis.
+#[test]
+fn the_monitor_has_all_its_settings() {
+    let points = points(
+        "measure = \"rest\"\nlongest_motion = 60\norder = \"auto\"\n[ride.axis]\nlongest_slack = [1, 2]\n\
+         [[ride.curve]]\n[[ride.curve]]\norder = 3\n",
+    );
+    let settings: Vec<_> = points
+        .iter()
+        .map(|point| {
+            let settings = &point.settings;
+            assert_eq!(settings.monitor.longest_motion, 60.0);
+            (settings.whitening.order, settings.monitor.longest_slack)
+        })
+        .collect();
+    let expected = [(None, 1.0), (None, 2.0), (Some(3), 1.0), (Some(3), 2.0)];
+    assert_eq!(settings, expected);
 }
