@@ -2,7 +2,6 @@
 
 mod bad_input;
 mod commands;
-mod exhibits;
 mod figures;
 mod gate;
 mod record;
@@ -10,6 +9,7 @@ mod recordings;
 mod replay;
 mod results;
 mod shards;
+mod studies;
 mod survival;
 
 use assert_cmd::Command;
