@@ -25,22 +25,27 @@ impl PlanCommand {
         let study = self.simulation.study()?;
         study.check().map_err(Failure::study)?;
         let trials = study.origin().trials;
-        let Some(mut counted) = study.trials() else {
-            let (name, rows) = (study.name(), "computed, not counted: a moment");
-            let facts = json!({ "question": study.question(), "study": name });
-            print(&if self.json {
+        let text = match study.trials() {
+            Some(mut counted) => {
+                let points = counted.points();
+                let estimate = Estimate::new(&mut *counted, trials).map_err(Failure::study)?;
+                let has_rates =
+                    (counted.targets().iter()).any(|target| target.shape.most.contains(&Some(1)));
+                if self.json {
+                    facts(&study, points, trials, &estimate)
+                } else {
+                    words(&study, trials, &estimate, has_rates)
+                }
+            }
+            None if self.json => {
+                let facts = json!({ "question": study.question(), "study": study.name() });
                 format!("{facts}\n")
-            } else {
-                format!("{}\n\n[{name}]  {rows}\n", study.question())
-            })?;
-            return Ok(ExitCode::SUCCESS);
-        };
-        let points = counted.points();
-        let estimate = Estimate::new(&mut *counted, trials).map_err(Failure::study)?;
-        let text = if self.json {
-            facts(&study, points, trials, &estimate)
-        } else {
-            words(&study, trials, &estimate)
+            }
+            None => format!(
+                "{}\n\n[{}] is computed, no trials\n",
+                study.question(),
+                study.name()
+            ),
         };
         print(&text)?;
         Ok(ExitCode::SUCCESS)
@@ -70,27 +75,33 @@ fn facts(study: &Loaded, points: usize, trials: u64, estimate: &Estimate) -> Str
     format!("{facts}\n")
 }
 
-fn words(study: &Loaded, trials: u64, estimate: &Estimate) -> String {
+fn words(study: &Loaded, trials: u64, estimate: &Estimate, has_rates: bool) -> String {
     let pilots = match estimate.pilots {
         0 => String::new(),
         work => format!("pilots       {work} trial-points more\n"),
     };
-    let half_width = |hits| half_width(hits, trials, study.confidence());
+    let half_width = if has_rates {
+        format!(
+            "half-width   {:.5} at a rate of 1/2, {:.5} at 0.01, of the {} % interval\n",
+            half_width(trials / 2, trials, study.confidence()),
+            half_width(trials / 100, trials, study.confidence()),
+            study.confidence() * 100.0,
+        )
+    } else {
+        String::new()
+    };
     format!(
         "{}\n\n\
          points       {}\n\
          trials       {trials} per point, {} trial-points in all\n\
          noise        {} independent sets of realisations\n\
-         {pilots}half-width   {:.5} at a rate of 1/2, {:.5} at 0.01, of the {} % interval\n\
+         {pilots}{half_width}\
          memory       {:.1} MB for trials, beside what the program and its figure take\n\
          time         about {} on {} threads\n",
         study.question(),
         study.points(),
         estimate.work,
         estimate.groups,
-        half_width(trials / 2),
-        half_width(trials / 100),
-        study.confidence() * 100.0,
         megabytes(estimate),
         in_words(estimate.time),
         rayon::current_num_threads(),

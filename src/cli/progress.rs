@@ -122,13 +122,10 @@ pub fn work_off(session: &mut Session, reporter: &Reporter) -> Result<(), Failur
     while let Some(some) = missing {
         // On average over the points.
         let trials = work.div_ceil(session.points() as u64);
-        let follower = Follower::new(reporter);
-        session.prepare(&some, &follower).map_err(Failure::study)?;
+        let prepared = session.prepare(&some, &Follower::new(reporter, None));
+        prepared.map_err(Failure::study)?;
         let signals = Signals::watch().map_err(Failure::run)?;
-        let follower = Follower {
-            signals: Some(&signals),
-            ..follower
-        };
+        let follower = Follower::new(reporter, Some(&signals));
         follower.begin("points", work, trials);
         let counted = session.count(&some, period(), &follower);
         follower.end();
@@ -158,11 +155,11 @@ struct Follower<'a> {
 }
 
 impl<'a> Follower<'a> {
-    fn new(reporter: &'a Reporter) -> Self {
+    fn new(reporter: &'a Reporter, signals: Option<&'a Signals>) -> Self {
         Self {
             reporter,
             stage: RwLock::new(None),
-            signals: None,
+            signals,
         }
     }
 

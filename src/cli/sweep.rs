@@ -9,6 +9,7 @@ use liftsim::run::{Experiment, Overwrite, Session};
 use liftsim::study::{Loaded, Output};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Instant;
 
 /// Run every point of an experiment; write points.csv, the figure and run.json.
 ///
@@ -105,25 +106,25 @@ pub(super) fn finish(
         ));
     }
     let (output, written) = write(study, session)?;
-    let findings = output.findings.map_or(String::new(), |(header, lines)| {
-        table(header, &lines) + "\n"
-    });
-    let seconds = written.seconds;
-    let files = written.files;
+    let findings = match output.findings {
+        Some((header, lines)) => table(header, &lines) + "\n",
+        None => String::new(),
+    };
+    let Written { seconds, files, .. } = written;
     Ok(format!("{findings}{what} in {seconds:.1} s\n{files}"))
 }
 
 /// Writes counts, then pictures, then the manifest that vouches for both.
 pub(super) fn write(study: &Loaded, session: Session) -> Result<(Output, Written), Failure> {
-    // Until the last file vouches for the others, the counts are what a run goes on from.
-    session.save().map_err(Failure::run)?;
-    let start = std::time::Instant::now();
+    let start = Instant::now();
     let output = study.output(session.counts()).map_err(Failure::study)?;
     let mut seconds = session.seconds();
     if study.trials().is_none() {
         seconds = start.elapsed().as_secs_f64();
         study.judge(&output).map_err(Failure::study)?;
     }
+    // Until the last file vouches for the others, the counts are what a run goes on from.
+    session.save().map_err(Failure::run)?;
     let directory = session.directory().clone();
     let mut manifest = made_by(&session, manifest(study.origin(), seconds));
     let mut written = Written::new(seconds);
@@ -135,8 +136,9 @@ pub(super) fn write(study: &Loaded, session: Session) -> Result<(Output, Written
     for (name, bytes) in output.files() {
         put(name, &bytes, &mut manifest)?;
     }
-    let drawing = study.draw(&output.points, &manifest);
-    let drawing = drawing.map_err(Failure::run)?;
+    let drawing = study
+        .draw(&output.points, &manifest)
+        .map_err(Failure::run)?;
     for (name, bytes) in drawing.files() {
         put(name, bytes, &mut manifest)?;
     }

@@ -148,6 +148,7 @@ impl Joined {
             return Err(MergeError::More(session.directory().path().to_owned()));
         }
         session.made_by = None;
+        session.is_complete = false;
         session.state = self.state;
         session.check()?;
         session.expect();

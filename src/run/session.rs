@@ -28,7 +28,7 @@ pub struct Session<'a> {
     /// What made the results that all counts come from, as long as nothing is added to them.
     pub(super) made_by: Option<Manifest>,
     /// Whether the results are here, down to the words of the config.
-    is_complete: bool,
+    pub(super) is_complete: bool,
     lock: Lock,
 }
 

@@ -2,7 +2,6 @@
 
 mod bad_input;
 mod commands;
-mod exhibits;
 mod figures;
 mod gate;
 mod keys;
@@ -12,6 +11,7 @@ mod replay;
 mod results;
 mod shards;
 mod simulate;
+mod studies;
 mod survival;
 
 use assert_cmd::Command;

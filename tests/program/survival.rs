@@ -98,7 +98,7 @@ impl Bench {
     pub fn files(&self, out: &str) -> BTreeMap<String, Vec<u8>> {
         let names = self.names(out).into_iter();
         names
-            .filter(|name| name != "run.json")
+            .filter(|name| name != "run.json" && self.path(out).join(name).is_file())
             .map(|name| (name.clone(), fs::read(self.path(out).join(&name)).unwrap()))
             .collect()
     }

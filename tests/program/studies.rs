@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 /// Each config, and the head of its rows.
-const EXHIBITS: [(&str, &str); 9] = [
+const STUDIES: [(&str, &str); 9] = [
     ("fig1", "lag,theory,exact_transfer,estimate,low,high"),
     (
         "fig2",
@@ -55,8 +55,8 @@ fn files(directory: &Path) -> BTreeMap<String, Vec<u8>> {
 
 /// Same bytes on 1, 2 and 7 threads, and again from the rows alone.
 #[test]
-fn exhibits_run_and_redraw_to_the_byte() {
-    for (name, head) in EXHIBITS {
+fn studies_run_and_redraw_to_the_byte() {
+    for (name, head) in STUDIES {
         let directory = tempfile::tempdir().unwrap();
         let (code, out, err) = sweep(name, directory.path(), &["--threads", "1"]);
         assert_eq!((code, err.as_str()), (0, ""), "{name}: {out}");
@@ -107,7 +107,7 @@ fn independence_prints_a_table() {
 
 /// More trials extend a result and a new question changes nothing; anything else is refused.
 #[test]
-fn results_of_another_exhibit_are_kept() {
+fn results_of_another_study_are_kept() {
     let directory = tempfile::tempdir().unwrap();
     assert_eq!(sweep("fig1", directory.path(), &[]).0, 0);
     let before = files(directory.path());
@@ -147,9 +147,9 @@ fn results_of_another_exhibit_are_kept() {
     assert_eq!(sweep("fig5", directory.path(), &["--fresh"]).0, 0);
 }
 
-/// A sweep's directory is kept from an exhibit too.
+/// A sweep's directory is kept from another study too.
 #[test]
-fn results_of_a_sweep_are_kept_from_an_exhibit() {
+fn results_of_a_sweep_are_kept_from_another_study() {
     let directory = tempfile::tempdir().unwrap();
     assert_eq!(sweep("fig6", directory.path(), &[]).0, 0);
     let (code, _, err) = sweep("fig1", directory.path(), &[]);
@@ -186,7 +186,7 @@ fn verbs_that_need_a_sweep() {
 /// Every study can be planned.
 #[test]
 fn studies_are_planned() {
-    for (name, _) in EXHIBITS {
+    for (name, _) in STUDIES {
         let config = format!("configs/{name}.toml");
         let (code, out, err) = outcome(liftsim().args(["plan", &config, "--trials", "20"]));
         assert_eq!((code, err.as_str()), (0, ""), "{name}: {out}");
