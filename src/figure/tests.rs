@@ -340,7 +340,8 @@ fn rides_show_rates_above_delays() {
         .map(|panel| panel.y.label.as_str())
         .collect();
     assert_eq!(y, ["P(every trip is found)", "start to H_1*, s"]);
-    assert_eq!(points(&plot, 0)[0][0].x, rows[0].x);
+    let first: &crate::exhibit::ride::Row = &rows[0];
+    assert_eq!(points(&plot, 0)[0][0].x, first.x.log10());
 }
 
 #[test]
