@@ -81,7 +81,7 @@ pub fn compute(config: &ExhibitConfig) -> Result<Exhibit, ConfigError> {
         ExhibitKind::OperatingPoint(search) => {
             let rows = operating_point::rows(config, search);
             let rows = rows.map_err(|problem| config.refuse(problem))?;
-            let quantities = operating_point::quantities(&rows);
+            let quantities = operating_point::quantities(&rows, search);
             (Rows::OperatingPoint(rows), quantities)
         }
         ExhibitKind::Ride(study) => {
