@@ -13,6 +13,11 @@ pub fn thousands(number: u64) -> String {
     text
 }
 
+/// Eight significant digits: more than any count supports, fewer than the last bits of a bisection.
+pub fn eight_digits(value: f64) -> f64 {
+    format!("{value:.7e}").parse().unwrap_or(value)
+}
+
 /// A hyphen is no minus.
 pub fn minus(number: &str) -> String {
     number.replace('-', "−")

@@ -2,6 +2,7 @@
 //! noise. Whatever can go wrong goes wrong here, before the first trial.
 
 use crate::chain::{Detector, Purpose, Scenario};
+use crate::claim::{self, Pair};
 use crate::config::{AxisValue, Config, ConfigError, Problem};
 use crate::detect::{Alternative, Method, NullLaws, Region, Rule, Samples};
 use crate::ensemble::Ensemble;
@@ -102,6 +103,42 @@ impl Plan {
             ensemble: ensemble.expect("the records fitted in memory with more points"),
             ..*self
         }
+    }
+
+    /// The pairs of points that the claims of its config compare.
+    pub fn pairs(&self, config: &Config) -> Vec<Pair> {
+        let claims = &config.narrative.claims;
+        if claims.is_empty() {
+            return Vec::new();
+        }
+        claim::pairs(claims, &config.scope(), &self.along_axis(config))
+    }
+
+    /// Of each curve the point at each value of the axis: the one in motion, or the one at rest where nothing
+    /// in the curve moves. What is the same at rest is planned once, under the first curve.
+    fn along_axis(&self, config: &Config) -> Vec<Vec<Option<usize>>> {
+        let along = |curve| {
+            let is_moving = |&at: &usize| {
+                let Point {
+                    curve: own,
+                    hypothesis,
+                    ..
+                } = self.points[at];
+                own == curve && hypothesis == Hypothesis::H1
+            };
+            let moving: Vec<_> = (0..self.points.len()).filter(is_moving).map(Some).collect();
+            if !moving.is_empty() {
+                return moving;
+            }
+            let at_rest = |value| {
+                let scenario = config.scenario(curve, value).ok()?.at_rest();
+                (self.points.iter()).position(|point| {
+                    point.hypothesis == Hypothesis::H0 && point.scenario == scenario
+                })
+            };
+            config.axis.values.iter().map(at_rest).collect()
+        };
+        (0..config.curves.len()).map(along).collect()
     }
 
     /// Of every point the family it belongs to: points of one family share their noise.

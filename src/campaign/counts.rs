@@ -23,7 +23,7 @@ pub struct Counts {
 impl Counts {
     /// What would be counted in one trial in which nothing happens.
     pub fn empty(config: &Config, plan: &Plan) -> Self {
-        let pairs = claim::pairs(config, &plan.points);
+        let pairs = plan.pairs(config);
         let row = |point| Row::new(point, None, super::NOTHING, config.confidence);
         Self {
             rows: plan.points.iter().map(row).collect(),

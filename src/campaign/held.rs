@@ -2,7 +2,6 @@
 
 use super::wanted::Wanted;
 use super::{NOTHING, Terms};
-use crate::claim;
 use crate::config::{Config, Experiment};
 use crate::ledger::{Key, Ledger};
 use crate::plan::Plan;
@@ -92,7 +91,7 @@ impl Held {
         let Some((config, plan)) = plan else {
             return Ok(());
         };
-        let pairs = claim::pairs(&config, &plan.points);
+        let pairs = plan.pairs(&config);
         if pairs.len() != comparisons.len() || plan.points.len() != self.rows.len() {
             return Ok(());
         }

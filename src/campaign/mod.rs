@@ -17,7 +17,7 @@ pub use merge::{Joined, MergeError, Missing, join};
 pub use status::{State, Status};
 
 use crate::chain::Decision;
-use crate::claim::{self, Pair};
+use crate::claim::Pair;
 use crate::config::Config;
 use crate::ledger::{Key, Ledger};
 use crate::plan::Plan;
@@ -94,7 +94,7 @@ impl Campaign {
     ) -> Result<Self, ResultsError> {
         let lock = directory.lock()?;
         directory.check_writable()?;
-        let pairs = claim::pairs(config, &plan.points);
+        let pairs = plan.pairs(config);
         let wanted = Wanted::new(&plan, &pairs);
         let mut state = Checkpoint {
             origin: Origin::from(config),

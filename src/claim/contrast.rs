@@ -1,9 +1,8 @@
 //! One curve against another, value by value: above it, or equivalent to it?
 
-use super::words::{at, compared, curve as named, interval, ranges};
-use super::{ClaimError, Judgement, Verdict};
-use crate::config::{Axis, Claim, Contrast, Contrasts};
-use crate::results::Comparison;
+use super::scope::Contrast;
+use super::words::{compared, counter_examples, curve as named, interval};
+use super::{Claim, ClaimError, Comparison, Contrasts, Evidence, Judgement, Verdict};
 
 /// What is sure of a difference.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -14,144 +13,162 @@ enum Side {
     Open,
 }
 
-/// Two curves, series or panels and what was counted of them.
-pub(super) struct Compared<'a> {
-    pub claim: &'a Claim,
-    pub contrasts: &'a Contrasts,
-    /// Of this claim.
-    pub comparisons: &'a [&'a Comparison],
-    pub axis: Option<&'a Axis>,
+/// Two curves, series or panels, and what was counted of them for a claim.
+struct Compared<'a> {
+    claim: &'a Claim,
+    names: &'a Contrasts,
+    contrasts: Vec<Contrast<'a>>,
+    /// Of the claim, at least one.
+    comparisons: &'a [Comparison],
+    evidence: &'a Evidence,
 }
 
-impl Compared<'_> {
-    pub fn exceeds(&self) -> Result<Judgement, ClaimError> {
-        let (margin, comparisons) = (self.claim.margin, self.comparisons);
-        let any = |wanted| comparisons.iter().any(|c| self.side(c) == wanted);
-        let (greater, smaller) = (any(Side::Greater), any(Side::Smaller));
-        let verdict = if greater && comparisons.iter().all(|c| c.low >= -margin) {
-            Verdict::Holds
-        } else if greater && smaller {
-            Verdict::HoldsWhere(self.places(|side, _| side == Side::Greater))
-        } else if smaller || comparisons.iter().all(|c| c.high <= margin) {
-            Verdict::DoesNotHold
-        } else {
-            Verdict::Undecided
-        };
-        let rule = format!("nowhere below by more than {margin} and somewhere above by more");
-        self.judgement(verdict, &rule)
-    }
+pub(super) fn exceeds(
+    claim: &Claim,
+    number: usize,
+    names: &Contrasts,
+    evidence: &Evidence,
+) -> Result<Judgement, ClaimError> {
+    let compared = Compared::new(claim, number, names, evidence)?;
+    let margin = claim.margin.get();
+    let smaller = compared.count(Side::Smaller);
+    let is_below_nowhere = compared.comparisons.iter().all(|c| c.low >= -margin);
+    let is_above_nowhere = compared.comparisons.iter().all(|c| c.high <= margin);
+    let verdict = if smaller > 0 {
+        compared.where_on(Side::Greater)
+    } else if is_above_nowhere {
+        Verdict::DoesNotHold
+    } else if is_below_nowhere && compared.count(Side::Greater) > 0 {
+        Verdict::Holds
+    } else {
+        Verdict::Undecided
+    };
+    let rule = format!("nowhere below by more than {margin} and somewhere above by more");
+    Ok(compared.judgement(verdict, smaller, &rule))
+}
 
-    pub fn equals(&self) -> Result<Judgement, ClaimError> {
-        let sides: Vec<Side> = self.comparisons.iter().map(|c| self.side(c)).collect();
-        let is_outside = |side: &Side| matches!(side, Side::Greater | Side::Smaller);
-        // Curves that cross are equal where they cross: a single value proves nothing.
-        let is_equal = |side, has_neighbour| side == Side::Equal && has_neighbour;
-        let verdict = if sides.iter().all(|side| *side == Side::Equal) {
-            Verdict::Holds
-        } else if !sides.iter().any(is_outside) {
-            Verdict::Undecided
-        } else {
-            match self.places(is_equal) {
-                nowhere if nowhere.is_empty() => Verdict::DoesNotHold,
-                somewhere => Verdict::HoldsWhere(somewhere),
-            }
-        };
-        let rule = format!("equivalent within ± {} everywhere", self.claim.margin);
-        self.judgement(verdict, &rule)
+pub(super) fn equals(
+    claim: &Claim,
+    number: usize,
+    names: &Contrasts,
+    evidence: &Evidence,
+) -> Result<Judgement, ClaimError> {
+    let compared = Compared::new(claim, number, names, evidence)?;
+    let outside = compared.count(Side::Greater) + compared.count(Side::Smaller);
+    let verdict = if outside > 0 {
+        compared.where_on(Side::Equal)
+    } else if compared.count(Side::Open) > 0 {
+        Verdict::Undecided
+    } else {
+        Verdict::Holds
+    };
+    let rule = format!("equivalent within ± {} everywhere", claim.margin.get());
+    Ok(compared.judgement(verdict, outside, &rule))
+}
+
+impl<'a> Compared<'a> {
+    fn new(
+        claim: &'a Claim,
+        number: usize,
+        names: &'a Contrasts,
+        evidence: &'a Evidence,
+    ) -> Result<Self, ClaimError> {
+        let comparisons = evidence.compared(number);
+        if comparisons.is_empty() {
+            return Err(ClaimError::NotCompared(names.first.clone()));
+        }
+        let contrasts = evidence.scope.contrasts(names);
+        Ok(Self {
+            claim,
+            names,
+            contrasts,
+            comparisons,
+            evidence,
+        })
     }
 
     fn side(&self, comparison: &Comparison) -> Side {
         let &Comparison { low, high, .. } = comparison;
-        let margin = self.claim.margin;
-        match () {
-            () if low > margin => Side::Greater,
-            () if high < -margin => Side::Smaller,
-            () if low >= -margin && high <= margin => Side::Equal,
-            () => Side::Open,
+        let margin = self.claim.margin.get();
+        if low > margin {
+            Side::Greater
+        } else if high < -margin {
+            Side::Smaller
+        } else if low >= -margin && high <= margin {
+            Side::Equal
+        } else {
+            Side::Open
         }
     }
 
-    /// A verdict with its numbers and its rule; none where nothing has been compared.
-    fn judgement(&self, verdict: Verdict, rule: &str) -> Result<Judgement, ClaimError> {
-        match self.comparisons.is_empty() {
-            true => Err(ClaimError::NotCompared(self.contrasts.first.clone())),
-            false => Ok(Judgement {
-                verdict,
-                evidence: self.extremes(),
-                how: self.how(rule),
-            }),
-        }
+    fn count(&self, side: Side) -> usize {
+        let of_side = self.comparisons.iter().filter(|c| self.side(c) == side);
+        of_side.count()
     }
 
-    /// The values of the axis that are `wanted`, by their side and whether a neighbour is on the same;
-    /// a contrast that is wanted throughout by the name of its place.
-    fn places(&self, wanted: impl Fn(Side, bool) -> bool) -> String {
-        let place = |contrast: &Contrast| {
-            let of_it = self.comparisons.iter().filter(|c| is_of(contrast, c));
-            let sides: Vec<(&str, Side)> = of_it
-                .map(|c| (c.first_value.as_str(), self.side(c)))
+    fn is_of(&self, contrast: &Contrast, comparison: &Comparison) -> bool {
+        let label = |index: usize| &self.evidence.scope.curves[index].label;
+        comparison.first_curve == *label(contrast.first)
+            && comparison.second_curve == *label(contrast.second)
+    }
+
+    /// The verdict on a claim that is refuted somewhere and shown where the difference is on this side.
+    fn where_on(&self, side: Side) -> Verdict {
+        Verdict::where_shown(self.contrasts.iter().map(|contrast| {
+            let of_it = self.comparisons.iter().filter(|c| self.is_of(contrast, c));
+            let values: Vec<(&str, bool)> = of_it
+                .map(|c| (c.first_value.as_str(), self.side(c) == side))
                 .collect();
-            let is_wanted = |index: usize| {
-                let own = sides[index].1;
-                let is_same =
-                    |other: Option<&(&str, Side)>| other.is_some_and(|(_, side)| *side == own);
-                let before = index.checked_sub(1).and_then(|before| sides.get(before));
-                wanted(own, is_same(before) || is_same(sides.get(index + 1)))
-            };
-            let values: Vec<(&str, bool)> = (0..sides.len())
-                .map(|index| (sides[index].0, is_wanted(index)))
-                .collect();
-            let chosen = values.iter().filter(|(_, is_wanted)| *is_wanted).count();
-            match (contrast.place.as_str(), chosen) {
-                (_, 0) => None,
-                ("", _) => Some(ranges(self.axis, &values)),
-                (place, all) if all == values.len() => Some(place.to_owned()),
-                (place, _) => Some(format!("{place}: {}", ranges(self.axis, &values))),
-            }
-        };
-        let places = self.contrasts.each.iter().filter_map(place);
-        places.collect::<Vec<_>>().join("; ")
+            self.evidence.scope.axis.shown(contrast.place, &values)
+        }))
+    }
+
+    fn judgement(&self, verdict: Verdict, refuted: usize, rule: &str) -> Judgement {
+        let all = self.comparisons.len();
+        Judgement {
+            verdict,
+            evidence: self.extremes() + &counter_examples(refuted, all, "comparison"),
+            how: format!(
+                "{} against {}: {rule}; {}, family-wise level {}",
+                named(&self.names.first),
+                named(&self.names.second),
+                compared(self.comparisons),
+                self.claim.level.get(),
+            ),
+        }
     }
 
     /// The smallest and the largest difference.
     fn extremes(&self) -> String {
-        let order = |a: &&&Comparison, b: &&&Comparison| a.difference.total_cmp(&b.difference);
-        let said = |c: &Comparison| {
-            let number = interval(c.difference, c.low, c.high);
-            let value = at(self.axis, &c.first_value);
-            let each = &self.contrasts.each;
-            match each.iter().find(|contrast| is_of(contrast, c)) {
-                Some(Contrast { place, .. }) if !place.is_empty() => {
-                    format!("{number} at {value} ({place})")
-                }
-                _ => format!("{number} at {value}"),
-            }
-        };
-        let comparisons = self.comparisons.iter();
-        let ends = comparisons
-            .clone()
+        let order = |a: &&Comparison, b: &&Comparison| a.difference.total_cmp(&b.difference);
+        let smallest = self
+            .comparisons
+            .iter()
             .min_by(order)
-            .zip(comparisons.max_by(order));
-        match ends {
-            Some((smallest, largest)) if self.comparisons.len() > 1 => {
-                format!("differences from {} to {}", said(smallest), said(largest))
-            }
-            Some((only, _)) => format!("difference {}", said(only)),
-            None => String::new(),
+            .map(|c| self.difference(c));
+        let largest = self
+            .comparisons
+            .iter()
+            .max_by(order)
+            .map(|c| self.difference(c));
+        let (smallest, largest) = smallest.zip(largest).expect("there is a comparison");
+        if self.comparisons.len() > 1 {
+            format!("differences from {smallest} to {largest}")
+        } else {
+            format!("difference {smallest}")
         }
     }
 
-    fn how(&self, rule: &str) -> String {
-        format!(
-            "{} against {}: {rule}; {}, family-wise level {}",
-            named(&self.contrasts.first),
-            named(&self.contrasts.second),
-            compared(self.comparisons),
-            self.claim.level,
-        )
+    fn difference(&self, comparison: &Comparison) -> String {
+        let number = interval(comparison.difference, comparison.low, comparison.high);
+        let value = self.evidence.scope.axis.at(&comparison.first_value);
+        let contrast = self
+            .contrasts
+            .iter()
+            .find(|contrast| self.is_of(contrast, comparison));
+        match contrast.map(|contrast| contrast.place) {
+            None | Some("") => format!("{number} at {value}"),
+            Some(place) => format!("{number} at {value} ({place})"),
+        }
     }
-}
-
-fn is_of(contrast: &Contrast, comparison: &Comparison) -> bool {
-    comparison.first_curve == contrast.first && comparison.second_curve == contrast.second
 }

@@ -1,17 +1,14 @@
-//! Do the false-alarm rates stay at or below α?
+//! Are the false-alarm rates at or below α, as far as trials can tell?
 
-use super::place::placed;
-use super::words::{at, count, curve as named, exact, interval, ranges};
-use super::{ClaimError, Evidence, Judgement, Verdict};
-use crate::config::{Axis, Claim};
-use crate::results::Row;
+use super::words::{count, curve as named, exact, interval};
+use super::{Claim, ClaimError, Evidence, Judgement, Outcome, Verdict};
 use crate::stats::tally::holm;
 
 /// One row at rest.
 struct Rest<'a> {
     label: &'a str,
-    value: String,
-    row: &'a Row,
+    value: &'a str,
+    outcome: &'a Outcome,
     /// Exact, of "the rate is at most α".
     p_value: f64,
     is_rejected: bool,
@@ -20,113 +17,102 @@ struct Rest<'a> {
 }
 
 impl Rest<'_> {
-    fn is_held(&self) -> bool {
+    fn passes(&self) -> bool {
         self.is_low && !self.is_rejected
     }
 }
 
 pub(super) fn judge(
     claim: &Claim,
-    curves: &[String],
+    curves: Option<&[String]>,
     excess: f64,
     evidence: &Evidence,
 ) -> Result<Judgement, ClaimError> {
     let rests = rests(claim, curves, excess, evidence)?;
+    let verdict = if rests.iter().any(|rest| rest.is_rejected) {
+        let by_curve = rests.chunk_by(|a, b| a.label == b.label);
+        Verdict::where_shown(by_curve.map(|of_curve| {
+            let values: Vec<(&str, bool)> = of_curve
+                .iter()
+                .map(|rest| (rest.value, rest.passes()))
+                .collect();
+            evidence
+                .scope
+                .axis
+                .shown(&named(of_curve[0].label), &values)
+        }))
+    } else if rests.iter().all(Rest::passes) {
+        Verdict::Holds
+    } else {
+        Verdict::Undecided
+    };
     Ok(Judgement {
-        verdict: verdict(&rests, curves, evidence.axis),
-        evidence: worst(&rests, evidence.axis),
+        verdict,
+        evidence: worst(&rests, evidence),
         how: format!(
-            "no rate above α (exact tests, Holm) and every upper limit at most {excess} α; {}, \
+            "no rate above α beyond doubt (exact tests, Holm), and each surely at most {excess} α; {}, \
              family-wise level {}",
             count(rests.len(), "scenario"),
-            claim.level,
+            claim.level.get(),
         ),
     })
 }
 
 fn rests<'a>(
     claim: &Claim,
-    curves: &'a [String],
+    curves: Option<&[String]>,
     excess: f64,
-    evidence: &Evidence<'a>,
+    evidence: &'a Evidence,
 ) -> Result<Vec<Rest<'a>>, ClaimError> {
-    let mut found: Vec<(&str, String, &Row)> = Vec::new();
-    for label in curves {
-        let rows = placed(evidence.axis, evidence.rows, label, true);
-        if rows.is_empty() {
+    let mut found: Vec<(&str, (&str, &Outcome))> = Vec::new();
+    for curve in evidence.scope.named(curves) {
+        let label = &evidence.scope.curves[curve].label;
+        let outcomes = evidence.along(label, true);
+        if outcomes.is_empty() {
             return Err(ClaimError::NoRest(label.clone()));
         }
-        let named = |(value, row)| (label.as_str(), value, row);
-        found.extend(rows.into_iter().map(named));
+        found.extend(
+            outcomes
+                .into_iter()
+                .map(|outcome| (label.as_str(), outcome)),
+        );
     }
-    let p_value = |row: &Row| row.tally().p_value_above(row.alpha);
-    let p_values: Vec<f64> = found.iter().map(|(.., row)| p_value(row)).collect();
-    // Half the level for rejections, half for the upper limits.
-    let rejected = holm(&p_values, claim.level / 2.0);
-    let confidence = 1.0 - claim.level / found.len() as f64;
-    let rest = |(index, (label, value, row)): (usize, (&'a str, String, &'a Row))| Rest {
-        label,
-        value,
-        row,
-        p_value: p_values[index],
-        is_rejected: rejected[index],
-        is_low: row.tally().interval(confidence).1 <= excess * row.alpha,
-    };
-    Ok(found.into_iter().enumerate().map(rest).collect())
-}
-
-fn verdict(rests: &[Rest], curves: &[String], axis: Option<&Axis>) -> Verdict {
-    let is_any_rejected = rests.iter().any(|rest| rest.is_rejected);
-    if rests.iter().all(Rest::is_held) {
-        Verdict::Holds
-    } else if !is_any_rejected {
-        Verdict::Undecided
-    } else if !rests.iter().any(Rest::is_held) {
-        Verdict::DoesNotHold
-    } else {
-        let places = curves.iter().filter_map(|label| place(rests, label, axis));
-        Verdict::HoldsWhere(places.collect::<Vec<_>>().join("; "))
-    }
-}
-
-/// Where a curve holds its level: the whole of it by its name.
-fn place(rests: &[Rest], label: &str, axis: Option<&Axis>) -> Option<String> {
-    let of_curve: Vec<&Rest> = rests.iter().filter(|rest| rest.label == label).collect();
-    let values: Vec<(&str, bool)> = of_curve
+    let p_values: Vec<f64> = found
         .iter()
-        .map(|rest| (rest.value.as_str(), rest.is_held()))
+        .map(|(_, (_, outcome))| outcome.tally.p_value_above(outcome.alpha))
         .collect();
-    match values.iter().filter(|(_, is_held)| *is_held).count() {
-        0 => None,
-        all if all == values.len() => Some(named(label)),
-        _ => Some(format!("{}: {}", named(label), ranges(axis, &values))),
-    }
+    // Half the level for rejections, half for the upper limits.
+    let rejected = holm(&p_values, claim.level.get() / 2.0);
+    let confidence = 1.0 - claim.level.get() / found.len() as f64;
+    let judged = found.into_iter().zip(p_values.into_iter().zip(rejected));
+    Ok(judged
+        .map(|((label, (value, outcome)), (p_value, is_rejected))| Rest {
+            label,
+            value,
+            outcome,
+            p_value,
+            is_rejected,
+            is_low: outcome.tally.interval(confidence).1 <= excess * outcome.alpha,
+        })
+        .collect())
 }
 
-/// The row that is worst for its level.
-fn worst(rests: &[Rest], axis: Option<&Axis>) -> String {
-    let excess = |rest: &Rest| rest.row.rate / rest.row.alpha;
+/// How many pass, and the row that is worst for its level.
+fn worst(rests: &[Rest], evidence: &Evidence) -> String {
+    let excess = |rest: &Rest| rest.outcome.tally.rate() / rest.outcome.alpha;
     let worst = rests.iter().max_by(|a, b| excess(a).total_cmp(&excess(b)));
-    let Some(Rest {
-        label,
-        value,
-        row,
-        p_value,
-        ..
-    }) = worst
-    else {
-        return String::new();
-    };
-    let held = rests.iter().filter(|rest| rest.is_held()).count();
-    let rejected = rests.iter().filter(|rest| rest.is_rejected).count();
+    let worst = worst.expect("a claim names a curve");
+    let outcome = worst.outcome;
     format!(
-        "{held} of {} held, {rejected} rejected; the largest for its α: {} at α = {}, p {}, {}, {}",
+        "{} of {} pass, {} are above α beyond doubt; the largest for its α: {} at α = {}, p {}, {}, {}",
+        rests.iter().filter(|rest| rest.passes()).count(),
         rests.len(),
-        interval(row.rate, row.low, row.high),
-        row.alpha,
-        in_short(*p_value),
-        named(label),
-        at(axis, value),
+        rests.iter().filter(|rest| rest.is_rejected).count(),
+        interval(outcome.tally.rate(), outcome.low, outcome.high),
+        outcome.alpha,
+        in_short(worst.p_value),
+        named(worst.label),
+        evidence.scope.axis.at(worst.value),
     )
 }
 

@@ -1,73 +1,108 @@
-//! Claims against results: which points are compared, and what the verdict is.
+//! Claims: what a config says of its results, which points are compared for it, and what the verdict is.
 //!
 //! The rule is written in the config before the run. Each claim has a family-wise `level`, spread over
 //! all its comparisons, and a `margin` below which a difference does not count. "Holds" takes a test
 //! of superiority, non-inferiority or equivalence; a difference that is merely not visible proves
 //! nothing and ends undecided.
 //!
-//! | test | holds | does not hold | holds where |
+//! | test | holds | is refuted by | shown in a range |
 //! |---|---|---|---|
-//! | `grows` | every step's interval starts at −margin or above, every curve's last − first above margin | every curve falls or is flat, or some does and none grows from first to last | one falls or is flat, and others grow: these, and the ranges in which the one grows |
-//! | `exceeds` | every point's interval starts at −margin or above, one above margin | none is greater, and one is smaller or all are at most margin | some are greater, some smaller: where greater |
-//! | `equals` | every point's interval lies inside ± margin | one lies outside, and no two neighbours inside (curves that cross are equal where they cross) | one lies outside, neighbours inside: these |
-//! | `alpha_held` | no row is rejected and every upper limit is at most excess · α | some are rejected, and no other is held | some are rejected: where held |
-//! | `quantity` | its interval lies in [from, to] | its interval misses [from, to] | |
-//! | `gain` | its interval lies above `from` | its interval ends at `from` or below | |
+//! | `grows` | every step's interval starts at −margin or above, every curve's last − first above margin | a curve that falls, or is flat from first to last | without a fall, and the lower limits of its steps add up to more than the margin |
+//! | `exceeds` | every point's interval starts at −margin or above, one above margin | a point below −margin, or all of them at margin or below | every point above margin |
+//! | `equals` | every point's interval lies inside ± margin | a point outside | every point inside |
+//! | `alpha_held` | no rate is above α beyond doubt, and every upper limit is at most excess · α | a rate above α beyond doubt | every rate passes |
+//! | `quantity` | its interval lies in [from, to] | an interval that misses [from, to] | |
+//! | `gain` | its interval lies above `from` | an interval that ends at `from` or below | |
 //!
 //! A step *falls* where its interval ends below −margin; a curve is *flat* where that of last − first
-//! ends at margin or below. Anything else is undecided: it takes more trials.
+//! ends at margin or below. `alpha_held` does not say that a rate is at most α, which no number of trials
+//! can show of a rate that is α: a rate of 1.08 α passes where the excess is 1.2.
+//!
+//! A claim is about all its curves. One that is refuted *does not hold*, and its counter-examples are
+//! counted, unless it is shown in a stated range of the axis for every curve (pair of curves): two
+//! neighbouring values at least of an axis of numbers. Then it *holds where*; for growth some curve must grow
+//! throughout, too. A single value is no range: curves that cross are equal where they cross. What is neither shown nor refuted is undecided: it takes more
+//! trials.
 //!
 //! # Why the level is kept
 //! - `grows`, `exceeds`, `equals`: each of n intervals has confidence 1 − level/n (Bonferroni), so with
 //!   probability 1 − level at least all of them cover. Every word of a verdict follows from "all cover"
-//!   and nothing else, however it was selected. A range inside a fallen curve is said to grow where the
-//!   lower limits of its steps add up to more than the margin, which follows from the same event.
+//!   and nothing else, however it was selected.
 //! - `alpha_held`: Holm's rule on exact p-values of "the rate is at most α" rejects any true one with
 //!   probability at most level/2; n two-sided intervals of confidence 1 − level/n have upper limits that
-//!   all hold with probability 1 − level/2 at least, and only there is a rate called held.
+//!   all hold with probability 1 − level/2 at least.
 //! - `gain`: see `gain.rs`. `quantity`: the interval's own confidence.
 
+mod comparison;
 mod contrast;
 mod false_alarm;
 mod gain;
 mod growth;
+mod narrative;
 mod pairs;
 mod place;
 mod quantity;
+mod scope;
 #[cfg(test)]
 mod tests;
+mod values;
 pub mod words;
 
+pub use comparison::{Comparison, Place};
 pub use gain::gains;
+pub use narrative::{Claim, Contrasts, Narrative, Test, Words};
 pub use pairs::{Pair, comparisons, confidence, pairs};
-pub use place::placed;
-pub use quantity::named_quantity;
+pub use quantity::{Quantity, named_quantity};
+pub use scope::{Axis, ClaimProblem, Curve, Scope};
 
-use crate::config::{Axis, Claim, Test};
-use crate::results::{Comparison, Quantity, Row};
-use contrast::Compared;
+use crate::stats::tally::Tally;
 
-/// What a claim is judged by.
-#[derive(Clone, Copy, Debug)]
-pub struct Evidence<'a> {
+/// The results that claims are judged by.
+#[derive(Clone, Debug, Default)]
+pub struct Evidence {
     /// Of the sweep, if it is one.
-    pub axis: Option<&'a Axis>,
-    /// `points.csv`
-    pub rows: &'a [Row],
-    /// `comparisons.csv`, of every claim.
-    pub comparisons: &'a [Comparison],
+    pub scope: Scope,
+    /// Of `points.csv`.
+    pub outcomes: Vec<Outcome>,
+    /// `comparisons.csv`, claim by claim.
+    pub comparisons: Vec<Comparison>,
     /// `quantities.csv`
-    pub quantities: &'a [Quantity],
+    pub quantities: Vec<Quantity>,
 }
 
-/// What became of a claim.
+/// A rate, where it stands, and what its rule promises.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs, reason = "the columns of points.csv")]
+pub struct Outcome {
+    pub label: String,
+    /// Its value on the axis, as the axis prints it.
+    pub value: String,
+    pub is_at_rest: bool,
+    pub tally: Tally,
+    pub low: f64,
+    pub high: f64,
+    pub alpha: f64,
+    pub size: Option<f64>,
+    pub reachable: Option<f64>,
+}
+
+impl Evidence {
+    /// The comparisons of a claim, from 1.
+    fn compared(&self, claim: usize) -> &[Comparison] {
+        let of_claim = self.comparisons.chunk_by(|a, b| a.claim == b.claim);
+        let mut of_claim = of_claim.filter(|chunk| chunk[0].claim == claim);
+        of_claim.next().unwrap_or_default()
+    }
+}
+
+/// The verdict on a claim.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judgement {
     /// The conclusion.
     pub verdict: Verdict,
-    /// The numbers behind it, in a sentence.
+    /// The numbers behind it, in words.
     pub evidence: String,
-    /// The rule, in a sentence.
+    /// The rule, in words.
     pub how: String,
 }
 
@@ -76,9 +111,9 @@ pub struct Judgement {
 pub enum Verdict {
     /// Shown everywhere.
     Holds,
-    /// Shown here, refuted elsewhere.
+    /// Refuted, but shown in these ranges of the axis.
     HoldsWhere(String),
-    /// Refuted, and shown nowhere.
+    /// Refuted.
     DoesNotHold,
     /// The trials were too few to tell.
     Undecided,
@@ -86,22 +121,14 @@ pub enum Verdict {
 
 /// Why a claim cannot be judged by these results.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the messages say it")]
 pub enum ClaimError {
-    /// No such number.
     #[error("quantity `{name}`: not among the results, which have {known} (correct the name)")]
-    NoQuantity {
-        /// As the claim has it.
-        name: String,
-        /// All there are.
-        known: String,
-    },
-    /// The results are from before the claim.
+    NoQuantity { name: String, known: String },
     #[error("curve {0}: its points have not been compared for this claim (simulate again)")]
     NotCompared(String),
-    /// Another curve has the row at rest.
     #[error("curve {0}: no row at rest of its own (name the first curve that shares its rest)")]
     NoRest(String),
-    /// Not enough points.
     #[error("curve {0}: no row for each value of the axis (let something move in it)")]
     NoRows(String),
 }
@@ -109,29 +136,23 @@ pub enum ClaimError {
 /// Judges a claim, the `number`-th (from 1) of its config.
 ///
 /// # Errors
-/// Where the evidence lacks what the claim is about.
+/// Where the results have nothing of what the claim is about.
 pub fn judge(claim: &Claim, number: usize, evidence: &Evidence) -> Result<Judgement, ClaimError> {
-    let of_claim = |comparison: &&Comparison| comparison.claim == number;
-    let comparisons: Vec<&Comparison> = evidence.comparisons.iter().filter(of_claim).collect();
-    let compared = |contrasts| Compared {
-        claim,
-        contrasts,
-        comparisons: &comparisons,
-        axis: evidence.axis,
-    };
     match &claim.test {
-        Test::Grows { curves } => growth::judge(claim, curves, &comparisons, evidence.axis),
-        Test::Exceeds(contrasts) => compared(contrasts).exceeds(),
-        Test::Equals(contrasts) => compared(contrasts).equals(),
-        Test::AlphaHeld { curves, excess } => false_alarm::judge(claim, curves, *excess, evidence),
+        Test::Grows { curves } => growth::judge(claim, number, curves.as_deref(), evidence),
+        Test::Exceeds(contrasts) => contrast::exceeds(claim, number, contrasts, evidence),
+        Test::Equals(contrasts) => contrast::equals(claim, number, contrasts, evidence),
+        Test::AlphaHeld { curves, excess } => {
+            false_alarm::judge(claim, curves.as_deref(), excess.get(), evidence)
+        }
         Test::Quantity { name, from, to } => {
-            quantity::judge(name, [*from, *to], evidence.quantities)
+            quantity::judge(name, [*from, *to], &evidence.quantities)
         }
         Test::Gain {
             first,
             second,
             power,
             from,
-        } => gain::judge(claim, [first, second], *power, *from, evidence),
+        } => gain::judge(claim, [first, second], power.get(), *from, evidence),
     }
 }

@@ -1,9 +1,6 @@
 //! The pairs of points that claims compare.
 
-use super::place::point_at;
-use crate::config::{Claim, Config, Contrast, Test};
-use crate::plan::Point;
-use crate::results::{Comparison, Place};
+use super::{Claim, Comparison, Place, Scope, Test};
 use crate::stats::tally::Tally;
 
 /// Two points to compare for a claim; the first is the one expected to be greater.
@@ -19,60 +16,63 @@ pub struct Pair {
     pub places: [Place; 2],
 }
 
-/// Every pair that the claims of a config ask for, claim by claim.
+/// Every pair that claims ask for, claim by claim; `points` has of each curve the index of its point at each
+/// value of the axis, if there is one.
 ///
 /// For growth these are, curve by curve, each value of the axis against the one before and then the
 /// last against the first (the same pair where there are but two values); for a contrast of curves,
 /// both at each value of the axis.
-pub fn pairs(config: &Config, points: &[Point]) -> Vec<Pair> {
-    let last = config.axis.values.len() - 1;
+pub fn pairs(claims: &[Claim], scope: &Scope, points: &[Vec<Option<usize>>]) -> Vec<Pair> {
     let mut pairs = Vec::new();
-    for (claim, Claim { test, .. }) in config.narrative.claims.iter().enumerate() {
-        let mut add = |first: (&str, usize), second: (&str, usize)| {
-            pairs.extend(pair(config, points, claim, [first, second]));
-        };
-        match test {
-            Test::Grows { curves } => {
-                for curve in curves {
-                    (1..=last).for_each(|value| add((curve, value), (curve, value - 1)));
-                    if last > 1 {
-                        add((curve, last), (curve, 0));
-                    }
-                }
+    for (claim, Claim { test, .. }) in claims.iter().enumerate() {
+        for [first, second] in compared(test, scope) {
+            let point = |(curve, value): (usize, usize)| *points[curve].get(value)?;
+            let place = |(curve, value): (usize, usize)| Place {
+                curve: scope.curves[curve].label.clone(),
+                value: scope.axis.values[value].0.clone(),
+            };
+            if let (Some(one), Some(other)) = (point(first), point(second)) {
+                pairs.push(Pair {
+                    claim,
+                    first: one,
+                    second: other,
+                    places: [place(first), place(second)],
+                });
             }
-            Test::Exceeds(contrasts) | Test::Equals(contrasts) => {
-                for Contrast { first, second, .. } in &contrasts.each {
-                    (0..=last).for_each(|value| add((first, value), (second, value)));
-                }
-            }
-            Test::AlphaHeld { .. } | Test::Quantity { .. } | Test::Gain { .. } => {}
         }
     }
     pairs
 }
 
-/// The pair of two curves, each at one value of the axis (from 0).
-fn pair(
-    config: &Config,
-    points: &[Point],
-    claim: usize,
-    [first, second]: [(&str, usize); 2],
-) -> Option<Pair> {
-    let place = |(curve, value): (&str, usize)| Place {
-        curve: curve.to_owned(),
-        value: config.axis.values[value].to_string(),
-    };
-    Some(Pair {
-        claim,
-        first: point_at(config, points, first.0, first.1)?,
-        second: point_at(config, points, second.0, second.1)?,
-        places: [place(first), place(second)],
-    })
+/// What a test compares, each a curve and a value of the axis.
+fn compared(test: &Test, scope: &Scope) -> Vec<[(usize, usize); 2]> {
+    let values = scope.axis.values.len();
+    match test {
+        Test::Grows { curves } => {
+            let climb = |curve| {
+                let steps = (1..values).map(move |value| [(curve, value), (curve, value - 1)]);
+                let overall = (values > 2).then_some([(curve, values - 1), (curve, 0)]);
+                steps.chain(overall)
+            };
+            scope
+                .named(curves.as_deref())
+                .into_iter()
+                .flat_map(climb)
+                .collect()
+        }
+        Test::Exceeds(contrasts) | Test::Equals(contrasts) => {
+            let contrasts = scope.contrasts(contrasts).into_iter();
+            contrasts
+                .flat_map(|c| (0..values).map(move |value| [(c.first, value), (c.second, value)]))
+                .collect()
+        }
+        Test::AlphaHeld { .. } | Test::Quantity { .. } | Test::Gain { .. } => Vec::new(),
+    }
 }
 
 /// Of each of `pairs` comparisons, so that all intervals cover with probability 1 − level at least.
 pub fn confidence(claim: &Claim, pairs: usize) -> f64 {
-    1.0 - claim.level / pairs as f64
+    1.0 - claim.level.get() / pairs as f64
 }
 
 /// The rows of `comparisons.csv`: one per pair. `discordant` has, for each pair that shares its noise,
@@ -83,16 +83,29 @@ pub fn comparisons(
     tallies: &[Tally],
     discordant: &[Option<[u64; 2]>],
 ) -> Vec<Comparison> {
-    let number = |claim: usize| pairs.iter().filter(|pair| pair.claim == claim).count();
-    let numbers: Vec<usize> = (0..claims.len()).map(number).collect();
-    let compare = |(pair, discordant): (&Pair, &Option<[u64; 2]>)| {
-        let Pair { claim, places, .. } = pair;
-        let compared = [tallies[pair.first], tallies[pair.second]];
-        let confidence = confidence(&claims[*claim], numbers[*claim]);
-        // Two curves may share a point, which never differs from itself.
-        let itself = (pair.first == pair.second).then_some([0, 0]);
-        let discordant = itself.or(*discordant);
-        Comparison::new(claim + 1, places.clone(), compared, discordant, confidence)
-    };
-    pairs.iter().zip(discordant).map(compare).collect()
+    let mut numbers = vec![0; claims.len()];
+    for pair in pairs {
+        numbers[pair.claim] += 1;
+    }
+    let compared = pairs.iter().zip(discordant);
+    compared
+        .map(|(pair, discordant)| {
+            let Pair {
+                claim,
+                first,
+                second,
+                places,
+            } = pair;
+            // Two curves may share a point, which never differs from itself.
+            let itself = (first == second).then_some([0, 0]);
+            let confidence = confidence(&claims[*claim], numbers[*claim]);
+            Comparison::new(
+                claim + 1,
+                places.clone(),
+                [tallies[*first], tallies[*second]],
+                itself.or(*discordant),
+                confidence,
+            )
+        })
+        .collect()
 }

@@ -1,63 +1,78 @@
-//! Where points and rows stand on the axis.
+//! Where results stand on the axis, and the places where a claim is shown.
 
-use crate::config::{Axis, Config, Parameter};
-use crate::plan::{Hypothesis, Point};
-use crate::results::Row;
+use super::{Axis, Evidence, Outcome, Verdict};
+use crate::format::minus;
 
-/// The point of a curve at a value of the axis (from 0): the one in motion, or the one at rest where
-/// nothing in the curve moves. What is the same at rest is planned once, under the first curve.
-pub(super) fn point_at(
-    config: &Config,
-    points: &[Point],
-    label: &str,
-    value: usize,
-) -> Option<usize> {
-    let curve = config
-        .curves
-        .iter()
-        .position(|curve| curve.label == label)?;
-    let moving = |point: &Point| point.curve == curve && point.hypothesis == Hypothesis::H1;
-    let of_curve: Vec<usize> = (0..points.len()).filter(|&i| moving(&points[i])).collect();
-    if !of_curve.is_empty() {
-        return of_curve.get(value).copied();
+impl Evidence {
+    /// The outcomes of a curve, in motion or at rest, each with its value on the axis.
+    ///
+    /// A curve with one for each value is placed by the values themselves, which a row need not repeat; at
+    /// rest equal points are simulated once, and what their rows say must do.
+    pub fn along(&self, label: &str, is_at_rest: bool) -> Vec<(&str, &Outcome)> {
+        let is_wanted = |o: &&Outcome| o.label == label && o.is_at_rest == is_at_rest;
+        let outcomes: Vec<&Outcome> = self.outcomes.iter().filter(is_wanted).collect();
+        let values = &self.scope.axis.values;
+        let has_all = outcomes.len() == values.len();
+        let value = |index: usize, own| if has_all { &values[index].0 } else { own };
+        (outcomes.into_iter().enumerate())
+            .map(|(index, outcome)| (value(index, &outcome.value).as_str(), outcome))
+            .collect()
     }
-    let scenario = config.scenario(curve, &config.axis.values[value]).ok()?;
-    let at_rest = scenario.at_rest();
-    points
-        .iter()
-        .position(|point| point.hypothesis == Hypothesis::H0 && point.scenario == at_rest)
 }
 
-/// The rows of a curve, in motion or at rest, each with its value on the axis.
-///
-/// A curve with a row for each value is placed by the values themselves, which a row need not repeat;
-/// at rest equal points are told once, and the rows must do.
-pub fn placed<'a>(
-    axis: Option<&Axis>,
-    rows: &'a [Row],
-    label: &str,
-    is_at_rest: bool,
-) -> Vec<(String, &'a Row)> {
-    let of_curve = rows
-        .iter()
-        .filter(|row| row.label == label && row.is_at_rest() == is_at_rest);
-    let of_curve: Vec<&Row> = of_curve.collect();
-    let count = of_curve.len();
-    let value = |(index, row): (usize, &Row)| match axis {
-        Some(axis) if axis.values.len() == count => axis.values[index].to_string(),
-        Some(axis) => column(row, axis.parameter),
-        None => String::new(),
-    };
-    let rows = of_curve.into_iter().enumerate();
-    rows.map(|(index, row)| (value((index, row)), row))
-        .collect()
+impl Axis {
+    /// `Δ/σ_ξ = 0.3`, `rule wilcoxon`.
+    pub(super) fn at(&self, value: &str) -> String {
+        match value.parse::<f64>() {
+            Ok(number) => format!("{} = {}", self.symbol, minus(&number.to_string())),
+            Err(_) => format!("{} {value}", self.symbol),
+        }
+    }
+
+    /// `Δ/σ_ξ in [0.1, 0.6]`.
+    pub(super) fn range(&self, first: &str, last: &str) -> String {
+        format!("{} in [{}, {}]", self.symbol, minus(first), minus(last))
+    }
+
+    /// Where a curve, or a pair of curves, called `name` is shown to be as claimed, given whether it is at each
+    /// value: by its name if everywhere, else the ranges of neighbouring numbers, if there are any.
+    pub(super) fn shown(&self, name: &str, values: &[(&str, bool)]) -> Option<String> {
+        let is_everywhere = values.iter().all(|(_, is_shown)| *is_shown);
+        if is_everywhere && !name.is_empty() {
+            return Some(name.to_owned());
+        }
+        if values
+            .iter()
+            .any(|(value, _)| value.parse::<f64>().is_err())
+        {
+            return None;
+        }
+        let ranges: Vec<String> = values
+            .chunk_by(|a, b| a.1 == b.1)
+            .filter(|run| run.len() > 1 && run[0].1)
+            .map(|run| self.range(run[0].0, run[run.len() - 1].0))
+            .collect();
+        named_ranges(name, &ranges)
+    }
 }
 
-/// The value of the axis at a row, as an axis prints it.
-fn column(row: &Row, parameter: Parameter) -> String {
-    match (parameter, row.on_axis(parameter)) {
-        (Parameter::Rule, _) => row.rule_name().to_owned(),
-        (_, Some(number)) => number.to_string(),
-        (_, None) => "none".to_owned(),
+/// `"a": Δ/σ_ξ in [0, 0.3], Δ/σ_ξ in [1, 2]`; none where there are no ranges.
+pub(super) fn named_ranges(name: &str, ranges: &[String]) -> Option<String> {
+    let ranges = ranges.join(", ");
+    match (ranges.is_empty(), name.is_empty()) {
+        (true, _) => None,
+        (_, true) => Some(ranges),
+        _ => Some(format!("{name}: {ranges}")),
+    }
+}
+
+impl Verdict {
+    /// On a claim that is refuted somewhere: it holds where it is shown, if there is such a place for each of
+    /// its curves.
+    pub(super) fn where_shown(places: impl Iterator<Item = Option<String>>) -> Self {
+        match places.collect::<Option<Vec<String>>>() {
+            Some(places) => Self::HoldsWhere(places.join("; ")),
+            None => Self::DoesNotHold,
+        }
     }
 }

@@ -1,22 +1,48 @@
-//! Does a number lie in a range?
+//! `quantities.csv`, the single numbers of an experiment, and the claim that one lies in a range.
+//!
+//! An interval may be open: where a search ends before what it looks for, only a bound is known. Then `value`
+//! is that bound, and the side beyond it is infinite. A range is compared with what is known alone: an open
+//! side lies in no range that ends there, and outside none, so the other side decides or nothing does.
 
 use super::words::{exact, interval};
 use super::{ClaimError, Judgement, Verdict};
-use crate::results::Quantity;
+use serde::{Deserialize, Serialize};
+
+/// A named number with its interval; an exact one is its own interval.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Quantity {
+    /// In snake case.
+    pub name: String,
+    /// The estimate, or the bound of what is known on one side only.
+    pub value: f64,
+    /// Of the interval; −∞ where it is open.
+    pub low: f64,
+    /// Of the interval; +∞ where it is open.
+    pub high: f64,
+}
+
+impl Quantity {
+    /// A number without uncertainty.
+    pub fn exact(name: &str, value: f64) -> Self {
+        Self {
+            name: name.to_owned(),
+            value,
+            low: value,
+            high: value,
+        }
+    }
+}
 
 pub(super) fn judge(
     name: &str,
     [from, to]: [Option<f64>; 2],
     quantities: &[Quantity],
 ) -> Result<Judgement, ClaimError> {
-    let quantity = named_quantity(name, quantities)?;
     let &Quantity {
         value, low, high, ..
-    } = quantity;
-    let (start, end) = (
-        from.unwrap_or(f64::NEG_INFINITY),
-        to.unwrap_or(f64::INFINITY),
-    );
+    } = named_quantity(name, quantities)?;
+    let start = from.unwrap_or(f64::NEG_INFINITY);
+    let end = to.unwrap_or(f64::INFINITY);
     let verdict = if low >= start && high <= end {
         Verdict::Holds
     } else if high < start || low > end {
@@ -32,9 +58,10 @@ pub(super) fn judge(
     Ok(Judgement {
         verdict,
         evidence: interval(value, low, high),
-        how: match low == high {
-            true => format!("`{name}` {range}, exactly"),
-            false => format!("the interval of `{name}` {range}"),
+        how: if low == high {
+            format!("`{name}` {range}, exactly")
+        } else {
+            format!("the interval of `{name}` {range}")
         },
     })
 }
@@ -47,14 +74,16 @@ pub fn named_quantity<'a>(
     name: &str,
     quantities: &'a [Quantity],
 ) -> Result<&'a Quantity, ClaimError> {
-    let mut named = quantities.iter();
-    named.find(|quantity| quantity.name == name).ok_or_else(|| {
+    let named = quantities.iter().find(|quantity| quantity.name == name);
+    named.ok_or_else(|| {
         let known: Vec<&str> = quantities.iter().map(|q| q.name.as_str()).collect();
-        let known = match known.is_empty() {
-            true => "none".to_owned(),
-            false => known.join(", "),
-        };
-        let name = name.to_owned();
-        ClaimError::NoQuantity { name, known }
+        ClaimError::NoQuantity {
+            name: name.to_owned(),
+            known: if known.is_empty() {
+                "none".to_owned()
+            } else {
+                known.join(", ")
+            },
+        }
     })
 }

@@ -1,10 +1,9 @@
 //! Every verdict of every test on made-up results, and the boundaries between verdicts.
 
-use super::gain::{first_after, first_reach, last_before};
 use super::*;
 use crate::config::Config;
 use crate::plan::Plan;
-use crate::results::Place;
+use crate::results::Row;
 use crate::stats::tally::Tally;
 
 const MARGIN: f64 = 0.005;
@@ -28,10 +27,26 @@ fn rows(config: &Config, trials: u64, hits: [[u64; 5]; 2]) -> Vec<Row> {
         .collect()
 }
 
+/// The first claim of a config, by its rows and comparisons.
+fn judge_first(
+    config: &Config,
+    rows: &[Row],
+    comparisons: Vec<Comparison>,
+) -> Result<Judgement, ClaimError> {
+    let outcomes = rows.iter().map(|row| row.outcome(config.axis.parameter));
+    let evidence = Evidence {
+        scope: config.scope(),
+        outcomes: outcomes.collect(),
+        comparisons,
+        quantities: Vec::new(),
+    };
+    judge(&config.narrative.claims[0], 1, &evidence)
+}
+
 /// The comparisons of that config with these intervals, in the order of its pairs.
 fn judged(test: &str, intervals: &[(f64, f64)]) -> Judgement {
     let config = config(test);
-    let pairs = pairs(&config, &Plan::new(&config).unwrap().points);
+    let pairs = Plan::new(&config).unwrap().pairs(&config);
     assert_eq!(pairs.len(), intervals.len(), "{test}");
     let comparison = |(pair, &(low, high)): (&Pair, &(f64, f64))| {
         let tallies = [Tally { hits: 0, trials: 1 }; 2];
@@ -42,14 +57,8 @@ fn judged(test: &str, intervals: &[(f64, f64)]) -> Judgement {
             ..Comparison::new(1, pair.places.clone(), tallies, None, 0.999)
         }
     };
-    let comparisons: Vec<Comparison> = pairs.iter().zip(intervals).map(comparison).collect();
-    let evidence = Evidence {
-        axis: Some(&config.axis),
-        rows: &[],
-        comparisons: &comparisons,
-        quantities: &[],
-    };
-    judge(&config.narrative.claims[0], 1, &evidence).unwrap()
+    let comparisons = pairs.iter().zip(intervals).map(comparison).collect();
+    judge_first(&config, &[], comparisons).unwrap()
 }
 
 fn verdict(test: &str, intervals: &[(f64, f64)]) -> Verdict {
@@ -78,7 +87,7 @@ fn growth(second: [(f64, f64); 4]) -> Verdict {
 fn growth_compares_later_with_earlier() {
     let config = config("\"grows\"");
     let plan = Plan::new(&config).unwrap();
-    let pairs = pairs(&config, &plan.points);
+    let pairs = plan.pairs(&config);
     let place = |curve: &str, value: &str| Place {
         curve: curve.to_owned(),
         value: value.to_owned(),
@@ -103,11 +112,12 @@ fn pairs_at_rest() {
                 [[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = { equals = { first = \"a\", second = \"b\" } }\n\
                 [[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = \"grows\"\n";
     let config = Config::parse("test", text).unwrap();
-    let points = Plan::new(&config).unwrap().points;
-    let found: Vec<_> = (pairs(&config, &points).iter())
+    let plan = Plan::new(&config).unwrap();
+    let pairs = plan.pairs(&config);
+    let found: Vec<_> = (pairs.iter())
         .map(|pair| (pair.claim, pair.first, pair.second))
         .collect();
-    assert_eq!(points.len(), 2, "θ is no difference at rest");
+    assert_eq!(plan.points.len(), 2, "θ is no difference at rest");
     assert_eq!(found, [(0, 0, 0), (0, 1, 1), (1, 1, 0), (1, 1, 0)]);
     // A point is as often right as itself: its difference from itself is nought in every trial.
     let tally = Tally {
@@ -115,7 +125,7 @@ fn pairs_at_rest() {
         trials: 10_000,
     };
     let claims = &config.narrative.claims;
-    let rows = comparisons(claims, &pairs(&config, &points), &[tally; 2], &[None; 4]);
+    let rows = comparisons(claims, &pairs, &[tally; 2], &[None; 4]);
     assert_eq!(
         (rows[0].first_only, rows[0].second_only),
         (Some(0), Some(0))
@@ -128,7 +138,7 @@ fn pairs_at_rest() {
 fn level_is_shared_within_a_claim() {
     let config = config("\"grows\"");
     let plan = Plan::new(&config).unwrap();
-    let pairs = pairs(&config, &plan.points);
+    let pairs = plan.pairs(&config);
     let tallies = vec![
         Tally {
             hits: 5,
@@ -155,10 +165,16 @@ fn growth_verdicts() {
     let fallen = [UP, DOWN, UP, UP];
     let places = "\"a\"; \"b\": Δ/σ_ξ in [0, 0.5], Δ/σ_ξ in [1, 2]";
     assert_eq!(growth(fallen), holds_where(places));
-    // Flat steps add up to no growth, so there is no range to name.
-    assert_eq!(growth([FLAT, DOWN, FLAT, DOWN]), holds_where("\"a\""));
+    // Flat steps add up to no growth, so there is no range to name: the curve is a counter-example.
+    assert_eq!(growth([FLAT, DOWN, FLAT, DOWN]), Verdict::DoesNotHold);
     // A curve that is flat over all refutes growth without a single fall.
-    assert_eq!(growth([FLAT; 4]), holds_where("\"a\""));
+    let flat = judged("\"grows\"", &[GROWING, [FLAT; 4]].concat());
+    assert_eq!(flat.verdict, Verdict::DoesNotHold);
+    assert!(
+        flat.evidence
+            .ends_with("; 1 of 2 curves is a counter-example"),
+        "{flat:?}"
+    );
     // One step that is not sure, or growth that is not: more trials, not a verdict.
     assert_eq!(growth([UP, WIDE, UP, UP]), Verdict::Undecided);
     assert_eq!(growth([FLAT, FLAT, FLAT, WIDE]), Verdict::Undecided);
@@ -196,32 +212,25 @@ fn growth_between_two_values() {
                 [[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = \"grows\"\n";
     let config = Config::parse("test", text).unwrap();
     let plan = Plan::new(&config).unwrap();
-    let pairs = pairs(&config, &plan.points);
+    let pairs = plan.pairs(&config);
     assert_eq!(pairs.len(), 1);
     let trials = 10_000;
     let tallies = [10, 3000, 6000].map(|hits| Tally { hits, trials });
-    let comparisons = comparisons(
-        &config.narrative.claims,
-        &pairs,
-        &tallies,
-        &[Some([3200, 200])],
-    );
-    let evidence = Evidence {
-        axis: Some(&config.axis),
-        rows: &[],
-        comparisons: &comparisons,
-        quantities: &[],
-    };
-    let judgement = judge(&config.narrative.claims[0], 1, &evidence).unwrap();
+    let claims = &config.narrative.claims;
+    let comparisons = comparisons(claims, &pairs, &tallies, &[Some([3200, 200])]);
+    let judgement = judge_first(&config, &[], comparisons.clone()).unwrap();
     assert_eq!(judgement.verdict, Verdict::Holds);
     assert!(judgement.evidence.contains("0.300 ["), "{judgement:?}");
     assert!(
         judgement.how.contains("1 paired comparison,"),
         "{judgement:?}"
     );
-    // Another claim's comparisons are none of this one's business.
+    // Comparisons of another claim say nothing here.
+    let of_second = comparisons
+        .into_iter()
+        .map(|c| Comparison { claim: 2, ..c });
     assert!(matches!(
-        judge(&config.narrative.claims[0], 2, &evidence),
+        judge_first(&config, &[], of_second.collect()),
         Err(ClaimError::NotCompared(_))
     ));
 }
@@ -233,11 +242,9 @@ const EQUALS: &str = "{ equals = { first = \"b\", second = \"a\" } }";
 fn exceeds_verdicts() {
     let verdict = |intervals: [(f64, f64); 4]| verdict(EXCEEDS, &intervals);
     assert_eq!(verdict([FLAT, UP, UP, FLAT]), Verdict::Holds);
-    // Neighbours join, a lone value stands alone; a wrong run would join across the fall.
-    assert_eq!(
-        verdict([UP, DOWN, UP, UP]),
-        holds_where("Δ/σ_ξ = 0, Δ/σ_ξ in [1, 2]")
-    );
+    // Neighbours make a range, a lone value none; a wrong run would join across the fall.
+    assert_eq!(verdict([UP, DOWN, UP, UP]), holds_where("Δ/σ_ξ in [1, 2]"));
+    assert_eq!(verdict([UP, DOWN, UP, DOWN]), Verdict::DoesNotHold);
     assert_eq!(verdict([FLAT; 4]), Verdict::DoesNotHold);
     assert_eq!(verdict([DOWN, FLAT, WIDE, FLAT]), Verdict::DoesNotHold);
     assert_eq!(verdict([WIDE, FLAT, FLAT, FLAT]), Verdict::Undecided);
@@ -270,7 +277,7 @@ fn equals_verdicts() {
 fn contrasts_compare_like_with_like() {
     let config = config(EQUALS);
     let plan = Plan::new(&config).unwrap();
-    for pair in pairs(&config, &plan.points) {
+    for pair in plan.pairs(&config) {
         let (first, second) = (&plan.points[pair.first], &plan.points[pair.second]);
         assert_eq!((first.label.as_str(), second.label.as_str()), ("b", "a"));
         assert_eq!(first.scenario.motion, second.scenario.motion);
@@ -279,7 +286,8 @@ fn contrasts_compare_like_with_like() {
     let evidence = judged(EQUALS, &[FLAT, DOWN, UP, FLAT]).evidence;
     assert_eq!(
         evidence,
-        "differences from −0.150 [−0.200, −0.100] at Δ/σ_ξ = 0.5 to 0.150 [0.100, 0.200] at Δ/σ_ξ = 1"
+        "differences from −0.150 [−0.200, −0.100] at Δ/σ_ξ = 0.5 to 0.150 [0.100, 0.200] at Δ/σ_ξ = 1; \
+         2 of 4 comparisons are counter-examples"
     );
 }
 
@@ -287,17 +295,7 @@ fn false_alarms(trials: u64, at_rest: [u64; 2], test: &str) -> Judgement {
     let config = config(test);
     let hits = at_rest.map(|hits| [hits, 0, 0, 0, 0]);
     let rows = rows(&config, trials, hits);
-    judge_rows(&config, &rows).unwrap()
-}
-
-fn judge_rows(config: &Config, rows: &[Row]) -> Result<Judgement, ClaimError> {
-    let evidence = Evidence {
-        axis: Some(&config.axis),
-        rows,
-        comparisons: &[],
-        quantities: &[],
-    };
-    judge(&config.narrative.claims[0], 1, &evidence)
+    judge_first(&config, &rows, Vec::new()).unwrap()
 }
 
 #[test]
@@ -305,8 +303,13 @@ fn false_alarm_verdicts() {
     let n = 200_000;
     let verdict = |trials, hits| false_alarms(trials, hits, "\"alpha_held\"").verdict;
     assert_eq!(verdict(n, [2000, 1990]), Verdict::Holds);
-    // Half again too many in one curve: the other is named.
-    assert_eq!(verdict(n, [3000, 1990]), holds_where("\"b\""));
+    // Half again too many in one curve: a counter-example, whatever the other does.
+    assert_eq!(verdict(n, [3000, 1990]), Verdict::DoesNotHold);
+    let evidence = false_alarms(n, [3000, 1990], "\"alpha_held\"").evidence;
+    assert!(
+        evidence.starts_with("1 of 2 pass, 1 are above α beyond doubt;"),
+        "{evidence}"
+    );
     assert_eq!(verdict(n, [3000, 3000]), Verdict::DoesNotHold);
     // Few trials cannot exclude 1.2 α; to call that held would be to look at a picture.
     assert_eq!(verdict(2_000, [20, 20]), Verdict::Undecided);
@@ -334,76 +337,7 @@ fn false_alarm_boundary() {
         "half the level would reject"
     );
     assert_eq!(verdict(critical - 1), Verdict::Holds);
-    assert_eq!(verdict(critical), holds_where("\"b\""));
-}
-
-/// Two curves on an axis of steps of 0.1 up to 2, whose power is Δ times the slope of each, in a million
-/// trials.
-fn gain(slopes: [f64; 2], from: f64) -> Judgement {
-    let text = format!(
-        "question = \"?\"\nseed = 1\n[axis]\ndelta = {{ from = 0.1, to = 2.0, step = 0.1 }}\n\
-         [[curve]]\nlabel = \"a\"\n[[curve]]\nlabel = \"b\"\nwhitening = {{ order = 3 }}\n\
-         [[claim]]\nclaim = \"?\"\n\
-         test = {{ gain = {{ first = \"a\", second = \"b\", power = 0.5, from = {from:?} }} }}\n"
-    );
-    let config = Config::parse("test", &text).unwrap_or_else(|error| panic!("{error}"));
-    let trials = 1_000_000;
-    let row = |point: &crate::plan::Point| {
-        let power = (slopes[point.curve] * point.scenario.motion.delta).min(1.0);
-        let hits = (power * trials as f64).round() as u64;
-        Row::new(point, None, Tally { hits, trials }, 0.95)
-    };
-    let plan = Plan::new(&config).unwrap();
-    let rows: Vec<Row> = plan.points.iter().map(row).collect();
-    judge_rows(&config, &rows).unwrap()
-}
-
-/// Curve a reaches one half at Δ = 0.5, curve b at 1: six decibels, between 20 lg(0.9/0.6) = 3.52 and
-/// 20 lg(1.1/0.4) = 8.79. A gain with the curves exchanged would be −6, one in 10 lg would be 3.
-#[test]
-fn gain_verdicts() {
-    let gained = gain([1.0, 0.5], 3.4);
-    assert_eq!(gained.verdict, Verdict::Holds, "{gained:?}");
-    assert!(
-        gained.evidence.starts_with("gain 6.0 [3.5, 8.8] dB"),
-        "{gained:?}"
-    );
-    assert_eq!(gain([1.0, 0.5], 3.6).verdict, Verdict::Undecided);
-    assert_eq!(gain([1.0, 0.5], 8.9).verdict, Verdict::DoesNotHold);
-    assert_eq!(gain([0.5, 1.0], 0.0).verdict, Verdict::DoesNotHold);
-}
-
-/// A curve that never reaches the power needs more Δ than the axis has: the gain over it is open
-/// upwards, that of it downwards; two such curves say nothing.
-#[test]
-fn gain_beyond_the_axis() {
-    let open = gain([1.0, 0.1], 10.0);
-    assert_eq!(open.verdict, Verdict::Holds);
-    assert!(open.evidence.contains("∞] dB"), "{open:?}");
-    assert_eq!(gain([0.1, 1.0], 0.0).verdict, Verdict::DoesNotHold);
-    assert_eq!(gain([0.1, 0.1], 0.0).verdict, Verdict::Undecided);
-    assert_eq!(gain([9.0, 9.0], 0.0).verdict, Verdict::Undecided);
-}
-
-/// A line that touches the power twice is bracketed from before the first touch to after the last.
-#[test]
-fn brackets_are_widest() {
-    let line = [(0.0, 0.1), (1.0, 0.6), (2.0, 0.4), (3.0, 0.9)];
-    assert!((first_reach(&line, 0.35) - 0.5).abs() < 1e-12);
-    assert_eq!(
-        (last_before(&line, 0.5), first_after(&line, 0.5)),
-        (0.0, 3.0)
-    );
-    assert_eq!(
-        (last_before(&line, 0.7), first_after(&line, 0.7)),
-        (2.0, 3.0)
-    );
-    assert_eq!(
-        (last_before(&line, 0.1), first_after(&line, 0.05)),
-        (0.0, 0.0)
-    );
-    assert_eq!(last_before(&line, 0.95), f64::INFINITY);
-    assert_eq!(first_after(&line, 0.95), f64::INFINITY);
+    assert_eq!(verdict(critical), Verdict::DoesNotHold);
 }
 
 #[test]
@@ -417,10 +351,8 @@ fn quantity_verdicts() {
             high,
         };
         let evidence = Evidence {
-            axis: None,
-            rows: &[],
-            comparisons: &[],
-            quantities: &[quantity],
+            quantities: vec![quantity],
+            ..Evidence::default()
         };
         judge(&config.narrative.claims[0], 1, &evidence)
             .unwrap()
@@ -434,13 +366,21 @@ fn quantity_verdicts() {
     assert_eq!(verdict(1.01, 1.1, "to = 1"), Verdict::DoesNotHold);
     assert_eq!(verdict(-1.0, -0.1, "from = 0"), Verdict::DoesNotHold);
     assert_eq!(verdict(5.0, 9.0, "from = 0"), Verdict::Holds);
+    // An open side says nothing: the other decides, or nothing does.
+    let (down, up) = (f64::NEG_INFINITY, f64::INFINITY);
+    assert_eq!(verdict(2.0, up, "from = 1"), Verdict::Holds);
+    assert_eq!(verdict(2.0, up, "from = 1, to = 3"), Verdict::Undecided);
+    assert_eq!(verdict(2.0, up, "to = 1"), Verdict::DoesNotHold);
+    assert_eq!(verdict(down, 2.0, "to = 3"), Verdict::Holds);
+    assert_eq!(verdict(down, 2.0, "from = 0, to = 3"), Verdict::Undecided);
+    assert_eq!(verdict(down, 2.0, "from = 3"), Verdict::DoesNotHold);
 }
 
 /// What is missing is said, not judged.
 #[test]
 fn evidence_that_is_missing() {
     let missing = |test: &str, rows: &[Row]| {
-        judge_rows(&config(test), rows)
+        judge_first(&config(test), rows, Vec::new())
             .expect_err("nothing to judge")
             .to_string()
     };
@@ -465,4 +405,57 @@ fn numbers_in_words() {
     assert_eq!(interval(-0.0001, -0.1, 0.1), "0.00 [−0.10, 0.10]");
     assert_eq!(interval(2.0, 2.0, 2.0), "2");
     assert_eq!(exact(0.009_972_063_095), "0.00997206");
+}
+
+/// Where the sweep of two curves has rows at rest for each of four rules or sizes, held by some.
+fn held_along(axis: &str, hits: [[u64; 3]; 2]) -> Judgement {
+    let text = format!(
+        "question = \"?\"\nseed = 1\n[impulses]\nnu = 0.0\n[axis]\n{axis}\n[[curve]]\nlabel = \"a\"\n\
+         [[curve]]\nlabel = \"b\"\nwhitening = {{ order = 3 }}\n\
+         [[claim]]\nclaim = \"?\"\ntest = \"alpha_held\"\n"
+    );
+    let config = Config::parse("test", &text).unwrap_or_else(|error| panic!("{error}"));
+    let points = Plan::new(&config).unwrap().points;
+    let trials = 200_000;
+    let rows: Vec<Row> = (points.iter().zip(hits.into_iter().flatten()))
+        .map(|(point, hits)| Row::new(point, None, Tally { hits, trials }, 0.95))
+        .collect();
+    assert_eq!(rows.len(), 6);
+    judge_first(&config, &rows, Vec::new()).unwrap()
+}
+
+/// α is held in ranges of an axis where every curve has one, of numbers and of more than a single value.
+#[test]
+fn false_alarms_along_an_axis() {
+    let training = "training = [64, 128, 256]";
+    let verdict = |axis, hits| held_along(axis, hits).verdict;
+    assert_eq!(
+        verdict(training, [[1990, 1990, 1990], [3000, 1990, 1990]]),
+        holds_where("\"a\"; \"b\": training in [128, 256]")
+    );
+    let lone = [[1990, 1990, 1990], [3000, 3000, 1990]];
+    assert_eq!(verdict(training, lone), Verdict::DoesNotHold);
+    let rules = "rule = [\"wilcoxon\", \"product\", \"disjunction\"]";
+    let named = [[1990, 1990, 1990], [3000, 1990, 1990]];
+    assert_eq!(verdict(rules, named), Verdict::DoesNotHold);
+    let judged = held_along(rules, named);
+    assert!(
+        judged
+            .evidence
+            .starts_with("5 of 6 pass, 1 are above α beyond doubt;"),
+        "{judged:?}"
+    );
+}
+
+/// A rate of 1.08 α passes in enough trials: the words of the rule must not promise more.
+#[test]
+fn false_alarms_in_words() {
+    // 1040 of 100 000 is 1.04 α, p = 0.1; its upper limit is 0.0115.
+    let held = false_alarms(100_000, [1040, 990], "\"alpha_held\"");
+    assert_eq!(held.verdict, Verdict::Holds);
+    assert_eq!(
+        held.how,
+        "no rate above α beyond doubt (exact tests, Holm), and each surely at most 1.2 α; 2 scenarios, \
+         family-wise level 0.001"
+    );
 }

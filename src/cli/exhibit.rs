@@ -2,6 +2,7 @@
 
 use super::store::{Written, manifest, write_all};
 use super::{Failure, Outcome, print, table};
+use liftsim::claim::Evidence;
 use liftsim::config::ExhibitConfig;
 use liftsim::exhibit::{self, Exhibit, Rows, independence};
 use liftsim::figure::{self, Drawing};
@@ -37,11 +38,11 @@ pub fn rehearse(config: &ExhibitConfig) -> Result<(), Failure> {
         config: file_name(config.name()),
         question: config.question.clone(),
         narrative: config.narrative.clone(),
-        axis: None,
         trials: 2,
-        rows: Vec::new(),
-        comparisons: Vec::new(),
-        quantities: made.quantities,
+        evidence: Evidence {
+            quantities: made.quantities,
+            ..Evidence::default()
+        },
     };
     section.judge().map(drop).map_err(Failure::input)
 }

@@ -5,6 +5,7 @@ use super::{Failure, Outcome, exhibit, print, store, sweep, table};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::campaign::{Campaign, Terms};
+use liftsim::claim::Evidence;
 use liftsim::config::{Config, ExhibitConfig, Experiment};
 use liftsim::plan::Plan;
 use liftsim::report::{self, Section};
@@ -256,24 +257,28 @@ impl Entry {
     fn section(&self) -> Result<Section, Failure> {
         let directory = &self.directory;
         let manifest = directory.manifest().map_err(Failure::run)?;
-        let (question, narrative, axis, rows) = match &self.experiment {
+        let mut evidence = Evidence {
+            comparisons: directory.comparisons(&manifest).map_err(Failure::run)?,
+            quantities: directory.quantities(&manifest).map_err(Failure::run)?,
+            ..Evidence::default()
+        };
+        let (question, narrative) = match &self.experiment {
             Experiment::Sweep(config) => {
                 let rows = directory.rows(&manifest).map_err(Failure::run)?;
-                let axis = Some(config.axis.clone());
-                (&config.question, &config.narrative, axis, rows)
+                let outcomes = rows.iter().map(|row| row.outcome(config.axis.parameter));
+                evidence.outcomes = outcomes.collect();
+                evidence.scope = config.scope();
+                (&config.question, &config.narrative)
             }
-            Experiment::Exhibit(config) => (&config.question, &config.narrative, None, Vec::new()),
+            Experiment::Exhibit(config) => (&config.question, &config.narrative),
         };
         Ok(Section {
             name: self.name.clone(),
             config: manifest.config_name.clone(),
             question: question.clone(),
             narrative: narrative.clone(),
-            axis,
             trials: manifest.trials,
-            rows,
-            comparisons: directory.comparisons(&manifest).map_err(Failure::run)?,
-            quantities: directory.quantities(&manifest).map_err(Failure::run)?,
+            evidence,
         })
     }
 }

@@ -10,7 +10,7 @@ use liftsim::config::{Config, Experiment};
 use liftsim::figure;
 use liftsim::plan::Plan;
 use liftsim::report::Section;
-use liftsim::results::{self, Directory, Manifest, Origin, Quantity, Shard, file_name};
+use liftsim::results::{self, Directory, Manifest, Origin, Shard, file_name};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -128,17 +128,13 @@ pub(super) fn finish(
 /// there before anything is simulated.
 pub(super) fn rehearse(config: &Config, plan: &Plan) -> Result<(), Failure> {
     let empty = Counts::empty(config, plan);
-    let quantities = quantities(&empty, config)?;
     let section = Section {
         name: String::new(),
         config: file_name(config.name()),
         question: config.question.clone(),
         narrative: config.narrative.clone(),
-        axis: Some(config.axis.clone()),
         trials: 1,
-        comparisons: empty.comparisons(config),
-        rows: empty.rows,
-        quantities,
+        evidence: evidence(&empty, config)?,
     };
     section.judge().map(drop).map_err(Failure::input)
 }
@@ -148,15 +144,21 @@ pub(super) fn default_directory(config: &Path) -> PathBuf {
     Path::new("results").join(config.file_stem().unwrap_or(config.as_os_str()))
 }
 
-/// The numbers that claims of gains ask for.
-fn quantities(counts: &Counts, config: &Config) -> Result<Vec<Quantity>, Failure> {
-    let evidence = Evidence {
-        axis: Some(&config.axis),
-        rows: &counts.rows,
-        comparisons: &[],
-        quantities: &[],
+/// What the claims are judged by, with the numbers that claims of gains ask for.
+fn evidence(counts: &Counts, config: &Config) -> Result<Evidence, Failure> {
+    let outcomes = counts
+        .rows
+        .iter()
+        .map(|row| row.outcome(config.axis.parameter));
+    let mut evidence = Evidence {
+        scope: config.scope(),
+        outcomes: outcomes.collect(),
+        comparisons: counts.comparisons(config),
+        quantities: Vec::new(),
     };
-    claim::gains(&config.narrative.claims, &evidence).map_err(Failure::input)
+    let gains = claim::gains(&config.narrative.claims, &evidence);
+    evidence.quantities = gains.map_err(Failure::input)?;
+    Ok(evidence)
 }
 
 /// Writes counts, then pictures, then the manifest that vouches for both. Counts that are only written
@@ -179,13 +181,12 @@ pub(super) fn write(
     };
     let drawing = figure::sweep(config, &counts.rows, &manifest).map_err(Failure::run)?;
     let mut files = vec![("points.csv", results::csv_bytes(&counts.rows))];
-    if !counts.pairs.is_empty() {
-        let comparisons = results::csv_bytes(&counts.comparisons(config));
-        files.push(("comparisons.csv", comparisons));
+    let evidence = evidence(counts, config)?;
+    if !evidence.comparisons.is_empty() {
+        files.push(("comparisons.csv", results::csv_bytes(&evidence.comparisons)));
     }
-    let quantities = quantities(counts, config)?;
-    if !quantities.is_empty() {
-        files.push(("quantities.csv", results::csv_bytes(&quantities)));
+    if !evidence.quantities.is_empty() {
+        files.push(("quantities.csv", results::csv_bytes(&evidence.quantities)));
     }
     files.extend(drawing.files().map(|(name, bytes)| (name, bytes.to_vec())));
     write_all(directory, manifest, &files)

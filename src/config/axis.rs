@@ -84,6 +84,25 @@ parameters! {
     Rule: "rule" = detector.rule;
 }
 
+impl Parameter {
+    /// As the paper writes it.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Delta => "Δ/σ_ξ",
+            Self::Nu => "ν",
+            Self::Theta => "θ/σ_ξ",
+            Self::Order => "m",
+            Self::AllSamples => "N = M₁ = M₂",
+            Self::ReferenceAndScale => "N = M₂",
+            Self::Reference => "N",
+            Self::Shift => "M₁",
+            Self::Scale => "M₂",
+            Self::Alpha => "α",
+            other => other.name(),
+        }
+    }
+}
+
 /// One value of an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AxisValue {

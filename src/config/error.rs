@@ -1,7 +1,6 @@
 //! Errors that point: file, line and column, what is wrong, what was got, what to do.
 
 use super::MOST_PILOT_TRIALS;
-use super::claim::ClaimProblem;
 use super::ride::RideProblem;
 use super::source::{ConfigError, Source};
 use crate::chain::RecordTooLong;
@@ -260,9 +259,6 @@ pub enum Problem {
     /// A unit that no recording has.
     #[error("recording.{0}")]
     Unit(UnitError),
-    /// A claim that cannot be tested.
-    #[error("{0}")]
-    Claim(#[from] ClaimProblem),
 }
 
 /// What the TOML reader refused, in its words, with a hint where a name was nearly right.

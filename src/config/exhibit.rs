@@ -1,5 +1,6 @@
 //! Experiments that are no sweep: one table says what to draw, the usual sections say of what.
 
+use super::Config;
 use super::drawing::{self, Refused};
 use super::error::Problem;
 use super::file::{File, Sections};
@@ -7,8 +8,8 @@ use super::ride::{self, RideStudy};
 use super::source::{ConfigError, Source};
 use super::trace::{self, Trace};
 use super::value::Whole;
-use super::{Config, Narrative};
 use crate::chain::Scenario;
+use crate::claim::{Narrative, Scope};
 use crate::detect::{RegionError, Rule};
 use std::ops::Range;
 use std::path::Path;
@@ -251,8 +252,7 @@ impl ExhibitConfig {
             .resolve()
             .map_err(|(problem, keys)| refuse((sections.first_span(keys), problem)))?;
         kind.check(&scenario, file).map_err(refuse)?;
-        let narrative = (file.story().check(&[], None))
-            .map_err(|(span, problem)| source.at(Some(span), Problem::from(problem)))?;
+        let narrative = super::narrative(&source, &Scope::default())?;
         let confidence = file.confidence(&source)?;
         let trials = match kind.has_trials() {
             true => file.trials(&source, confidence)?,

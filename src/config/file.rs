@@ -7,12 +7,11 @@ use super::drawing::{
 };
 use super::ride::RideTable;
 use super::source::{ConfigError, Source};
-use super::story::{ClaimTable, Story};
 use super::trace::TraceTable;
 use super::value::{Critical, Number, Whole};
 use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
-use serde::de::{Deserializer, MapAccess, Visitor};
+use serde::de::{Deserializer, IgnoredAny, MapAccess, Visitor};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
@@ -234,11 +233,15 @@ all_sections! { with_sections
         ride: Option<Spanned<RideTable>>,
         #[serde(default)]
         curve: Vec<CurveTable>,
-        title: Option<Spanned<String>>,
-        text: Option<Spanned<String>>,
-        order: Option<Whole>,
-        #[serde(default)]
-        claim: Vec<ClaimTable>,
+        // What the report needs is read by itself.
+        #[allow(dead_code, reason = "see `config::narrative`")]
+        title: Option<IgnoredAny>,
+        #[allow(dead_code, reason = "see `config::narrative`")]
+        text: Option<IgnoredAny>,
+        #[allow(dead_code, reason = "see `config::narrative`")]
+        order: Option<IgnoredAny>,
+        #[allow(dead_code, reason = "see `config::narrative`")]
+        claim: Option<IgnoredAny>,
     }
 }
 
@@ -256,16 +259,6 @@ impl File {
     /// Reads the text.
     pub fn parse(source: &Source) -> Result<Self, ConfigError> {
         source.read_all()
-    }
-
-    /// What the report is told.
-    pub fn story(&self) -> Story {
-        Story {
-            title: self.title.clone(),
-            text: self.text.clone(),
-            order: self.order,
-            claims: self.claim.clone(),
-        }
     }
 
     /// The curves, or the one that a file without any stands for.

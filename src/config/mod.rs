@@ -6,7 +6,6 @@
 //! [`ConfigError`] that points at the value to change.
 
 mod axis;
-mod claim;
 mod drawing;
 mod error;
 mod exhibit;
@@ -15,7 +14,6 @@ mod read;
 mod resolve;
 mod ride;
 mod source;
-mod story;
 #[cfg(test)]
 mod tests;
 mod trace;
@@ -24,7 +22,6 @@ mod value;
 mod watch;
 
 pub use axis::{Axis, AxisValue, Parameter};
-pub use claim::{Claim, ClaimProblem, Contrast, Contrasts, Narrative, Test};
 pub use error::Problem;
 pub use exhibit::{ExhibitConfig, ExhibitKind, Experiment, Search};
 pub use read::Refusal;
@@ -34,6 +31,7 @@ pub use trace::{Part, Trace};
 pub use tree::{Node, Table, Value};
 pub use watch::WatchConfig;
 
+use crate::claim::{self, Narrative, Scope};
 use crate::stats::tally;
 use file::{AxisTable, File, Sections};
 use std::ops::Range;
@@ -122,8 +120,7 @@ impl Config {
             });
         }
         check_panels(file, &curves, &source)?;
-        let narrative = (file.story().check(&curves, Some(&axis)))
-            .map_err(|(span, problem)| source.at(Some(span), Problem::from(problem)))?;
+        let narrative = narrative(&source, &scope(&axis, &curves))?;
         Ok(Self {
             question: file.question.clone(),
             seed: file.seed.0,
@@ -140,6 +137,11 @@ impl Config {
         })
     }
 
+    /// What its claims may refer to.
+    pub fn scope(&self) -> Scope {
+        scope(&self.axis, &self.curves)
+    }
+
     /// The file's text.
     pub fn text(&self) -> &str {
         self.source.text()
@@ -149,6 +151,36 @@ impl Config {
     pub fn name(&self) -> &str {
         self.source.name()
     }
+}
+
+fn scope(axis: &Axis, curves: &[Curve]) -> Scope {
+    let curve = |curve: &Curve| claim::Curve {
+        label: curve.label.clone(),
+        panel: curve.panel.clone(),
+        series: curve.series.clone(),
+    };
+    Scope {
+        curves: curves.iter().map(curve).collect(),
+        axis: claim::Axis {
+            name: axis.parameter.name(),
+            symbol: axis.parameter.symbol(),
+            values: (axis.values.iter())
+                .map(|value| (value.to_string(), value.number()))
+                .collect(),
+        },
+    }
+}
+
+/// What a config says for the report and claims, checked against what the claims may refer to.
+fn narrative(source: &Source, scope: &Scope) -> Result<Narrative, ConfigError> {
+    let root = source.parse()?;
+    let of_report = root.only(|key| ["title", "text", "order", "claim"].contains(&key));
+    let narrative: Narrative = source.read(&of_report, "")?;
+    narrative.check(scope).map_err(|(path, problem)| {
+        let span = root.get(&path).map(|node| node.span.clone());
+        source.at(span, format!("{path}: {problem}"))
+    })?;
+    Ok(narrative)
 }
 
 /// Panels are for all curves or for none, and a series is drawn once in each.

@@ -204,7 +204,7 @@ impl<'de> Deserializer<'de> for &'de Node {
     fn deserialize_enum<V: Visitor<'de>>(
         self,
         _: &'static str,
-        _: &'static [&'static str],
+        names: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Refusal> {
         let choice = match &self.value {
@@ -220,6 +220,14 @@ impl<'de> Deserializer<'de> for &'de Node {
                     span,
                     content: Some(node),
                 }
+            }
+            Value::Table(table) => {
+                let refusal = Refusal::custom(format_args!(
+                    "must have exactly one key, got {} (one of {})",
+                    table.len(),
+                    names.join(", ")
+                ));
+                return Err(refusal.at(&self.span));
             }
             _ => return Err(self.refused(&"a name, or a table with one name")),
         };
@@ -294,6 +302,8 @@ impl<'de> MapAccess<'de> for Entries<'de> {
     }
 }
 
+static NOTHING: Table = Table::new();
+
 struct Choice<'a> {
     name: &'a str,
     span: &'a Range<usize>,
@@ -315,12 +325,14 @@ impl<'de> EnumAccess<'de> for Choice<'de> {
 
 impl<'de> Choice<'de> {
     fn content(&self) -> Result<&'de Node, Refusal> {
+        self.content.ok_or_else(|| self.needs_parameters())
+    }
+
+    fn needs_parameters(&self) -> Refusal {
         let name = self.name;
-        self.content.ok_or_else(|| {
-            Refusal::custom(format_args!(
-                "needs its parameters (write {{ {name} = ... }})"
-            ))
-        })
+        Refusal::custom(format_args!(
+            "needs its parameters (write {{ {name} = ... }})"
+        ))
     }
 }
 
@@ -357,11 +369,16 @@ impl<'de> VariantAccess<'de> for Choice<'de> {
         _: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Refusal> {
-        let name = self.name;
-        let content = self.content()?;
+        // A name alone is a table in which every key has its default.
+        let Some(content) = self.content else {
+            let nothing = Entries::new(&NOTHING);
+            return visitor
+                .visit_map(nothing)
+                .map_err(|_: Refusal| self.needs_parameters());
+        };
         content
             .deserialize_any(visitor)
-            .map_err(|refusal| refusal.under(name))
+            .map_err(|refusal| refusal.under(self.name))
     }
 }
 

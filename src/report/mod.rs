@@ -7,13 +7,11 @@ mod text;
 
 pub use text::{PlaceholderError, fill};
 
-use crate::claim::{self, ClaimError, Evidence, Judgement, Verdict};
-use crate::config::{Axis, Claim, Narrative};
+use crate::claim::{self, Claim, ClaimError, Evidence, Judgement, Narrative, Verdict};
 use crate::format::thousands;
-use crate::results::{Comparison, Quantity, Row};
 use std::fmt::Write;
 
-/// One experiment and what it came to.
+/// One experiment and its results.
 #[derive(Clone, Debug)]
 pub struct Section {
     /// Of its directory, beside the report.
@@ -24,39 +22,27 @@ pub struct Section {
     pub question: String,
     /// What its config says, and claims.
     pub narrative: Narrative,
-    /// Of the sweep, if it is one.
-    pub axis: Option<Axis>,
     /// Trials per point.
     pub trials: u64,
-    /// `points.csv`
-    pub rows: Vec<Row>,
-    /// `comparisons.csv`
-    pub comparisons: Vec<Comparison>,
-    /// `quantities.csv`
-    pub quantities: Vec<Quantity>,
+    /// Its results.
+    pub evidence: Evidence,
 }
 
 /// Why an experiment cannot be reported.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the messages say it")]
 pub enum ReportError {
-    /// The text asks for a number that is not there.
     #[error("{config}: text: {error}")]
     Placeholder {
-        /// The config's file name.
         config: String,
-        /// What is wrong.
         error: PlaceholderError,
     },
-    /// A claim is about something that is not there.
     #[error("{config}: claim {number}, \"{claim}\": {error}")]
     Claim {
-        /// The config's file name.
         config: String,
         /// From 1.
         number: usize,
-        /// In words.
         claim: String,
-        /// What is wrong.
         error: ClaimError,
     },
 }
@@ -67,35 +53,21 @@ impl Section {
     /// # Errors
     /// Where a claim or the text is about something that is not among the results.
     pub fn judge(&self) -> Result<(Vec<Judgement>, String), ReportError> {
-        let evidence = self.evidence();
-        let judge = |(index, claim): (usize, &Claim)| {
-            let number = index + 1;
-            claim::judge(claim, number, &evidence).map_err(|error| ReportError::Claim {
+        let judgements = (1..).zip(&self.narrative.claims).map(|(number, claim)| {
+            claim::judge(claim, number, &self.evidence).map_err(|error| ReportError::Claim {
                 config: self.config.clone(),
                 number,
-                claim: claim.claim.clone(),
+                claim: claim.claim.to_string(),
                 error,
             })
-        };
-        let claims = self.narrative.claims.iter().enumerate();
-        let judgements = claims.map(judge).collect::<Result<_, _>>()?;
+        });
+        let judgements = judgements.collect::<Result<_, _>>()?;
         let text = self.narrative.text.as_deref().unwrap_or_default();
-        match fill(text, &evidence) {
-            Ok(text) => Ok((judgements, text)),
-            Err(error) => Err(ReportError::Placeholder {
-                config: self.config.clone(),
-                error,
-            }),
-        }
-    }
-
-    fn evidence(&self) -> Evidence<'_> {
-        Evidence {
-            axis: self.axis.as_ref(),
-            rows: &self.rows,
-            comparisons: &self.comparisons,
-            quantities: &self.quantities,
-        }
+        let text = fill(text, &self.evidence).map_err(|error| ReportError::Placeholder {
+            config: self.config.clone(),
+            error,
+        })?;
+        Ok((judgements, text))
     }
 
     fn title(&self) -> &str {
@@ -113,12 +85,11 @@ pub fn markdown(
     configs: &str,
     preface: &str,
 ) -> Result<Vec<u8>, ReportError> {
-    sections.sort_by(|a, b| {
-        let key = |section: &Section| (section.narrative.order, section.name.clone());
-        key(a).cmp(&key(b))
-    });
-    let judged = sections.iter().map(Section::judge);
-    let judged: Vec<(Vec<Judgement>, String)> = judged.collect::<Result<_, _>>()?;
+    sections.sort_by_key(|section| (section.narrative.order, section.name.clone()));
+    let judged: Vec<(Vec<Judgement>, String)> = sections
+        .iter()
+        .map(Section::judge)
+        .collect::<Result<_, _>>()?;
     let mut text = format!(
         "# Reproduction report\n\n\
          Every picture, number and verdict here comes from the result files beside it. `liftsim figures` \
@@ -169,8 +140,11 @@ fn claims_tables(
     if !of_paper.is_empty() {
         text += &format!(
             "## What the paper claims\n\n{} The rule behind a verdict stands in the config. *Holds* takes a \
-             test of superiority, non-inferiority or equivalence at the family-wise level; *undecided* \
-             means that the trials were too few to tell. Points that share their noise are compared trial \
+             test of superiority, non-inferiority or equivalence at the family-wise level. *Holds where* names the \
+             ranges of the axis in which every curve of a claim is shown to keep it, though one breaks it \
+             elsewhere; without such ranges a claim with a counter-example *does not hold*. *Undecided* \
+             means that the trials were too few to tell. That α is held means that no rate is above it beyond \
+             doubt and each is surely at most the stated multiple of it. Points that share their noise are compared trial \
              by trial (*paired*), others by their counts; the bands in the pictures are pointwise and no \
              test.\n\n\
              | claim | where the paper makes it | how it was tested | numbers | verdict |\n\
@@ -187,7 +161,7 @@ fn claims_tables(
     text
 }
 
-/// How many of the paper's claims came to which verdict.
+/// How many of the paper's claims have which verdict.
 fn summary(verdicts: &[&Verdict]) -> String {
     let count = |is_it: fn(&Verdict) -> bool| verdicts.iter().filter(|v| is_it(v)).count();
     format!(
@@ -201,26 +175,18 @@ fn summary(verdicts: &[&Verdict]) -> String {
 }
 
 fn claim_row(section: &Section, claim: &Claim, judgement: &Judgement, configs: &str) -> String {
-    let Section {
-        name,
-        config,
-        trials,
-        rows,
-        ..
-    } = section;
-    let trials = match rows.is_empty() {
-        true => String::new(),
-        false => format!("; {} trials per point", thousands(*trials)),
+    let Section { name, config, .. } = section;
+    let trials = if section.evidence.outcomes.is_empty() {
+        String::new()
+    } else {
+        format!("; {} trials per point", thousands(section.trials))
     };
-    let how = format!(
-        "{}{trials} ([{config}]({configs}/{config}))",
-        cell(&judgement.how)
-    );
-    let source = claim.source.as_deref().map(cell);
+    let source = claim.source.as_deref().map(|source| cell(source) + " | ");
     format!(
-        "| [{}](#{name}) | {}{how} | {} | {} |\n",
+        "| [{}](#{name}) | {}{}{trials} ([{config}]({configs}/{config})) | {} | {} |\n",
         cell(&claim.claim),
-        source.map_or(String::new(), |source| format!("{source} | ")),
+        source.unwrap_or_default(),
+        cell(&judgement.how),
         cell(&judgement.evidence),
         cell(&verdict(&judgement.verdict)),
     )
@@ -244,24 +210,23 @@ fn chapter(section: &Section, paragraph: &str, configs: &str) -> String {
     let Section {
         name,
         config,
-        question,
-        quantities,
-        comparisons,
+        evidence,
         ..
     } = section;
-    let mut files = Vec::new();
+    let mut files = vec![format!("[points.csv]({name}/points.csv)")];
     for (file, is_there) in [
-        ("points.csv", true),
-        ("comparisons.csv", !comparisons.is_empty()),
-        ("quantities.csv", !quantities.is_empty()),
+        ("comparisons.csv", !evidence.comparisons.is_empty()),
+        ("quantities.csv", !evidence.quantities.is_empty()),
     ] {
         files.extend(is_there.then(|| format!("[{file}]({name}/{file})")));
     }
     files.push(format!("[{config}]({configs}/{config})"));
-    let question = question.split_whitespace().collect::<Vec<_>>().join(" ");
-    let paragraph = match paragraph.is_empty() {
-        true => String::new(),
-        false => format!("{paragraph}\n\n"),
+    let question: Vec<&str> = section.question.split_whitespace().collect();
+    let question = question.join(" ");
+    let paragraph = if paragraph.is_empty() {
+        String::new()
+    } else {
+        format!("{paragraph}\n\n")
     };
     format!(
         "<a id=\"{name}\"></a>\n\n## {}\n\n![{}]({name}/figure.png)\n\n*{question}*\n\n{paragraph}{}\n\n",

@@ -9,40 +9,26 @@
 //! | `{quantity:NAME}` | a single number |
 
 use crate::claim::words::{exact, interval};
-use crate::claim::{ClaimError, Evidence, named_quantity, placed};
-use crate::results::Row;
+use crate::claim::{ClaimError, Evidence, Outcome, named_quantity};
+use crate::suggest::among;
 
-/// Why a placeholder stands for nothing.
+/// Why a placeholder cannot be replaced.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the messages say it")]
 pub enum PlaceholderError {
-    /// A brace alone.
     #[error("`{0}` does not end (close the brace)")]
     Open(String),
-    /// Not one of the four.
     #[error("unknown placeholder {{{0}}} (one of rate, false_alarm, size, reachable, quantity)")]
     Unknown(String),
-    /// No such curve, or no row of it under this hypothesis.
-    #[error("{{{placeholder}}}: no such curve (one of {known})")]
-    Curve {
-        /// As written.
-        placeholder: String,
-        /// The labels that would do.
-        known: String,
-    },
-    /// No such value, or none given where there are several.
+    #[error("{{{placeholder}}}: there are no curves here (write {{quantity:NAME}})")]
+    NoCurves { placeholder: String },
+    #[error("{{{placeholder}}}: unknown curve {curve}")]
+    Curve { placeholder: String, curve: String },
     #[error("{{{placeholder}}}: needs a value of the axis (@ and one of {known})")]
-    Value {
-        /// As written.
-        placeholder: String,
-        /// The values that would do.
-        known: String,
-    },
-    /// No such quantity.
+    Value { placeholder: String, known: String },
     #[error("{{{placeholder}}}: {error}")]
-    Quantity {
-        /// As written.
+    Results {
         placeholder: String,
-        /// What is wrong.
         error: ClaimError,
     },
 }
@@ -50,7 +36,7 @@ pub enum PlaceholderError {
 /// The text with every placeholder replaced.
 ///
 /// # Errors
-/// Where one stands for nothing.
+/// Where one names nothing that is there.
 pub fn fill(text: &str, evidence: &Evidence) -> Result<String, PlaceholderError> {
     let mut parts = text.split('{');
     let mut filled = parts.next().unwrap_or_default().to_owned();
@@ -66,95 +52,95 @@ pub fn fill(text: &str, evidence: &Evidence) -> Result<String, PlaceholderError>
 }
 
 fn value(placeholder: &str, evidence: &Evidence) -> Result<String, PlaceholderError> {
-    let unknown = || PlaceholderError::Unknown(placeholder.to_owned());
-    let (kind, name) = placeholder.split_once(':').ok_or_else(unknown)?;
-    if kind == "quantity" {
-        return quantity(placeholder, name, evidence);
-    }
-    if !["rate", "false_alarm", "size", "reachable"].contains(&kind) {
-        return Err(unknown());
-    }
-    let is_at_rest = kind == "false_alarm" || !moves(evidence, name);
-    let rows = find(placeholder, name, evidence, is_at_rest)?;
-    let show = |row: &Row| match kind {
-        "size" => row.size.map_or("no exact size".to_owned(), exact),
-        "reachable" => row.reachable.map_or("no smallest level".to_owned(), exact),
-        _ => interval(row.rate, row.low, row.high),
+    let Some((kind, name)) = placeholder.split_once(':') else {
+        return Err(PlaceholderError::Unknown(placeholder.to_owned()));
     };
-    // Many points may share one size; a rate is one point's.
-    let is_shared = ["size", "reachable"].contains(&kind);
-    let is_one =
-        rows.len() == 1 || is_shared && rows.iter().all(|(_, r)| show(r) == show(rows[0].1));
-    match is_one {
-        true => Ok(show(rows[0].1)),
-        false => Err(PlaceholderError::Value {
-            placeholder: placeholder.to_owned(),
-            known: values(&rows),
-        }),
+    match kind {
+        "rate" | "false_alarm" | "size" | "reachable" => {
+            let outcomes = named(placeholder, kind, name, evidence)?;
+            let shown: Vec<String> = outcomes.iter().map(|(_, o)| show(kind, o)).collect();
+            // Many points may share one size; a rate is one point's.
+            let is_shared = matches!(kind, "size" | "reachable");
+            if shown.len() == 1 || is_shared && shown.iter().all(|one| *one == shown[0]) {
+                Ok(shown[0].clone())
+            } else {
+                Err(needs_value(placeholder, &outcomes))
+            }
+        }
+        "quantity" => match named_quantity(name, &evidence.quantities) {
+            Ok(quantity) => Ok(interval(quantity.value, quantity.low, quantity.high)),
+            Err(error) => Err(results(placeholder, error)),
+        },
+        _ => Err(PlaceholderError::Unknown(placeholder.to_owned())),
     }
 }
 
-fn quantity(
+fn show(kind: &str, outcome: &Outcome) -> String {
+    match kind {
+        "size" => outcome.size.map_or("no exact size".to_owned(), exact),
+        "reachable" => (outcome.reachable).map_or("no smallest level".to_owned(), exact),
+        _ => interval(outcome.tally.rate(), outcome.low, outcome.high),
+    }
+}
+
+/// The outcomes that a placeholder names, at least one, each with its value on the axis: in motion, or at rest
+/// where that is asked for or the curve never moves.
+fn named<'a>(
     placeholder: &str,
+    kind: &str,
     name: &str,
-    evidence: &Evidence,
-) -> Result<String, PlaceholderError> {
-    match named_quantity(name, evidence.quantities) {
-        Ok(quantity) => Ok(interval(quantity.value, quantity.low, quantity.high)),
-        Err(error) => Err(PlaceholderError::Quantity {
-            placeholder: placeholder.to_owned(),
-            error,
-        }),
-    }
-}
-
-/// The label and the value of `LABEL@VALUE`. A label may hold an @ of its own.
-fn parts<'a>(evidence: &Evidence, name: &'a str) -> (&'a str, Option<&'a str>) {
-    let is_label = evidence.rows.iter().any(|row| row.label == name);
-    match name.rsplit_once('@') {
-        Some((label, value)) if !is_label => (label, Some(value)),
+    evidence: &'a Evidence,
+) -> Result<Vec<(&'a str, &'a Outcome)>, PlaceholderError> {
+    let labels = evidence
+        .scope
+        .curves
+        .iter()
+        .map(|curve| curve.label.as_str());
+    // A label may have an @ of its own.
+    let (label, value) = match name.rsplit_once('@') {
+        Some((label, value)) if !labels.clone().any(|label| label == name) => (label, Some(value)),
         _ => (name, None),
+    };
+    if !labels.clone().any(|known| known == label) {
+        let placeholder = placeholder.to_owned();
+        if evidence.scope.curves.is_empty() {
+            return Err(PlaceholderError::NoCurves { placeholder });
+        }
+        let curve = among(label, labels);
+        return Err(PlaceholderError::Curve { placeholder, curve });
     }
-}
-
-/// Whether the curve has rows in motion.
-fn moves(evidence: &Evidence, name: &str) -> bool {
-    let (label, _) = parts(evidence, name);
-    let mut rows = evidence.rows.iter();
-    rows.any(|row| row.label == label && !row.is_at_rest())
-}
-
-/// The rows that a placeholder names, at least one.
-fn find<'a>(
-    placeholder: &str,
-    name: &str,
-    evidence: &Evidence<'a>,
-    is_at_rest: bool,
-) -> Result<Vec<(String, &'a Row)>, PlaceholderError> {
-    let (label, value) = parts(evidence, name);
-    let rows = placed(evidence.axis, evidence.rows, label, is_at_rest);
-    let placeholder = placeholder.to_owned();
-    if rows.is_empty() {
-        let known = labels(evidence, is_at_rest);
-        return Err(PlaceholderError::Curve { placeholder, known });
+    let moving = evidence.along(label, false);
+    let outcomes = if kind == "false_alarm" || moving.is_empty() {
+        evidence.along(label, true)
+    } else {
+        moving
+    };
+    if outcomes.is_empty() {
+        return Err(results(placeholder, ClaimError::NoRest(label.to_owned())));
     }
     let is_meant = |there: &str| value.is_none_or(|value| is_same(value, there));
-    let meant: Vec<_> = (rows.iter())
+    let meant: Vec<_> = outcomes
+        .iter()
+        .copied()
         .filter(|(there, _)| is_meant(there))
-        .cloned()
         .collect();
-    match meant.is_empty() {
-        true => Err(PlaceholderError::Value {
-            placeholder,
-            known: values(&rows),
-        }),
-        false => Ok(meant),
+    if meant.is_empty() {
+        return Err(needs_value(placeholder, &outcomes));
+    }
+    Ok(meant)
+}
+
+fn needs_value(placeholder: &str, outcomes: &[(&str, &Outcome)]) -> PlaceholderError {
+    let known: Vec<&str> = outcomes.iter().map(|(value, _)| *value).collect();
+    PlaceholderError::Value {
+        placeholder: placeholder.to_owned(),
+        known: known.join(", "),
     }
 }
 
-fn values(rows: &[(String, &Row)]) -> String {
-    let values: Vec<&str> = rows.iter().map(|(value, _)| value.as_str()).collect();
-    values.join(", ")
+fn results(placeholder: &str, error: ClaimError) -> PlaceholderError {
+    let placeholder = placeholder.to_owned();
+    PlaceholderError::Results { placeholder, error }
 }
 
 /// 1 and 1.0 are the same value.
@@ -163,15 +149,4 @@ fn is_same(a: &str, b: &str) -> bool {
         (Ok(a), Ok(b)) => a == b,
         _ => a.trim() == b,
     }
-}
-
-/// The curves that have rows of this kind.
-fn labels(evidence: &Evidence, is_at_rest: bool) -> String {
-    let rows = evidence
-        .rows
-        .iter()
-        .filter(|row| row.is_at_rest() == is_at_rest);
-    let mut labels: Vec<&str> = rows.map(|row| row.label.as_str()).collect();
-    labels.dedup();
-    labels.join(", ")
 }

@@ -7,21 +7,20 @@
 //! shard of a run has that file alone.
 
 mod checkpoint;
-mod comparison;
 mod directory;
 mod error;
 mod lock;
 mod manifest;
 mod origin;
-mod quantity;
 mod row;
 
 pub use checkpoint::{Checkpoint, NoShard, Shard};
-pub use comparison::{Comparison, Place};
 pub use directory::Directory;
 pub use error::ResultsError;
 pub use lock::Lock;
 pub use manifest::{Manifest, RESULTS, sha256};
 pub use origin::{Origin, file_name};
-pub use quantity::Quantity;
-pub use row::{Row, Told, csv_bytes, eight_digits};
+pub use row::{Row, Told, csv_bytes};
+
+pub use crate::claim::{Comparison, Place, Quantity};
+pub use crate::format::eight_digits;

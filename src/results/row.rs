@@ -2,7 +2,9 @@
 
 use super::RESULTS;
 use crate::chain::Decision;
+use crate::claim::Outcome;
 use crate::config::Parameter;
+use crate::format::eight_digits;
 use crate::ledger::Key;
 use crate::plan::{Hypothesis, Point};
 use crate::signal::{Impulses, Motion};
@@ -183,6 +185,25 @@ impl Row {
         })
     }
 
+    /// What claims and texts read of it, on an axis of this parameter.
+    pub fn outcome(&self, parameter: Parameter) -> Outcome {
+        Outcome {
+            label: self.label.clone(),
+            value: match (parameter, self.on_axis(parameter)) {
+                (Parameter::Rule, _) => self.rule_name().to_owned(),
+                (_, Some(number)) => number.to_string(),
+                (_, None) => "none".to_owned(),
+            },
+            is_at_rest: self.is_at_rest(),
+            tally: self.tally(),
+            low: self.low,
+            high: self.high,
+            alpha: self.alpha,
+            size: self.size,
+            reachable: self.reachable,
+        }
+    }
+
     /// The rule without its table.
     pub fn rule_name(&self) -> &str {
         self.rule.split('(').next().unwrap_or_default()
@@ -236,11 +257,6 @@ fn stated((motion, impulses): (Motion, Impulses)) -> String {
         "delta {delta} {} {} duration {duration} offset {offset} nu {nu} theta {theta} {during}",
         motion.delta_at, motion.profile
     )
-}
-
-/// Eight significant digits: more than any count supports, fewer than the last bits of a bisection.
-pub fn eight_digits(value: f64) -> f64 {
-    format!("{value:.7e}").parse().unwrap_or(value)
 }
 
 /// Rows as a CSV has them.

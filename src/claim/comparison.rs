@@ -4,6 +4,7 @@
 //! one, only the other decided for H₁. Their difference is that of the rates, without the trials on
 //! which both agree, which is what makes a paired interval narrow.
 
+use crate::format::eight_digits;
 use crate::stats::tally::{Tally, difference_interval};
 use serde::{Deserialize, Serialize};
 
@@ -76,9 +77,9 @@ impl Comparison {
             second: second.hits,
             first_only: discordant.map(|[a, _]| a),
             second_only: discordant.map(|[_, b]| b),
-            difference: super::row::eight_digits(first.rate() - second.rate()),
-            low: super::row::eight_digits(low),
-            high: super::row::eight_digits(high),
+            difference: eight_digits(first.rate() - second.rate()),
+            low: eight_digits(low),
+            high: eight_digits(high),
             confidence,
         }
     }

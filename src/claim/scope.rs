@@ -1,0 +1,242 @@
+//! What claims may refer to, the check that they refer to nothing else, and whom a name means.
+
+use super::narrative::{Contrasts, Narrative, Test};
+use crate::suggest::among;
+
+/// The curves and the axis of a sweep; nothing for any other experiment.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[allow(missing_docs, reason = "a sweep has both")]
+pub struct Scope {
+    pub curves: Vec<Curve>,
+    pub axis: Axis,
+}
+
+/// The names of a curve.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs, reason = "the config's own words")]
+pub struct Curve {
+    pub label: String,
+    pub panel: Option<String>,
+    pub series: Option<String>,
+}
+
+/// A parameter and the values it takes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Axis {
+    /// The key in a config.
+    pub name: &'static str,
+    /// As the paper writes it.
+    pub symbol: &'static str,
+    /// Each as it is written, and as a number where it is one.
+    pub values: Vec<(String, Option<f64>)>,
+}
+
+/// Two curves, by their index, and the panel or series they share; blank for two labels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Contrast<'a> {
+    pub first: usize,
+    pub second: usize,
+    pub place: &'a str,
+}
+
+/// What is wrong with a claim, given what it may refer to.
+#[derive(Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "the messages say it")]
+pub enum ClaimProblem {
+    #[error("unknown curve {}", among(got, known.iter().map(String::as_str)))]
+    UnknownCurve { got: String, known: Vec<String> },
+    #[error("must name at least one curve (leave it out for all)")]
+    NoCurves,
+    #[error("{0} is named twice (leave one out)")]
+    Repeated(String),
+    #[error("must be another curve than first, got {0} for both")]
+    Same(String),
+    #[error("grows needs an axis of at least two numbers in ascending order (sort them)")]
+    Axis,
+    #[error("gain needs the axis delta with values from 0 up, in ascending order")]
+    GainAxis,
+    #[error("quantity needs from, to or both")]
+    NoEnds,
+    #[error("from = {from} lies above to = {to} (exchange them)")]
+    Reversed { from: f64, to: f64 },
+    #[error(
+        "there are no curves here to test (write {{ quantity = {{ name = \"...\", from = 0.0 }} }})"
+    )]
+    NoSweep,
+}
+
+/// A problem and the path of the value that has it.
+type Placed = (String, ClaimProblem);
+
+impl Narrative {
+    /// Checks every claim against what it refers to.
+    ///
+    /// # Errors
+    /// The first problem, after the path of its value, such as `claim[0].test.exceeds.first`.
+    pub fn check(&self, scope: &Scope) -> Result<(), Placed> {
+        for (index, claim) in self.claims.iter().enumerate() {
+            scope
+                .check(&claim.test)
+                .map_err(|(path, problem)| (format!("claim[{index}].test{path}"), problem))?;
+        }
+        Ok(())
+    }
+}
+
+impl Scope {
+    fn check(&self, test: &Test) -> Result<(), Placed> {
+        let is_of_curves = !matches!(test, Test::Quantity { .. });
+        if is_of_curves && self.curves.is_empty() {
+            return Err((String::new(), ClaimProblem::NoSweep));
+        }
+        let problem = match test {
+            Test::Grows { curves } => {
+                self.check_curves(".grows", curves.as_deref())?;
+                (self.axis.values.len() < 2 || !self.axis.is_ascending())
+                    .then_some(ClaimProblem::Axis)
+            }
+            Test::AlphaHeld { curves, .. } => {
+                self.check_curves(".alpha_held", curves.as_deref())?;
+                None
+            }
+            Test::Exceeds(contrasts) => {
+                self.check_contrasts(".exceeds", contrasts)?;
+                None
+            }
+            Test::Equals(contrasts) => {
+                self.check_contrasts(".equals", contrasts)?;
+                None
+            }
+            Test::Gain { first, second, .. } => {
+                self.check_pair(".gain", first, second)?;
+                let starts_at_rest = self.axis.values[0].1.is_some_and(|start| start >= 0.0);
+                let is_delta = self.axis.name == "delta";
+                (!is_delta || !starts_at_rest || !self.axis.is_ascending())
+                    .then_some(ClaimProblem::GainAxis)
+            }
+            &Test::Quantity { from, to, .. } => match (from, to) {
+                (None, None) => Some(ClaimProblem::NoEnds),
+                (Some(from), Some(to)) if from > to => Some(ClaimProblem::Reversed { from, to }),
+                _ => None,
+            },
+        };
+        problem.map_or(Ok(()), |problem| Err((String::new(), problem)))
+    }
+
+    fn check_curves(&self, test: &str, curves: Option<&[String]>) -> Result<(), Placed> {
+        let Some(curves) = curves else {
+            return Ok(());
+        };
+        if curves.is_empty() {
+            return Err((format!("{test}.curves"), ClaimProblem::NoCurves));
+        }
+        for (index, label) in curves.iter().enumerate() {
+            let path = format!("{test}.curves[{index}]");
+            self.check_label(&path, label)?;
+            if curves[..index].contains(label) {
+                return Err((path, ClaimProblem::Repeated(label.clone())));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_contrasts(&self, test: &str, contrasts: &Contrasts) -> Result<(), Placed> {
+        let Contrasts { first, second } = contrasts;
+        if first != second && !self.shared(contrasts).is_empty() {
+            return Ok(());
+        }
+        self.check_pair(test, first, second)
+    }
+
+    fn check_pair(&self, test: &str, first: &str, second: &str) -> Result<(), Placed> {
+        self.check_label(&format!("{test}.first"), first)?;
+        let path = format!("{test}.second");
+        self.check_label(&path, second)?;
+        if first == second {
+            return Err((path, ClaimProblem::Same(second.to_owned())));
+        }
+        Ok(())
+    }
+
+    fn check_label(&self, path: &str, label: &str) -> Result<(), Placed> {
+        if self.index(label).is_some() {
+            return Ok(());
+        }
+        let got = label.to_owned();
+        let known = self
+            .curves
+            .iter()
+            .map(|curve| curve.label.clone())
+            .collect();
+        Err((path.to_owned(), ClaimProblem::UnknownCurve { got, known }))
+    }
+
+    fn index(&self, label: &str) -> Option<usize> {
+        self.curves.iter().position(|curve| curve.label == label)
+    }
+
+    /// The curves of these labels, all where there are none.
+    pub(super) fn named(&self, labels: Option<&[String]>) -> Vec<usize> {
+        match labels {
+            Some(labels) => labels
+                .iter()
+                .filter_map(|label| self.index(label))
+                .collect(),
+            None => (0..self.curves.len()).collect(),
+        }
+    }
+
+    /// For two series a contrast in each panel that has both, for two panels one of each series that is in
+    /// both, else the two curves.
+    pub(super) fn contrasts<'a>(&'a self, contrasts: &Contrasts) -> Vec<Contrast<'a>> {
+        let shared = self.shared(contrasts);
+        if !shared.is_empty() {
+            return shared;
+        }
+        let pair = self
+            .index(&contrasts.first)
+            .zip(self.index(&contrasts.second));
+        let place = "";
+        let two_curves = pair.map(|(first, second)| Contrast {
+            first,
+            second,
+            place,
+        });
+        two_curves.into_iter().collect()
+    }
+
+    /// The contrasts of two series or two panels.
+    fn shared<'a>(&'a self, Contrasts { first, second }: &Contrasts) -> Vec<Contrast<'a>> {
+        let mut contrasts = Vec::new();
+        let of_series: NamesOf = |curve| (curve.series.as_deref(), curve.panel.as_deref());
+        let of_panel: NamesOf = |curve| (curve.panel.as_deref(), curve.series.as_deref());
+        for names in [of_series, of_panel] {
+            for (one, curve) in self.curves.iter().enumerate() {
+                let (name, Some(place)) = names(curve) else {
+                    continue;
+                };
+                let wanted = (Some(second.as_str()), Some(place));
+                let other = self.curves.iter().position(|other| names(other) == wanted);
+                if let (true, Some(second)) = (name == Some(first), other) {
+                    let first = one;
+                    contrasts.push(Contrast {
+                        first,
+                        second,
+                        place,
+                    });
+                }
+            }
+        }
+        contrasts
+    }
+}
+
+/// The name by which a curve is compared, and the one that both curves of a contrast share.
+type NamesOf = fn(&Curve) -> (Option<&str>, Option<&str>);
+
+impl Axis {
+    fn is_ascending(&self) -> bool {
+        let numbers: Option<Vec<f64>> = self.values.iter().map(|(_, number)| *number).collect();
+        numbers.is_some_and(|numbers| numbers.is_sorted_by(|a, b| a < b))
+    }
+}
