@@ -7,13 +7,13 @@ use std::path::{Path, PathBuf};
 /// Each module of the library and its floor.
 const FLOORS: [&[&str]; 9] = [
     &["rng", "stats", "format", "simd", "suggest"],
-    &["ledger"],
+    &["ledger", "claim"],
     &["signal", "whiten", "detect"],
     &["chain", "monitor"],
     &["config", "ensemble", "detection"],
     &["plan"],
     &["pilot", "run", "gate", "results"],
-    &["exhibit", "claim"],
+    &["exhibit"],
     &["figure", "report", "campaign"],
 ];
 
