@@ -308,7 +308,7 @@ mod tests {
         let open = judged(&of_slopes([1.0, 0.1]), 10.0).evidence;
         assert_eq!(
             open,
-            "gain at least 12.04 [10.46, ∞] dB; \"a\" reaches 0.5 at Δ/σ_ξ = 0.500 [0.400, 0.600], \
+            "gain at least 12.04 [10.46, ∞] dB; \"a\" reaches 0.5 at Δ/σ_ξ = 0.50 [0.40, 0.60], \
              \"b\" at Δ/σ_ξ at least 2.00 [2.00, ∞]"
         );
     }

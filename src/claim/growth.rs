@@ -35,7 +35,9 @@ pub(super) fn judge(
         .collect::<Result<_, _>>()?;
     let count = |state| climbs.iter().filter(|climb| climb.state() == state).count();
     let refuted = count(State::Refuted);
-    let verdict = if refuted > 0 {
+    let verdict = if refuted == climbs.len() {
+        Verdict::DoesNotHold
+    } else if refuted > 0 {
         Verdict::where_shown(climbs.iter().map(|climb| climb.place(&scope.axis)))
     } else if count(State::Open) > 0 {
         Verdict::Undecided

@@ -20,8 +20,8 @@
 //!
 //! A claim is about all its curves. One that is refuted *does not hold*, and its counter-examples are
 //! counted, unless it is shown in a stated range of the axis for every curve (pair of curves): two
-//! neighbouring values at least of an axis of numbers. Then it *holds where*. A single value is no range:
-//! curves that cross are equal where they cross. What is neither shown nor refuted is undecided: it takes more
+//! neighbouring values at least of an axis of numbers. Then it *holds where*; for growth some curve must grow
+//! throughout, too. A single value is no range: curves that cross are equal where they cross. What is neither shown nor refuted is undecided: it takes more
 //! trials.
 //!
 //! # Why the level is kept

@@ -47,10 +47,8 @@ pub enum ClaimProblem {
     UnknownCurve { got: String, known: Vec<String> },
     #[error("must name at least one curve (leave it out for all)")]
     NoCurves,
-    #[error("{0} is named twice (leave one out)")]
+    #[error("must be another curve than those before it, got {0} again")]
     Repeated(String),
-    #[error("must be another curve than first, got {0} for both")]
-    Same(String),
     #[error("grows needs an axis of at least two numbers in ascending order (sort them)")]
     Axis,
     #[error("gain needs the axis delta with values from 0 up, in ascending order")]
@@ -89,55 +87,47 @@ impl Scope {
         if is_of_curves && self.curves.is_empty() {
             return Err((String::new(), ClaimProblem::NoSweep));
         }
-        let problem = match test {
-            Test::Grows { curves } => {
-                self.check_curves(".grows", curves.as_deref())?;
-                (self.axis.values.len() < 2 || !self.axis.is_ascending())
-                    .then_some(ClaimProblem::Axis)
-            }
+        match test {
+            Test::Grows { curves } => self.check_curves(".grows", curves.as_deref())?,
             Test::AlphaHeld { curves, .. } => {
-                self.check_curves(".alpha_held", curves.as_deref())?;
-                None
+                self.check_curves(".alpha_held", curves.as_deref())?
             }
-            Test::Exceeds(contrasts) => {
-                self.check_contrasts(".exceeds", contrasts)?;
-                None
+            Test::Exceeds(contrasts) => self.check_contrasts(".exceeds", contrasts)?,
+            Test::Equals(contrasts) => self.check_contrasts(".equals", contrasts)?,
+            Test::Gain { first, second, .. } => self.check_pair(".gain", first, second)?,
+            Test::Quantity { .. } => {}
+        }
+        match self.problem(test) {
+            Some(problem) => Err((String::new(), problem)),
+            None => Ok(()),
+        }
+    }
+
+    /// What is wrong with a test whose curves are known.
+    fn problem(&self, test: &Test) -> Option<ClaimProblem> {
+        let numbers = self.axis.ascending().unwrap_or_default();
+        match *test {
+            Test::Grows { .. } if numbers.len() < 2 => Some(ClaimProblem::Axis),
+            Test::Gain { .. } if self.axis.name != "delta" => Some(ClaimProblem::GainAxis),
+            Test::Gain { .. } if numbers.first().is_none_or(|start| *start < 0.0) => {
+                Some(ClaimProblem::GainAxis)
             }
-            Test::Equals(contrasts) => {
-                self.check_contrasts(".equals", contrasts)?;
-                None
-            }
-            Test::Gain { first, second, .. } => {
-                self.check_pair(".gain", first, second)?;
-                let starts_at_rest = self.axis.values[0].1.is_some_and(|start| start >= 0.0);
-                let is_delta = self.axis.name == "delta";
-                (!is_delta || !starts_at_rest || !self.axis.is_ascending())
-                    .then_some(ClaimProblem::GainAxis)
-            }
-            &Test::Quantity { from, to, .. } => match (from, to) {
+            Test::Quantity { from, to, .. } => match (from, to) {
                 (None, None) => Some(ClaimProblem::NoEnds),
                 (Some(from), Some(to)) if from > to => Some(ClaimProblem::Reversed { from, to }),
                 _ => None,
             },
-        };
-        problem.map_or(Ok(()), |problem| Err((String::new(), problem)))
+            _ => None,
+        }
     }
 
     fn check_curves(&self, test: &str, curves: Option<&[String]>) -> Result<(), Placed> {
-        let Some(curves) = curves else {
-            return Ok(());
-        };
-        if curves.is_empty() {
+        if curves.is_some_and(<[String]>::is_empty) {
             return Err((format!("{test}.curves"), ClaimProblem::NoCurves));
         }
-        for (index, label) in curves.iter().enumerate() {
-            let path = format!("{test}.curves[{index}]");
-            self.check_label(&path, label)?;
-            if curves[..index].contains(label) {
-                return Err((path, ClaimProblem::Repeated(label.clone())));
-            }
-        }
-        Ok(())
+        let named = curves.unwrap_or_default().iter().enumerate();
+        let paths = named.map(|(index, label)| (format!("{test}.curves[{index}]"), label.as_str()));
+        self.check_labels(paths)
     }
 
     fn check_contrasts(&self, test: &str, contrasts: &Contrasts) -> Result<(), Placed> {
@@ -149,26 +139,35 @@ impl Scope {
     }
 
     fn check_pair(&self, test: &str, first: &str, second: &str) -> Result<(), Placed> {
-        self.check_label(&format!("{test}.first"), first)?;
-        let path = format!("{test}.second");
-        self.check_label(&path, second)?;
-        if first == second {
-            return Err((path, ClaimProblem::Same(second.to_owned())));
-        }
-        Ok(())
+        let paths = [
+            (format!("{test}.first"), first),
+            (format!("{test}.second"), second),
+        ];
+        self.check_labels(paths.into_iter())
     }
 
-    fn check_label(&self, path: &str, label: &str) -> Result<(), Placed> {
-        if self.index(label).is_some() {
-            return Ok(());
+    /// Whether each is the label of a curve, and of another than those before.
+    fn check_labels<'a>(
+        &self,
+        labels: impl Iterator<Item = (String, &'a str)>,
+    ) -> Result<(), Placed> {
+        let mut before = Vec::new();
+        for (path, label) in labels {
+            let got = label.to_owned();
+            if self.index(label).is_none() {
+                let known = self
+                    .curves
+                    .iter()
+                    .map(|curve| curve.label.clone())
+                    .collect();
+                return Err((path, ClaimProblem::UnknownCurve { got, known }));
+            }
+            if before.contains(&label) {
+                return Err((path, ClaimProblem::Repeated(got)));
+            }
+            before.push(label);
         }
-        let got = label.to_owned();
-        let known = self
-            .curves
-            .iter()
-            .map(|curve| curve.label.clone())
-            .collect();
-        Err((path.to_owned(), ClaimProblem::UnknownCurve { got, known }))
+        Ok(())
     }
 
     fn index(&self, label: &str) -> Option<usize> {
@@ -235,8 +234,9 @@ impl Scope {
 type NamesOf = fn(&Curve) -> (Option<&str>, Option<&str>);
 
 impl Axis {
-    fn is_ascending(&self) -> bool {
+    /// The values, where each is a number above the one before.
+    fn ascending(&self) -> Option<Vec<f64>> {
         let numbers: Option<Vec<f64>> = self.values.iter().map(|(_, number)| *number).collect();
-        numbers.is_some_and(|numbers| numbers.is_sorted_by(|a, b| a < b))
+        numbers.filter(|numbers| numbers.is_sorted_by(|a, b| a < b))
     }
 }

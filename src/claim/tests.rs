@@ -366,6 +366,14 @@ fn quantity_verdicts() {
     assert_eq!(verdict(1.01, 1.1, "to = 1"), Verdict::DoesNotHold);
     assert_eq!(verdict(-1.0, -0.1, "from = 0"), Verdict::DoesNotHold);
     assert_eq!(verdict(5.0, 9.0, "from = 0"), Verdict::Holds);
+    // An open side says nothing: the other decides, or nothing does.
+    let (down, up) = (f64::NEG_INFINITY, f64::INFINITY);
+    assert_eq!(verdict(2.0, up, "from = 1"), Verdict::Holds);
+    assert_eq!(verdict(2.0, up, "from = 1, to = 3"), Verdict::Undecided);
+    assert_eq!(verdict(2.0, up, "to = 1"), Verdict::DoesNotHold);
+    assert_eq!(verdict(down, 2.0, "to = 3"), Verdict::Holds);
+    assert_eq!(verdict(down, 2.0, "from = 0, to = 3"), Verdict::Undecided);
+    assert_eq!(verdict(down, 2.0, "from = 3"), Verdict::DoesNotHold);
 }
 
 /// What is missing is said, not judged.

@@ -340,7 +340,7 @@ fn rides_show_rates_above_delays() {
         .map(|panel| panel.y.label.as_str())
         .collect();
     assert_eq!(y, ["P(every trip is found)", "start to H_1*, s"]);
-    let first: &crate::exhibit::ride::Row = &rows[0];
+    let first: &crate::study::ride::Row = &rows[0];
     assert_eq!(points(&plot, 0)[0][0].x, first.x.log10());
 }
 

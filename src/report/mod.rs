@@ -140,12 +140,12 @@ fn claims_tables(
     if !of_paper.is_empty() {
         text += &format!(
             "## What the paper claims\n\n{} The rule behind a verdict stands in the config. *Holds* takes a \
-             test of superiority, non-inferiority or equivalence at the family-wise level. *Holds where* names the \
-             ranges of the axis in which every curve of a claim is shown to keep it, though one breaks it \
-             elsewhere; without such ranges a claim with a counter-example *does not hold*. *Undecided* \
-             means that the trials were too few to tell. That α is held means that no rate is above it beyond \
-             doubt and each is surely at most the stated multiple of it. Points that share their noise are compared trial \
-             by trial (*paired*), others by their counts; the bands in the pictures are pointwise and no \
+             test of superiority, non-inferiority or equivalence at the family-wise level. *Holds where* names \
+             ranges of the axis in which the claim is shown for every curve, though it is refuted elsewhere; \
+             without such ranges a claim with a counter-example *does not hold*. *Undecided* means that the \
+             trials were too few to tell. *α is held* means that no rate is above α beyond doubt and that each \
+             is surely at most the stated multiple of it. Points that share their noise are compared \
+             trial by trial (*paired*), others by their counts; the bands in the pictures are pointwise and no \
              test.\n\n\
              | claim | where the paper makes it | how it was tested | numbers | verdict |\n\
              |---|---|---|---|---|\n{of_paper}\n",

@@ -150,3 +150,61 @@ fn is_same(a: &str, b: &str) -> bool {
         _ => a.trim() == b,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::claim::{Axis, Curve, Scope};
+    use crate::stats::tally::Tally;
+
+    /// Three curves, of which the first alone has rows at rest; the last has no rows.
+    fn evidence() -> Evidence {
+        let outcome = |label: &str, is_at_rest, value: &str| Outcome {
+            label: label.to_owned(),
+            value: value.to_owned(),
+            is_at_rest,
+            tally: Tally { hits: 1, trials: 2 },
+            low: 0.25,
+            high: 0.75,
+            alpha: 0.01,
+            size: None,
+            reachable: None,
+        };
+        let curve = |label: &str| Curve {
+            label: label.to_owned(),
+            panel: None,
+            series: None,
+        };
+        Evidence {
+            scope: Scope {
+                curves: ["weak", "strong", "none"].map(curve).to_vec(),
+                axis: Axis::default(),
+            },
+            outcomes: vec![
+                outcome("weak", true, "0"),
+                outcome("weak", false, "1"),
+                outcome("strong", false, "1"),
+            ],
+            ..Evidence::default()
+        }
+    }
+
+    #[test]
+    fn refusals_name_what_would_do() {
+        let refused = |text: &str| fill(text, &evidence()).unwrap_err().to_string();
+        let all = "(one of weak, strong, none)";
+        for kind in ["rate", "false_alarm", "size", "reachable"] {
+            assert_eq!(
+                refused(&format!("{{{kind}:stong@1}}")),
+                format!("{{{kind}:stong@1}}: unknown curve `stong`, did you mean `strong`? {all}")
+            );
+        }
+        assert!(refused("{false_alarm:strong}").contains("no row at rest of its own"));
+        assert!(refused("{rate:none}").contains("no row at rest of its own"));
+        assert!(refused("{rate:weak@2}").contains("(@ and one of 1)"));
+        assert_eq!(
+            fill("{rate:strong@1.0}", &evidence()).unwrap(),
+            "0.50 [0.25, 0.75]"
+        );
+    }
+}

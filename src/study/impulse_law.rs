@@ -231,7 +231,9 @@ fn zero_sum(nu: f64, sample: usize) -> f64 {
 /// The first i with |P(S_i = 0) − ½| ≤ 0.005, that is |1 − 2ν|^i ≤ 0.01.
 fn samples_to_one_percent(nu: f64) -> f64 {
     let shrinks = (1.0 - 2.0 * nu).abs();
-    let rough = (libm::log(0.01) / libm::log(shrinks)).floor().max(1.0);
+    // The logarithm of `shrinks`, also where that rounds to 1.
+    let decay = libm::log1p(-2.0 * nu.min(1.0 - nu));
+    let rough = (libm::log(0.01) / decay).floor().max(1.0);
     // A last bit of the quotient must not decide.
     let is_enough = |i: f64| libm::pow(shrinks, i) <= 0.01;
     [rough, rough + 1.0]
@@ -334,6 +336,9 @@ mod tests {
             let tried = (1..).find(|&i| (zero_sum(nu, i) - 0.5).abs() <= 0.005);
             assert_eq!(samples_to_one_percent(nu), tried.unwrap() as f64, "{nu}");
         }
+        // ln 100 / 2ν where 1 − 2ν is 1 to every digit.
+        let many = samples_to_one_percent(1e-17);
+        assert!((many / 2.302_585_093e17 - 1.0).abs() < 1e-9, "{many}");
     }
 
     /// 2 · 20 · 3 exact tests, each failing with probability 5e-9 at most: 6e-7 in all.

@@ -3,6 +3,7 @@
 use super::{RideCurve, RidePoint, RideStudy};
 use crate::experiment::{ExhibitKind, Experiment};
 use crate::signal::Ending;
+use crate::whiten::Order;
 
 fn study(text: &str) -> RideStudy {
     let text = format!("question = \"?\"\nseed = 1\ntrials = 1\n[ride]\n{text}");
@@ -83,6 +84,7 @@ fn the_monitor_has_all_its_settings() {
             (settings.whitening.order, settings.monitor.longest_slack)
         })
         .collect();
-    let expected = [(None, 1.0), (None, 2.0), (Some(3), 1.0), (Some(3), 2.0)];
+    let (auto, three) = (Order::Auto, Order::Fixed(3));
+    let expected = [(auto, 1.0), (auto, 2.0), (three, 1.0), (three, 2.0)];
     assert_eq!(settings, expected);
 }

@@ -6,7 +6,9 @@
 //! Its interval inverts the exact intervals of the rates: from the last Δ before the upper limit first
 //! reaches the power, to the first Δ after the lower limit was last below it. Where the power grows with
 //! Δ, either end is missed only if the interval at one of the two neighbours of the true point misses,
-//! so it covers that point with the stated confidence.
+//! so it covers that point with the stated confidence. Outside the search nothing is known: where the upper
+//! limit reaches the power at its start the interval is open below, where the lower limit has not reached it
+//! at its end it is open above.
 
 mod trials;
 
@@ -38,11 +40,11 @@ pub struct Row {
     pub size: f64,
     /// The wanted power.
     pub power: f64,
-    /// Δ/σ_ξ; none where it is never reached.
+    /// Δ/σ_ξ, or the start of the search where the power is reached already; none where it never is.
     pub delta: Option<f64>,
-    /// Its interval.
+    /// Of its interval; none where that is open below.
     pub low: Option<f64>,
-    /// Its interval; none where the lower limit never gets there.
+    /// Of its interval; none where that is open above.
     pub high: Option<f64>,
     /// At every Δ.
     pub trials: u64,
@@ -145,14 +147,14 @@ impl Study for OperatingPoint {
             .collect()
     }
 
-    /// Δ/σ_ξ of every row by name; infinite where the power is not reached.
+    /// Δ/σ_ξ of every row by name; the end of the search, a bound, where the power is not reached.
     fn quantities(&self, rows: &[Row]) -> Result<Vec<Quantity>, StudyError> {
         let quantity = |row: &Row| {
             let power = row.power.to_string().replace('.', "_");
             Quantity {
                 name: format!("delta_for_{power}_at_{}", row.all_samples),
-                value: row.delta.unwrap_or(f64::INFINITY),
-                low: row.low.unwrap_or(f64::INFINITY),
+                value: row.delta.unwrap_or(self.search.delta[1]),
+                low: row.low.unwrap_or(f64::NEG_INFINITY),
                 high: row.high.unwrap_or(f64::INFINITY),
             }
         };
@@ -334,7 +336,17 @@ impl<'a> Grids<'a> {
         let delta = self.first(|level| level.rate >= power);
         let low = self.first(|level| level.high >= power);
         let high = self.last(|level| level.low >= power);
-        let OperatingPoint { context, sized, .. } = self.study;
+        let OperatingPoint {
+            context,
+            sized,
+            search,
+            ..
+        } = self.study;
+        let low = match low {
+            Some([start, above]) if start == above => None,
+            Some([below, _]) => Some(below),
+            None => Some(search.delta[1]),
+        };
         let Sized {
             size,
             scenario,
@@ -347,7 +359,7 @@ impl<'a> Grids<'a> {
             size: region.size(),
             power,
             delta: delta.map(|[_, above]| eight_digits(above)),
-            low: low.map(|[below, _]| eight_digits(below)),
+            low: low.map(eight_digits),
             high: high.map(|[_, above]| eight_digits(above)),
             trials: context.trials,
             confidence: context.confidence,
@@ -431,10 +443,42 @@ mod tests {
         let text = SEARCH.replace("3.2", "0.05").replace("0.9]", "0.999]");
         let (study, rows) = searched(&text);
         assert!(rows.iter().all(|row| row.delta.is_none()));
-        assert!(
-            (study.quantities(&rows).unwrap())
-                .iter()
-                .all(|quantity| quantity.value == f64::INFINITY)
-        );
+        let bound = |q: &Quantity| (q.value, q.low, q.high) == (0.05, 0.05, f64::INFINITY);
+        let quantities = study.quantities(&rows).unwrap();
+        assert!(quantities.iter().all(bound), "{quantities:?}");
+    }
+
+    /// Searches that have the point within, before or beyond them or at either end, against one that has it
+    /// well within: each interval has the point in it and is open where the search ends too early.
+    #[test]
+    fn a_search_that_ends_too_early_is_open() {
+        let searched = |from: f64, to: f64| {
+            let range = format!("from = {from:?}, to = {to:?}");
+            let text = SEARCH
+                .replace("[9, 12]", "[9]")
+                .replace("[0.5, 0.9]", "[0.9]")
+                .replace("from = 0.0, to = 3.2", &range);
+            let (study, rows) = searched(&text);
+            study.quantities(&rows).unwrap().remove(0)
+        };
+        let point = searched(0.0, 3.2).value;
+        for (from, to) in [
+            (0.0, 3.2),
+            (0.0, 0.2),
+            (0.0, point),
+            (point, 3.2),
+            (point + 1.0, 5.0),
+        ] {
+            let Quantity {
+                low, value, high, ..
+            } = searched(from, to);
+            assert!(
+                low <= point && point <= high && low < high,
+                "{from} {to}: {low} {high}"
+            );
+            assert!((from..=to).contains(&value), "{from} {to}: {value}");
+            assert_eq!(low == f64::NEG_INFINITY, from > 0.0, "{from} {to}: {low}");
+            assert_eq!(high == f64::INFINITY, to < 3.2, "{from} {to}: {high}");
+        }
     }
 }
