@@ -14,7 +14,9 @@ use std::ops::Deref;
 pub struct Narrative {
     /// A short heading; by default the name of the file.
     pub title: Option<Words>,
-    /// One paragraph, with placeholders where numbers are to stand.
+    /// One paragraph for the report. A placeholder becomes a number with its interval: `{rate:LABEL@VALUE}`,
+    /// `{false_alarm:LABEL@VALUE}`, `{size:LABEL}`, `{reachable:LABEL}`, `{quantity:NAME}`; an unknown label is refused
+    /// with the names of all curves.
     pub text: Option<Words>,
     /// Where the experiment stands among the others: smaller comes first.
     #[serde(default = "order")]

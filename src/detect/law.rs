@@ -413,7 +413,7 @@ mod tests {
     #[test]
     fn refuses_what_does_not_fit_and_says_how_much() {
         let error = NullLaw::rank_sum(&sizes(100_000, 100_000, 100_000)).unwrap_err();
-        assert!(error.to_string().contains("GB"), "{error}");
+        assert!(error.to_string().contains("MB"), "{error}");
         assert!(NullLaw::rank_sum(&sizes(5000, 12, 5000)).is_ok());
         let error = NullLaw::exceedances(&sizes(300_000, 1, 300_000)).unwrap_err();
         assert!(error.to_string().contains("law of T"), "{error}");

@@ -5,6 +5,7 @@
 use crate::config::{ConfigError, Node, Source};
 use crate::monitor::{Level, Limits, Settings, Sizes, Whitening};
 use crate::signal::recording::{Axis, Reading, TimeUnit, Unit};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error};
 use std::fmt::Display;
@@ -29,19 +30,30 @@ struct OptionsFile {
     monitor: Limits,
 }
 
-#[derive(Default, Deserialize)]
+#[derive(Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-struct RecordingTable {
+pub(super) struct RecordingTable {
+    /// The column of times, by its name.
     time: Option<String>,
+    /// The column of accelerations, by its name.
     acceleration: Option<String>,
+    /// Of the times: s, ms, us or ns.
     #[serde(deserialize_with = "named")]
+    #[schemars(with = "Option<String>")]
     time_unit: Option<TimeUnit>,
+    /// Of the accelerations: m/s^2, g, mg or counts.
     unit: Option<String>,
+    /// m/s² a count.
     scale: Option<f64>,
+    /// The count at 0 m/s².
     offset: Option<f64>,
+    /// Which axis is vertical: auto, x, y, z or gravity.
     #[serde(deserialize_with = "named")]
+    #[schemars(with = "Option<String>")]
     axis: Option<Axis>,
+    /// Samples per second to resample to.
     resample: Option<f64>,
+    /// The file in an archive.
     member: Option<String>,
 }
 

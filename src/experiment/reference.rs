@@ -2,9 +2,11 @@
 //! the same in words.
 
 use super::header::Header;
+use super::monitor_options::RecordingTable;
 use super::sweep::CurveHeader;
 use super::tables;
 use crate::claim::Narrative;
+use crate::monitor::Settings;
 use crate::scenario::{PARAMETERS, Sections};
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, SchemaGenerator};
@@ -13,9 +15,7 @@ use std::fmt::Write;
 
 /// What a config may say, as a JSON Schema.
 pub fn schema() -> Value {
-    let mut generator = SchemaSettings::draft07()
-        .with(|settings| settings.inline_subschemas = true)
-        .into_generator();
+    let mut generator = generator();
     let sections = properties::<Sections>(&mut generator);
     let mut all = properties::<Header>(&mut generator);
     all.extend(properties::<Narrative>(&mut generator));
@@ -135,7 +135,29 @@ pub fn markdown() -> String {
             .filter(|(key, _)| name != "curve" || !all.contains_key(*key));
         text += &keys(&title, description, entries);
     }
+    text + &monitor_options()
+}
+
+/// The file of `detect --config` and `monitor --config`.
+fn monitor_options() -> String {
+    let mut generator = generator();
+    let mut text = "# Keys of `detect --config` and `monitor --config`\n\n\
+        Whatever is left out of `[recording]` is found in the file; sizes are in blocks.\n\n"
+        .to_owned();
+    let recording = properties::<RecordingTable>(&mut generator);
+    text += &keys("[recording]", "How the recording is read.", recording.iter());
+    for (name, schema) in &properties::<Settings>(&mut generator) {
+        let own = schema["properties"].as_object().cloned().unwrap_or_default();
+        let description = schema["description"].as_str().unwrap_or_default();
+        text += &keys(&format!("[{name}]"), description, own.iter());
+    }
     text
+}
+
+fn generator() -> SchemaGenerator {
+    SchemaSettings::draft07()
+        .with(|settings| settings.inline_subschemas = true)
+        .into_generator()
 }
 
 const HEAD: &str = "# Keys of a config\n\n\
@@ -155,6 +177,7 @@ fn keys<'a>(
     text += "| key | type | default | meaning |\n|---|---|---|---|\n";
     for (key, schema) in entries {
         let meaning = one_line(schema["description"].as_str().unwrap_or_default());
+        let meaning = format!("{meaning}{}", choices(schema));
         let default = match &schema["default"] {
             Value::Null => String::new(),
             Value::Object(_) => String::new(),
@@ -172,6 +195,23 @@ fn one_line(text: &str) -> String {
         .collect::<Vec<_>>()
         .join(" ")
         .replace('|', "\\|")
+}
+
+/// What each of several names means, where that is said.
+fn choices(schema: &Value) -> String {
+    let choices = schema["oneOf"].as_array().into_iter().flatten();
+    let said: Vec<String> = choices
+        .filter_map(|choice| {
+            let key = choice["required"][0].as_str();
+            let name = choice["const"].as_str().or(key)?;
+            let meaning = one_line(choice["description"].as_str()?);
+            Some(format!("`{name}`: {}", meaning.trim_end_matches('.')))
+        })
+        .collect();
+    match said.is_empty() {
+        true => String::new(),
+        false => format!(" {}.", said.join("; ")),
+    }
 }
 
 /// What a value looks like, in words.

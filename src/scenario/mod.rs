@@ -89,16 +89,22 @@ pub struct Detector {
     #[serde(deserialize_with = "level")]
     #[schemars(with = "Level")]
     pub alpha: f64,
-    /// What decides: a rule that fills a region of (W, T), or a baseline, which must be calibrated. `block-means`
-    /// compares Y₁ with all of the rest, training included.
+    /// What decides. `wilcoxon`: W alone; `product`: the product of both p-values; `disjunction`: either statistic;
+    /// `conjunction`: both; `{ table = [...] }`: C_W(0) … C_W(M₂), each a rank sum or `"never"`;
+    /// `likelihood-ratio`: the best order of (W, T) for the motion of the config, from a pilot. Baselines, which must
+    /// be calibrated: `student-t` and `variance-ratio` on the whitened samples, `block-means` (Y₁ of the raw record
+    /// against all rest, training included), `clairvoyant` (everything known).
     #[serde(rename = "rule")]
+    #[schemars(extend("default" = "product"))]
     pub method: Method,
     /// The sign of Δ that is looked for.
     pub alternative: Alternative,
     /// What becomes of equal values.
     pub ties: Ties,
-    /// Whether pilot runs at rest set the threshold in place of the exact law.
+    /// Whether pilot runs at rest set the threshold in place of the exact law: `true` promises α with the fitted
+    /// filter under normal, Laplace, uniform and Cauchy noise; a table measures it with the noise it names.
     #[serde(rename = "calibrate")]
+    #[schemars(extend("default" = false))]
     pub calibration: Calibration,
     /// What moves, for a method that is made for one motion.
     #[serde(skip)]

@@ -22,7 +22,7 @@ pub struct Motion {
     pub profile: Profile,
     /// Length of the acceleration, samples; where it is left out, to the last of Y₁.
     #[serde(deserialize_with = "at_least_one")]
-    #[schemars(with = "Size")]
+    #[schemars(with = "Size", extend("default" = null))]
     pub duration: usize,
     /// Samples between the end of X and the start of the acceleration.
     pub offset: usize,
