@@ -4,8 +4,8 @@ use super::output::Output;
 use super::{Failure, Outcome, print, table};
 use clap::{Args, ValueEnum};
 use liftsim::detect::{Alternative, NullLaws, Region, Rule, Samples};
-use liftsim::figure::{region, render};
-use liftsim::study::rows::boundary;
+use liftsim::figure::render;
+use liftsim::study::plane;
 use serde_json::json;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -95,8 +95,8 @@ impl Threshold {
             self.as_table(&laws, &region, &rule, alternative)
         };
         if let Some(figure) = figure {
-            let title = region::title(&samples, alternative, self.alpha);
-            let plot = region::plot(&laws, &boundary(&rule, &region), &title);
+            let title = plane::title(&samples, alternative, self.alpha);
+            let plot = plane::plot(&laws, &plane::boundary(&rule, &region), &title);
             let version = env!("CARGO_PKG_VERSION");
             let provenance = format!("liftsim {version}, rule {rule}, {}", title.join("; "));
             figure

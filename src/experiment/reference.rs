@@ -145,9 +145,16 @@ fn monitor_options() -> String {
         Whatever is left out of `[recording]` is found in the file; sizes are in blocks.\n\n"
         .to_owned();
     let recording = properties::<RecordingTable>(&mut generator);
-    text += &keys("[recording]", "How the recording is read.", recording.iter());
+    text += &keys(
+        "[recording]",
+        "How the recording is read.",
+        recording.iter(),
+    );
     for (name, schema) in &properties::<Settings>(&mut generator) {
-        let own = schema["properties"].as_object().cloned().unwrap_or_default();
+        let own = schema["properties"]
+            .as_object()
+            .cloned()
+            .unwrap_or_default();
         let description = schema["description"].as_str().unwrap_or_default();
         text += &keys(&format!("[{name}]"), description, own.iter());
     }

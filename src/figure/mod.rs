@@ -1,26 +1,15 @@
 //! Pictures: what each says ([`Plot`]), from rows and a few plain facts, and how a plot becomes PNG at
 //! 300 dpi and SVG.
 //!
-//! Every other file here says what one kind of picture shows.
+//! `detection` is the picture of a recording; the picture of a study stands beside it.
 
 #![allow(missing_docs, reason = "fields are called what they are")]
 
-pub mod autocorrelation;
-pub mod curves;
 pub mod detection;
-pub mod impulse_law;
-pub mod independence;
-mod labels;
-pub mod layout;
-pub mod operating_point;
-mod phases;
+pub mod phases;
 mod raster;
-mod rates;
-pub mod region;
-pub mod ride;
+pub mod rates;
 mod svg;
-pub mod trace;
-mod x_axis;
 
 use crate::plot::{LayoutError, Plot, layout};
 
@@ -78,6 +67,3 @@ impl Drawing {
 fn rounded((x, y): (f64, f64), unit: f64) -> (i32, i32) {
     ((x * unit).round() as i32, (y * unit).round() as i32)
 }
-
-#[cfg(test)]
-mod tests;

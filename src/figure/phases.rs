@@ -3,7 +3,7 @@
 use crate::plot::{Colour, Mark, Plot};
 
 /// The shade of a phase.
-pub(super) fn phase_colour(name: &str) -> Colour {
+pub fn phase_colour(name: &str) -> Colour {
     match name {
         "acceleration" => Colour::new(253, 236, 214),
         "inertial" => Colour::new(226, 240, 250),
@@ -14,7 +14,7 @@ pub(super) fn phase_colour(name: &str) -> Colour {
 }
 
 /// A phase in words.
-pub(super) fn phase_words(name: &str) -> &str {
+pub fn phase_words(name: &str) -> &str {
     match name {
         "inertial" => "inertial motion",
         other => other,
@@ -22,7 +22,7 @@ pub(super) fn phase_words(name: &str) -> &str {
 }
 
 /// Shades phases in every panel, and names them so many points above the first.
-pub(super) fn add_phases(plot: &mut Plot, phases: &[((f64, f64), &str)], above: f64) {
+pub fn add_phases(plot: &mut Plot, phases: &[((f64, f64), &str)], above: f64) {
     for (stretch, name) in phases {
         for panel in 0..plot.panels.len() {
             plot.add(panel, Mark::Span(*stretch, phase_colour(name)));

@@ -3,14 +3,14 @@
 use crate::plot::{Mark, Plot, Point, Style};
 
 /// What is drawn in one style.
-pub(super) struct Curve {
+pub struct Curve {
     pub style: Style,
     /// In the order of the axis.
     pub points: Vec<Point>,
 }
 
 /// Lines in their bands, and markers over all of them. Lines lead through limits only where they are `joined`.
-pub(super) fn add_bands(plot: &mut Plot, panel: usize, curves: &[Curve], joined: bool) {
+pub fn add_bands(plot: &mut Plot, panel: usize, curves: &[Curve], joined: bool) {
     for Curve { points, style } in curves {
         let band = points
             .iter()
@@ -26,7 +26,7 @@ pub(super) fn add_bands(plot: &mut Plot, panel: usize, curves: &[Curve], joined:
 }
 
 /// Each interval as an upright bar, those of other curves beside it, and markers over all of them.
-pub(super) fn add_bars(plot: &mut Plot, panel: usize, mut curves: Vec<Curve>) {
+pub fn add_bars(plot: &mut Plot, panel: usize, mut curves: Vec<Curve>) {
     let step = 0.11f64.min(0.8 / curves.len() as f64);
     let middle = (curves.len() - 1) as f64 / 2.0;
     for (index, Curve { points, style }) in curves.iter_mut().enumerate() {

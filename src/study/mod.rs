@@ -17,7 +17,13 @@ pub(crate) mod trace;
 
 pub use loaded::{DrawError, Loaded, Output};
 
-/// The rows of each study, for the pictures.
+/// The plane of W and T, for `threshold`.
+pub mod plane {
+    pub use super::region::boundary;
+    pub use super::region::picture::{plot, title};
+}
+
+/// The rows of each study.
 pub mod rows {
     pub use super::autocorrelation::Row as Autocorrelation;
     pub use super::impulse_law::Row as ImpulseLaw;
@@ -224,6 +230,9 @@ fn counted(counts: &Counts, key: &Key, shape: &Shape) -> (u64, Sums) {
         _ => (1, shape.empty().sums),
     }
 }
+
+#[cfg(test)]
+mod tests_of_pictures;
 
 #[cfg(test)]
 mod tests {

@@ -10,7 +10,11 @@
 //! limit reaches the power at its start the interval is open below, where the lower limit has not reached it
 //! at its end it is open above.
 
+pub(super) mod picture;
+mod row;
 mod trials;
+
+pub use row::Row;
 
 use super::{Context, Study, counted};
 use crate::chain::{RecordTooLong, Scenario};
@@ -18,7 +22,7 @@ use crate::config::Unfit;
 use crate::counts::{Counts, Key, Shape};
 use crate::detect::{Method, NullLaws, Region, RegionError, Samples};
 use crate::experiment::Search;
-use crate::figure::{self, FigureError};
+use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::{self, Quantity, eight_digits};
 use crate::run::{Identity, StudyError, Target, Trials};
@@ -26,31 +30,7 @@ use crate::scenario::ScenarioError;
 use crate::schedule::Schedule;
 use crate::signal::Motion;
 use crate::stats::tally::Tally;
-use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// One row of `points.csv`: the operating point of one size and power.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Row {
-    /// N = M₁ = M₂.
-    pub all_samples: usize,
-    /// α.
-    pub alpha: f64,
-    /// Of the region.
-    pub size: f64,
-    /// The wanted power.
-    pub power: f64,
-    /// Δ/σ_ξ, or the start of the search where the power is reached already; none where it never is.
-    pub delta: Option<f64>,
-    /// Of its interval; none where that is open below.
-    pub low: Option<f64>,
-    /// Of its interval; none where that is open above.
-    pub high: Option<f64>,
-    /// At every Δ.
-    pub trials: u64,
-    /// Of the interval.
-    pub confidence: f64,
-}
 
 /// The operating points of a scenario at every size.
 pub(super) struct OperatingPoint {
@@ -162,7 +142,7 @@ impl Study for OperatingPoint {
     }
 
     fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        Ok(figure::operating_point::plot(rows, &self.scenario, seed))
+        Ok(picture::plot(rows, &self.scenario, seed))
     }
 
     fn points(&self) -> String {

@@ -23,6 +23,7 @@
 
 mod account;
 mod estimate;
+pub(super) mod picture;
 mod row;
 mod sums;
 #[cfg(test)]
@@ -34,7 +35,7 @@ pub use row::Row;
 use super::{Context, Counters, Study, TooMany, counted};
 use crate::counts::{Counts, Sums};
 use crate::experiment::{RidePoint, RideStudy};
-use crate::figure::{self, FigureError};
+use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::Quantity;
 use crate::run::{Group, Identity, Simulation, StudyError, Target, Trials};
@@ -141,13 +142,13 @@ impl Study for Rides {
     fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
         let curves = self.study.curves.iter();
         let labels: Vec<String> = curves.map(|curve| curve.label.clone()).collect();
-        let rides = figure::ride::Rides {
+        let rides = picture::Rides {
             measure: self.study.measure,
             axis: &self.study.axis,
             labels: &labels,
             seed,
         };
-        Ok(figure::ride::plot(rows, &rides))
+        Ok(picture::plot(rows, &rides))
     }
 }
 

@@ -1,13 +1,15 @@
 //! `[axis]`: how often each point of each curve decides for H₁, along an axis.
 
+mod labels;
+pub(super) mod picture;
 mod trials;
+mod x_axis;
 
 use super::{Study, TooMany, counted};
 use crate::claim::{self, Evidence, Outcome, Pair, Scope};
 use crate::counts::{Counts, DecisionSummary, Key, Shape, Sums};
 use crate::experiment::{Config, Curve};
-use crate::figure::curves::SweepCurve;
-use crate::figure::{self, FigureError};
+use crate::figure::FigureError;
 use crate::plan::{Hypothesis, Plan, Point};
 use crate::plot::Plot;
 use crate::results::{self, Comparison, Quantity, Row};
@@ -227,19 +229,19 @@ impl Study for Sweep {
 
     fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
         let values = &self.config.axis.values;
-        let curve = |(index, curve): (usize, &Curve)| SweepCurve {
+        let curve = |(index, curve): (usize, &Curve)| picture::SweepCurve {
             panel: curve.panel.clone(),
             series: curve.series.clone(),
             step_gain: (values.first())
                 .and_then(|value| self.config.scenario(index, value).ok())
                 .map(|scenario| scenario.sensor.step_gain()),
         };
-        let sweep = figure::curves::Sweep {
+        let sweep = picture::Sweep {
             axis: self.config.parameter(),
             values: values.iter().filter_map(|value| value.number()).collect(),
             curves: self.config.curves.iter().enumerate().map(curve).collect(),
         };
-        figure::curves::plot(&sweep, rows, seed)
+        picture::plot(&sweep, rows, seed)
     }
 
     fn points(&self) -> String {

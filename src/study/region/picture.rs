@@ -1,9 +1,9 @@
 //! The plane of W and T: the null probability of every cell on a logarithmic scale, and the boundary
 //! C_W(T) of each region as a line of its own colour, dash and width.
 
+use super::row::Row;
 use crate::detect::{Alternative, NullLaws, Samples};
 use crate::plot::{Axis, Colour, Entry, Key, Legend, Mark, Place, Plot, Style, power_of_ten};
-use crate::study::region::Row;
 
 const HEIGHT: f64 = 238.0;
 /// Cells less probable than this are as pale as it.

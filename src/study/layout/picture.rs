@@ -1,10 +1,10 @@
 //! Where the samples of a trial lie: the acceleration above, the blocks below, one axis.
 
-use super::phases::add_phases;
+use super::row::Row;
 use crate::chain::Scenario;
+use crate::figure::phases::add_phases;
 use crate::plot::{Axis, Block, Mark, Plot, Style};
 use crate::signal::{Motion, Profile};
-use crate::study::layout::Row;
 
 const UPPER: f64 = 84.0;
 const LOWER: f64 = 74.0;

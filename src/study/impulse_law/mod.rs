@@ -8,9 +8,14 @@
 //!
 //! [^1]: see [`crate::signal`].
 
+pub(super) mod picture;
+mod row;
+
+pub use row::Row;
+
 use super::{Context, Counters, Study, counted};
 use crate::counts::{Counts, Shape, Sums};
-use crate::figure::{self, FigureError};
+use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::{Comparison, Quantity, eight_digits};
 use crate::rng::Stream;
@@ -20,32 +25,6 @@ use crate::signal::ImpulseMemory;
 use crate::stats::tally::Tally;
 use rand::Rng;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
-
-/// One ν at one sample. Each law has its exact value, how often the event came up in `trials`, and the
-/// exact interval of its probability.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[allow(missing_docs, reason = "the columns of three laws are alike")]
-pub struct Row {
-    pub nu: f64,
-    pub sample: usize,
-    pub trials: u64,
-    pub zero_sum: f64,
-    pub zero_sum_count: u64,
-    pub zero_sum_rate: f64,
-    pub zero_sum_low: f64,
-    pub zero_sum_high: f64,
-    pub positive: f64,
-    pub positive_count: u64,
-    pub positive_rate: f64,
-    pub positive_low: f64,
-    pub positive_high: f64,
-    pub none: f64,
-    pub none_count: u64,
-    pub none_rate: f64,
-    pub none_low: f64,
-    pub none_high: f64,
-}
 
 /// Every ν at samples 1 … `length`.
 pub(super) struct ImpulseLaw {
@@ -126,11 +105,7 @@ impl Study for ImpulseLaw {
     }
 
     fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        Ok(figure::impulse_law::plot(
-            rows,
-            self.context.confidence,
-            seed,
-        ))
+        Ok(picture::plot(rows, self.context.confidence, seed))
     }
 }
 

@@ -1,6 +1,6 @@
 //! The axis of a sweep: where each row stands on it, and what its ticks say.
 
-use super::curves::Sweep;
+use super::picture::Sweep;
 use crate::plot::{Axis, is_long};
 use crate::results::Row;
 

@@ -1,10 +1,10 @@
 //! Rates against the axis of a sweep: the power of each curve, or, where nothing moves, its
 //! false-alarm rate; in one panel, or in as many as the curves name.
 
-use super::FigureError;
 use super::labels::{self, WHITENED_DELTA, axis_label, common_facts, is_held_against_alpha};
-use super::rates::{Curve, add_bands, add_bars};
 use super::x_axis::XAxis;
+use crate::figure::FigureError;
+use crate::figure::rates::{Curve, add_bands, add_bars};
 use crate::plot::{
     Axis, Entry, Key, LONG_RANGE, Legend, Limit, Mark, Panel, Place, Plot, Point, Style, ends,
 };

@@ -2,29 +2,18 @@
 //!
 //! [^1]: see [`crate::signal`].
 
+pub(super) mod picture;
+mod row;
+
+pub use row::Row;
+
 use super::Study;
 use crate::chain::Scenario;
 use crate::counts::Counts;
 use crate::detect::{NullLaws, Region, RegionError, Rule};
-use crate::figure::{self, FigureError};
+use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::run::Identity;
-use serde::{Deserialize, Serialize};
-
-/// One rule at one T: W ≤ lower or W ≥ upper decides H₁.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Row {
-    /// As in a config.
-    pub rule: String,
-    /// P(ϑ | H₀), exact.
-    pub size: f64,
-    /// T.
-    pub exceedances: usize,
-    /// Absent where no small W decides.
-    pub lower: Option<u64>,
-    /// Absent where no large W decides.
-    pub upper: Option<u64>,
-}
 
 /// The regions of several rules at the same sizes and level.
 pub(super) struct Regions {
@@ -76,8 +65,8 @@ impl Study for Regions {
     fn plot(&self, rows: &[Row], _seed: u64) -> Result<Plot, FigureError> {
         let (samples, detector) = (&self.scenario.samples, &self.scenario.detector);
         let laws = NullLaws::new(detector.alternative, samples)?;
-        let title = figure::region::title(samples, detector.alternative, detector.alpha);
-        Ok(figure::region::plot(&laws, rows, &title))
+        let title = picture::title(samples, detector.alternative, detector.alpha);
+        Ok(picture::plot(&laws, rows, &title))
     }
 }
 

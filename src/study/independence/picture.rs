@@ -1,8 +1,8 @@
 //! P(W, T) against P(W)·P(T), for every W, T and sizes: on the diagonal where W and T are independent.
 
+use super::row::{Row, findings};
 use crate::format::thousands;
 use crate::plot::{Axis, Colour, Key, Legend, Mark, Place, Plot, Point, Style};
-use crate::study::independence::{Row, findings};
 
 const DIAGONAL: Style = Style::of(0).wide(0.8).coloured(Colour::BLACK.faded(0.6));
 /// Sizes that a legend can name.

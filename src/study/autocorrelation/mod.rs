@@ -14,34 +14,21 @@
 //!
 //! [^1]: see [`crate::signal`].
 
+pub(super) mod picture;
+mod row;
+
+pub use row::Row;
+
 use super::{Context, Counters, Study, counted};
 use crate::chain::Scenario;
 use crate::counts::{Counts, Fixed, Shape, Sums};
-use crate::figure::{self, FigureError};
+use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::{Quantity, eight_digits};
 use crate::rng::Stream;
 use crate::run::{Group, Identity, Simulation, StudyError, Target, Trials};
 use crate::signal::{Sensor, Transfer};
 use crate::stats::normal::two_sided_quantile;
-use serde::{Deserialize, Serialize};
-
-/// One lag.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Row {
-    /// k, in samples.
-    pub lag: usize,
-    /// ρ_k by the coefficients of the config's sensor.
-    pub theory: f64,
-    /// ρ_k by the coefficients that follow from (1).
-    pub exact_transfer: f64,
-    /// Mean of the records' estimates.
-    pub estimate: f64,
-    /// Its interval.
-    pub low: f64,
-    /// Its interval.
-    pub high: f64,
-}
 
 /// (1), with the T₀ of (2).
 const TRANSFER: Transfer = Transfer {
@@ -137,7 +124,7 @@ impl Study for Autocorrelation {
     }
 
     fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        let records = figure::autocorrelation::Records {
+        let records = picture::Records {
             sensor: &self.scenario.sensor,
             noise: &self.scenario.noise,
             trials: self.context.trials,
@@ -145,7 +132,7 @@ impl Study for Autocorrelation {
             confidence: self.context.confidence,
             seed,
         };
-        Ok(figure::autocorrelation::plot(rows, &records))
+        Ok(picture::plot(rows, &records))
     }
 }
 

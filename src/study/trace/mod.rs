@@ -11,11 +11,16 @@
 //!
 //! [^1]: see [`crate::signal`].
 
+pub(super) mod picture;
+mod row;
+
+pub use row::Row;
+
 use super::Study;
 use crate::chain::Scenario;
 use crate::counts::Counts;
 use crate::experiment::{Part, Trace};
-use crate::figure::{self, FigureError};
+use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::{self, Quantity, eight_digits};
 use crate::rng::Stream;
@@ -23,26 +28,6 @@ use crate::run::{Identity, StudyError};
 use crate::signal::{During, ImpulseMemory, Law, Motion, Noise, Phase};
 use crate::whiten::{Fitter, whiten};
 use rand::Rng;
-use serde::{Deserialize, Serialize};
-
-/// One sample. Values are in the trace's unit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Row {
-    /// In seconds.
-    pub time: f64,
-    /// `rest`, `acceleration`, `inertial` or `braking`.
-    pub phase: String,
-    /// What the sensor writes down.
-    pub record: f64,
-    /// The same whitened, where it is.
-    pub whitened: Option<f64>,
-    /// `training`, `reference`, `shift`, `scale`, or nothing.
-    pub sample: Option<String>,
-    /// What is added to the noise for the acceleration.
-    pub acceleration: f64,
-    /// λ.
-    pub impulse: f64,
-}
 
 /// What one realisation is drawn from.
 pub(super) struct Realisation {
@@ -82,7 +67,7 @@ impl Study for Realisation {
     }
 
     fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        Ok(figure::trace::plot(rows, &self.trace, &self.scenario, seed))
+        Ok(picture::plot(rows, &self.trace, &self.scenario, seed))
     }
 }
 

@@ -1,9 +1,9 @@
 //! Operating points: the Δ/σ_ξ at which the power reaches a value, against the sizes of the samples.
 
+use super::row::Row;
 use crate::chain::Scenario;
 use crate::format::thousands;
 use crate::plot::{Axis, Key, Legend, Mark, Place, Plot, Point, Style, ends};
-use crate::study::operating_point::Row;
 
 /// The picture of a search.
 pub fn plot(rows: &[Row], scenario: &Scenario, seed: u64) -> Plot {

@@ -1,9 +1,9 @@
 //! Autocorrelation against lag, and below it how far the simulation is from theory.
 
+use super::row::Row;
 use crate::format::thousands;
 use crate::plot::{Axis, Entry, Key, Legend, Mark, Place, Plot, Point, Style, literal};
 use crate::signal::{Noise, Sensor};
-use crate::study::autocorrelation::Row;
 
 const UPPER: f64 = 160.0;
 const LOWER: f64 = 92.0;

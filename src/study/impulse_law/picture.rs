@@ -1,8 +1,8 @@
 //! The laws of S and of λ against time: closed form and simulation.
 
+use super::row::Row;
 use crate::format::thousands;
 use crate::plot::{Axis, Key, Legend, Mark, Place, Plot, Point, Style};
-use crate::study::impulse_law::Row;
 
 const UPPER: f64 = 150.0;
 const LOWER: f64 = 110.0;

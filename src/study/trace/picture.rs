@@ -1,11 +1,11 @@
 //! A ride in time: the record, and below it the same whitened; phases shaded and named, samples
 //! bracketed.
 
-use super::phases::add_phases;
+use super::row::Row;
 use crate::chain::Scenario;
 use crate::experiment::Trace;
+use crate::figure::phases::add_phases;
 use crate::plot::{Axis, Entry, Key, Legend, Mark, Place, Plot, Point, Style, ends, literal};
-use crate::study::trace::Row;
 
 const SINGLE: f64 = 190.0;
 const PANEL: f64 = 128.0;

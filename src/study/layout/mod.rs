@@ -4,24 +4,17 @@
 //!
 //! [^1]: see [`crate::signal`].
 
+pub(super) mod picture;
+mod row;
+
+pub use row::Row;
+
 use super::Study;
 use crate::chain::Scenario;
 use crate::counts::Counts;
-use crate::figure::{self, FigureError};
+use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::run::Identity;
-use serde::{Deserialize, Serialize};
-
-/// A stretch of a trial, from `start` to just before `end`.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Row {
-    /// `rest`, `acceleration`, `inertial`; `training`, `reference`, `gap`, `shift`, `scale`.
-    pub name: String,
-    /// Its first observation.
-    pub start: i64,
-    /// The first after it.
-    pub end: i64,
-}
 
 /// The samples of a scenario.
 pub(super) struct Layout(pub Scenario);
@@ -56,7 +49,7 @@ impl Study for Layout {
     }
 
     fn plot(&self, rows: &[Row], _seed: u64) -> Result<Plot, FigureError> {
-        Ok(figure::layout::plot(rows, &self.0))
+        Ok(picture::plot(rows, &self.0))
     }
 }
 

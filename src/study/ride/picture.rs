@@ -1,13 +1,13 @@
 //! Rides before the monitor: outcomes against the axis, one panel under the other; of a trade-off, the time
 //! between false motions against the delay.
 
-use super::rates::{Curve, add_bands};
+use super::row::Row;
 use crate::experiment::Measure;
+use crate::figure::rates::{Curve, add_bands};
 use crate::format::thousands;
 use crate::plot::{
     Axis, Key, Legend, Limit, Mark, Place, Plot, Point, Style, ends, is_long, literal,
 };
-use crate::study::ride::Row;
 
 /// What was asked of rides along an axis.
 #[derive(Clone, Copy, Debug)]

@@ -1,9 +1,10 @@
 //! What the pictures of the committed results say, without pixels.
 
-use super::curves::{Sweep, SweepCurve};
+use super::sweep::picture::{Sweep, SweepCurve};
 use super::*;
 use crate::detect::NullLaws;
 use crate::experiment::{ExhibitConfig, ExhibitKind, Experiment};
+use crate::figure::render;
 use crate::plot::{Limit, Mark, Panel, Place, Point};
 use crate::results::Row;
 use crate::scenario::{Parameter, parameter};
@@ -44,7 +45,7 @@ fn sweep(axis: &'static Parameter, values: &[f64], panels: &[Option<&str>]) -> S
 
 /// Every picture must fit on its sheet.
 fn checked(plot: Plot) -> Plot {
-    layout(&plot).unwrap();
+    crate::plot::layout(&plot).unwrap();
     plot
 }
 
@@ -82,7 +83,7 @@ fn a_sweep_of_power_shows_each_curve_in_its_band() {
     let rows: Vec<Row> = rows("fig6");
     let curves = rows.iter().map(|row| row.curve).max().unwrap();
     let values: Vec<f64> = Vec::new();
-    let plot = curves::plot(
+    let plot = sweep::picture::plot(
         &sweep(parameter("delta").unwrap(), &values, &vec![None; curves]),
         &rows,
         7,
@@ -124,7 +125,7 @@ fn a_sweep_of_power_shows_each_curve_in_its_band() {
 fn false_alarms_by_rule_are_bars_around_their_level() {
     let rows: Vec<Row> = rows("rest");
     let curves = rows.iter().map(|row| row.curve).max().unwrap();
-    let plot = curves::plot(
+    let plot = sweep::picture::plot(
         &sweep(parameter("rule").unwrap(), &[], &vec![None; curves]),
         &rows,
         7,
@@ -167,7 +168,7 @@ fn panels_share_a_legend_and_their_axes() {
     let rows: Vec<Row> = rows("fig6");
     let rows: Vec<Row> = rows.into_iter().filter(|row| row.curve <= 3).collect();
     let panels = [Some("upper left"), Some("upper right"), Some("below")];
-    let plot = curves::plot(&sweep(parameter("delta").unwrap(), &[], &panels), &rows, 7);
+    let plot = sweep::picture::plot(&sweep(parameter("delta").unwrap(), &[], &panels), &rows, 7);
     let plot = checked(plot.unwrap());
     let titles: Vec<&str> = plot
         .panels
@@ -182,7 +183,7 @@ fn panels_share_a_legend_and_their_axes() {
         ["Δ/σ_ξ", "D, probability of detection"]
     );
     assert_eq!(names(&plot), ["both"]);
-    let nothing = curves::plot(&sweep(parameter("delta").unwrap(), &[], &panels), &[], 7);
+    let nothing = sweep::picture::plot(&sweep(parameter("delta").unwrap(), &[], &panels), &[], 7);
     let message = nothing.unwrap_err().to_string();
     assert!(
         message.contains("no point of the results lies on the axis delta"),
@@ -196,7 +197,7 @@ fn an_autocorrelation_shows_theory_and_simulation() {
         rows::<crate::study::autocorrelation::Row>("fig1"),
         config("fig1"),
     );
-    let records = autocorrelation::Records {
+    let records = autocorrelation::picture::Records {
         sensor: &config.scenario.sensor,
         noise: &config.scenario.noise,
         trials: 1000,
@@ -204,7 +205,7 @@ fn an_autocorrelation_shows_theory_and_simulation() {
         confidence: 0.95,
         seed: 7,
     };
-    let plot = checked(autocorrelation::plot(&rows, &records));
+    let plot = checked(autocorrelation::picture::plot(&rows, &records));
     assert_eq!(labels(&plot.panels[0]), ["", "ρ_k, autocorrelation"]);
     assert_eq!(
         labels(&plot.panels[1]),
@@ -222,7 +223,7 @@ fn traces_name_what_lies_in_them() {
     let ExhibitKind::Trace(trace) = &config.kind else {
         panic!("fig3_4 is a trace")
     };
-    let plot = checked(trace::plot(&rows, trace, &config.scenario, 7));
+    let plot = checked(trace::picture::plot(&rows, trace, &config.scenario, 7));
     assert_eq!(names(&plot), ["record", "acceleration in it"]);
     assert_eq!(plot.panels.len(), if trace.whitened { 2 } else { 1 });
     let named = plot.marks_of(0).find_map(|mark| match mark {
@@ -243,7 +244,7 @@ fn traces_name_what_lies_in_them() {
 #[test]
 fn a_layout_labels_its_blocks() {
     let (rows, config) = (rows("fig5"), config("fig5"));
-    let plot = checked(layout::plot(&rows, &config.scenario));
+    let plot = checked(layout::picture::plot(&rows, &config.scenario));
     let blocks = plot.marks_of(1).filter_map(|mark| match mark {
         Mark::Block(block) => Some((block.lines[0].as_str(), block.ends, block.is_cut)),
         _ => None,
@@ -260,8 +261,8 @@ fn regions_are_drawn_over_their_law() {
     let (rows, config) = (rows("regions"), config("regions"));
     let (samples, detector) = (&config.scenario.samples, &config.scenario.detector);
     let laws = NullLaws::new(detector.alternative, samples).unwrap();
-    let title = region::title(samples, detector.alternative, detector.alpha);
-    let plot = checked(region::plot(&laws, &rows, &title));
+    let title = region::picture::title(samples, detector.alternative, detector.alpha);
+    let plot = checked(region::picture::plot(&laws, &rows, &title));
     assert_eq!(names(&plot)[0], "wilcoxon, exact size 0.009972");
     let Some(Mark::Cells(cells)) = plot.marks_of(0).next() else {
         panic!("cells are drawn first");
@@ -278,7 +279,7 @@ fn regions_are_drawn_over_their_law() {
 #[test]
 fn independence_lies_on_the_diagonal() {
     let rows: Vec<crate::study::independence::Row> = rows("independence");
-    let plot = checked(independence::plot(&rows));
+    let plot = checked(independence::picture::plot(&rows));
     assert_eq!(names(&plot)[0], "1/1/1");
     let Some(Mark::Markers(points, _)) = plot.marks_of(0).nth(2) else {
         panic!("markers after grid and diagonal");
@@ -289,7 +290,7 @@ fn independence_lies_on_the_diagonal() {
 #[test]
 fn laws_of_impulses_have_intervals() {
     let rows: Vec<crate::study::impulse_law::Row> = rows("impulse_law");
-    let plot = checked(impulse_law::plot(&rows, 0.95, 7));
+    let plot = checked(impulse_law::picture::plot(&rows, 0.95, 7));
     assert_eq!(names(&plot)[0], "ν = 0.01");
     let (first, row) = (points(&plot, 1)[0][0], &rows[0]);
     assert_eq!(
@@ -305,7 +306,7 @@ fn laws_of_impulses_have_intervals() {
 #[test]
 fn operating_points_stand_at_their_sizes() {
     let (rows, config) = (rows("field"), config("field"));
-    let plot = checked(operating_point::plot(&rows, &config.scenario, 7));
+    let plot = checked(operating_point::picture::plot(&rows, &config.scenario, 7));
     assert_eq!(ticks(&plot.panels[0])[0], "8");
     assert!(matches!(
         plot.legend.as_ref().unwrap().place,
@@ -326,13 +327,13 @@ fn rides_show_rates_above_delays() {
         .iter()
         .map(|curve| curve.label.clone())
         .collect();
-    let rides = ride::Rides {
+    let rides = ride::picture::Rides {
         measure: study.measure,
         axis: &study.axis,
         labels: &labels,
         seed: 7,
     };
-    let plot = checked(ride::plot(&rows, &rides));
+    let plot = checked(ride::picture::plot(&rows, &rides));
     assert_eq!(names(&plot), labels);
     let y: Vec<&str> = plot
         .panels
@@ -347,7 +348,7 @@ fn rides_show_rates_above_delays() {
 #[test]
 fn the_same_plot_gives_the_same_bytes() {
     let rows: Vec<crate::study::independence::Row> = rows("independence");
-    let plot = independence::plot(&rows);
+    let plot = independence::picture::plot(&rows);
     let drawing = render(&plot, "a < b").unwrap();
     assert_eq!(drawing.png, render(&plot, "a < b").unwrap().png);
     assert!(
