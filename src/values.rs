@@ -3,14 +3,25 @@
 use serde::{Deserialize, Serialize};
 
 /// A value outside its range.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("must {rule}, got {got}")]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OutOfRange {
-    /// What the value must do.
+    /// What the value must do, and in brackets what to do about it.
     pub rule: &'static str,
     /// As given.
     pub got: f64,
 }
+
+impl std::fmt::Display for OutOfRange {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { rule, got } = self;
+        match rule.split_once(" (") {
+            Some((rule, remedy)) => write!(f, "must {rule}, got {got} ({remedy}"),
+            None => write!(f, "must {rule}, got {got}"),
+        }
+    }
+}
+
+impl std::error::Error for OutOfRange {}
 
 /// Declares numbers with a rule: a name, what it is made from, the rule in words and as a test, its JSON
 /// Schema. `new` is the only gate, and serde goes through it.

@@ -211,7 +211,7 @@ impl<'de> Deserializer<'de> for &'de Node {
                     .map(|(span, _)| span.clone())
                     .max_by_key(|s| s.start);
                 let refusal = Refusal::custom(format_args!(
-                    "must have exactly one of {}, got {}",
+                    "must have exactly one of {}, got {} (leave one)",
                     known.join(", "),
                     table.len()
                 ));

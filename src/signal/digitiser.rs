@@ -14,7 +14,7 @@ pub struct Digitiser {
 
 bounded_f64! {
     /// The step of a converter.
-    Quantum: "lie in [1e-9, 1e9]", |x| (1e-9..=1e9).contains(&x),
+    Quantum: "lie in [1e-9, 1e9] (leave it out for a continuous record)", |x| (1e-9..=1e9).contains(&x),
         { "type": "number", "minimum": 1e-9, "maximum": 1e9 };
 }
 

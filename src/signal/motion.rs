@@ -72,11 +72,11 @@ pub enum Profile {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum MotionError {
     /// Δ is NaN or infinite.
-    #[error("delta must be finite, got {0}")]
+    #[error("delta: must be finite, got {0}")]
     Delta(f64),
     /// A duration of no samples.
     #[error(
-        "duration must be at least 1, got {duration} with offset {offset} \
+        "duration: must be at least 1, got {duration} with offset {offset} \
          (by default Δ acts to the last of Y1: lower offset or give a duration)"
     )]
     Duration {
@@ -87,7 +87,7 @@ pub enum MotionError {
     },
     /// A rise that does not fit twice into the duration.
     #[error(
-        "trapezoid.rise must lie between 0 and half the duration of {duration} samples, got {rise}"
+        "profile.trapezoid.rise: must lie between 0 and half the duration of {duration} samples, got {rise}"
     )]
     Rise {
         /// As given.

@@ -80,7 +80,7 @@ impl Default for Whitening {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WhiteningError {
     /// m = 0.
-    #[error("order must be at least 1, got 0")]
+    #[error("order: must be at least 1, got 0")]
     NoOrder,
     /// The training record cannot determine the coefficients.
     #[error(
