@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 /// The rooms of the library, from the ground floor up.
 const FLOORS: &[&[&str]] = &[
     // Numbers, text and files without a domain.
-    &["rng", "simd", "stats", "values", "rule", "fields", "format", "files", "suggest", "counts"],
+    &[
+        "rng", "simd", "stats", "values", "rule", "fields", "format", "files", "suggest", "counts",
+    ],
     // The world, and what config, claims and pictures say, each without the others.
     &["signal", "whiten", "detect", "config", "claim", "plot"],
     // Estimators; what a point simulates.
@@ -237,14 +239,19 @@ fn only_the_program_knows_the_terminal() {
             continue;
         }
         let text = fs::read_to_string(&path).unwrap();
-        for word in [
-            "clap::",
-            "anyhow::",
-            "indicatif::",
-            "process::exit",
-            "eprintln!",
-        ] {
+        for word in ["clap::", "anyhow::", "indicatif::", "process::exit"] {
             assert!(!text.contains(word), "{}: {word}", relative.display());
         }
+    }
+}
+
+/// `eprintln!` panics where standard error is full; the program says things by `cli::say`.
+#[test]
+fn no_message_can_panic() {
+    let mut found = Vec::new();
+    files(&source(), &mut found);
+    for path in found {
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(!text.contains("eprint"), "{}", path.display());
     }
 }

@@ -6,7 +6,9 @@ use clap::{Args, ValueEnum};
 use liftsim::detect::{Alternative, NullLaws, Region, Rule, Samples};
 use liftsim::figure::render;
 use liftsim::study::plane;
+use liftsim::values::Size;
 use serde_json::json;
+use std::error::Error;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -18,13 +20,13 @@ use std::process::ExitCode;
 #[derive(Debug, Args)]
 pub struct Threshold {
     /// N, the size of X.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = size)]
     reference: usize,
     /// M1, the size of Y1.
-    #[arg(long, value_name = "M1")]
+    #[arg(long, value_name = "M1", value_parser = size)]
     shift: usize,
     /// M2, the size of Y2.
-    #[arg(long, value_name = "M2")]
+    #[arg(long, value_name = "M2", value_parser = size)]
     scale: usize,
     /// The level: the rule's false-alarm rate is at most this.
     #[arg(long, value_name = "A")]
@@ -66,6 +68,10 @@ enum Sign {
     Less,
     /// Either way.
     TwoSided,
+}
+
+fn size(text: &str) -> Result<usize, Box<dyn Error + Send + Sync>> {
+    Ok(Size::new(text.parse()?)?.get())
 }
 
 impl Threshold {

@@ -49,6 +49,8 @@ pub fn schema() -> Value {
             .map(|(name, schema)| (name.to_owned(), schema)),
     );
     all.extend(sections);
+    let mut all = Value::Object(all);
+    allow_bare_names(&mut all);
     json!({
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "A liftsim config",
@@ -58,6 +60,26 @@ pub fn schema() -> Value {
         "oneOf": one_thing,
         "additionalProperties": false,
     })
+}
+
+/// A choice whose parameters may all be left out may be written as its name alone.
+fn allow_bare_names(schema: &mut Value) {
+    if let Some(Value::Array(choices)) = schema.get_mut("oneOf") {
+        let bare: Vec<Value> = choices.iter().filter_map(bare_name).collect();
+        choices.extend(bare);
+    }
+    match schema {
+        Value::Object(entries) => entries.values_mut().for_each(allow_bare_names),
+        Value::Array(entries) => entries.iter_mut().for_each(allow_bare_names),
+        _ => (),
+    }
+}
+
+fn bare_name(choice: &Value) -> Option<Value> {
+    let name = choice["required"][0].as_str()?;
+    let parameters = &choice["properties"][name];
+    let none_is_required = parameters["required"].is_null();
+    (parameters["type"] == "object" && none_is_required).then(|| json!({ "const": name }))
 }
 
 /// The keys of a type, each with its schema.

@@ -35,7 +35,7 @@ bounded_f64! {
     Drift: "lie in [-1e6, 1e6]", |x| (-1e6..=1e6).contains(&x),
         { "type": "number", "minimum": -1e6, "maximum": 1e6 };
     /// A factor of the noise.
-    Swell: "lie in (0, 1e6] (1 leaves the noise as it is)", |x| x > 0.0 && x <= 1e6,
+    Swell: "be positive and at most 1e6 (1 leaves the noise as it is)", |x| x > 0.0 && x <= 1e6,
         { "type": "number", "exclusiveMinimum": 0, "maximum": 1e6 };
     /// σ_ξ.
     Jolt: "lie in [0, 1e6]", |x| (0.0..=1e6).contains(&x),

@@ -738,7 +738,7 @@ fn arguments_and_places() {
                 "--alpha",
                 "0.5",
             ],
-            "reference must be at least 1",
+            "--reference <N>': must be at least 1",
         ),
         (
             "an alpha of 0",
