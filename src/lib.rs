@@ -32,16 +32,15 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | 0 | [`rng`]: coordinates → generator · [`stats`]: exact tails, intervals, tests · [`format`]: numbers in print · [`simd`]: trials side by side |
-//! | 1 | [`counts`]: sums by what they count, and of which trials |
-//! | 2 | [`signal`]: sensor, noise, impulses, motion, rides · [`whiten`]: filters · [`detect`]: W, T, their laws, regions |
-//! | 3 | [`chain`]: one trial, every stage · [`monitor`]: one lift, sample by sample |
-//! | 4 | [`schedule`]: blocks of trials in parallel |
-//! | 5 | [`config`]: what the author wrote · [`detection`]: what a monitor finds in a recording |
-//! | 6 | [`plan`]: every point with its scenario and region |
-//! | 7 | [`pilot`]: decisions that no law gives · [`gate`]: the false-alarm test · [`results`]: files |
-//! | 8 | [`run`]: what is wanted, what is there, what is missing · [`claim`]: verdicts |
-//! | 9 | [`study`]: what a config's table describes · [`figure`]: pictures · [`report`]: the report |
+//! | 0 | [`rng`]: coordinates → generator · [`stats`]: exact tails, intervals, tests · [`values`], [`rule`]: what a number must be · [`counts`]: sums by what they count, and of which trials · [`mod@format`], [`suggest`], [`fields`], [`files`]: text and files · [`simd`]: trials side by side |
+//! | 1 | [`signal`]: sensor, noise, impulses, motion, rides · [`whiten`]: filters · [`detect`]: W, T, their laws, regions · [`config`]: what a file says, with its places · [`claim`]: verdicts · [`plot`]: what a picture says |
+//! | 2 | [`monitor`]: one lift, sample by sample · [`scenario`]: what a point simulates, every parameter · [`report`]: the report |
+//! | 3 | [`chain`]: one trial, every stage · [`detection`]: what a monitor finds in a recording · [`experiment`]: what the author wrote |
+//! | 4 | [`schedule`]: blocks of trials in parallel · [`figure`]: PNG and SVG |
+//! | 5 | [`plan`]: every point with its scenario and region |
+//! | 6 | [`pilot`]: decisions that no law gives · [`gate`]: the false-alarm test · [`results`]: files |
+//! | 7 | [`run`]: what is wanted, what is there, what is missing |
+//! | 8 | [`study`]: what a config's table describes |
 //!
 //! # Laws
 //! - A trial cannot fail: what can go wrong goes wrong when the plan is made.

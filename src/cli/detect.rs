@@ -76,7 +76,7 @@ impl Detect {
         bar.finish_and_clear();
         let detection = detection.map_err(Failure::input)?;
         for warning in detection.warnings(recording.rate()) {
-            warn(&warning);
+            warn(warning);
         }
         let report = DetectReport::new(self.name(), &recording, &detection);
         self.write(outputs, &report, &detection, &saved)?;

@@ -3,7 +3,7 @@
 //! every rest.
 //!
 //! # The flow
-//! samples → [blocks](Settings::block) → whitened blocks → a decision on (X, Y₁, Y₂) at every block, and pulses
+//! samples → blocks → whitened blocks → a decision on (X, Y₁, Y₂) at every block, and pulses
 //! of acceleration → state → [`Event`]s. [`Monitor::step`] is all there is; reading a file is a loop over it.
 //!
 //! # What the exact level promises here, and what not
@@ -16,7 +16,7 @@
 //!
 //! # What a motion needs beside the decision
 //! Ranks know no size: a tilt of the floor by a milliradian is as significant as a start. So a motion
-//! must also change the speed by [`Settings::least_speed`], in one pulse of acceleration.
+//! must also change the speed by `least_speed`, in one pulse of acceleration.
 //!
 //! ```
 //! use liftsim::monitor::{Knowledge, Monitor, Settings};

@@ -37,7 +37,7 @@ pub enum Mark {
     /// A thick line so many points below the upper edge.
     Bar((f64, f64), f64, Colour),
     /// Filled rectangles, each between two opposite corners.
-    Cells(Vec<((f64, f64), (f64, f64), Colour)>),
+    Cells(Vec<Cell>),
     /// Beside the panel under a title, what the colours of cells stand for.
     Shades(&'static str, Vec<(Colour, String)>),
     Block(Block),
@@ -117,3 +117,6 @@ impl Point {
         }
     }
 }
+
+/// A filled rectangle between two opposite corners.
+pub type Cell = ((f64, f64), (f64, f64), Colour);

@@ -20,7 +20,7 @@ pub use axis::{Axis, LONG_RANGE, ends, is_long, power_of_ten};
 pub use canvas::{Canvas, Shape, Text};
 pub use layout::{LayoutError, check_panels, layout};
 pub use legend::{Entry, Key, Legend, Place};
-pub use mark::{Block, Limit, Mark, Point};
+pub use mark::{Block, Cell, Limit, Mark, Point};
 pub use style::{Colour, Marker, Style};
 pub use text::{font, literal, text_width};
 

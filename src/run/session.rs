@@ -227,10 +227,9 @@ impl<'a> Session<'a> {
             return Ok(());
         };
         let (counts, number) = (&self.state.counts, self.state.origin.trials);
-        let each = trials.targets().iter();
+        let mut each = trials.targets().iter();
         let checked: Result<(), StudyError> = each
-            .map(|target| counts.check(&target.key, &target.shape, number))
-            .collect::<Result<(), _>>()
+            .try_for_each(|target| counts.check(&target.key, &target.shape, number))
             .map_err(StudyError::from)
             .and_then(|()| trials.check(counts));
         checked.map_err(|error| self.directory.impossible(&error))

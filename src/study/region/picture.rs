@@ -3,7 +3,7 @@
 
 use super::row::Row;
 use crate::detect::{Alternative, NullLaws, Samples};
-use crate::plot::{Axis, Colour, Entry, Key, Legend, Mark, Place, Plot, Style, power_of_ten};
+use crate::plot::{Axis, Cell, Colour, Entry, Key, Legend, Mark, Place, Plot, Style, power_of_ten};
 
 const HEIGHT: f64 = 238.0;
 /// Cells less probable than this are as pale as it.
@@ -77,7 +77,7 @@ fn visible(laws: &NullLaws) -> (u64, u64) {
     (law.first() + law.last() - high, high)
 }
 
-fn cells(laws: &NullLaws) -> Vec<((f64, f64), (f64, f64), Colour)> {
+fn cells(laws: &NullLaws) -> Vec<Cell> {
     let (low, high) = visible(laws);
     let width = (high - low + 1).div_ceil(COLUMNS);
     let largest = |from: u64, to: u64| {
