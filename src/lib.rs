@@ -11,7 +11,7 @@
 //! figures.
 //!
 //! ```
-//! use liftsim::{config::Config, pilot::Pilots, plan::Plan, run};
+//! use liftsim::{experiment::Config, pilot::Pilots, plan::Plan, run};
 //!
 //! let config = Config::parse("example", r#"
 //!     question = "How does the power grow with Δ?"
@@ -41,6 +41,22 @@
 //! | 6 | [`pilot`]: decisions that no law gives · [`gate`]: the false-alarm test · [`results`]: files |
 //! | 7 | [`run`]: what is wanted, what is there, what is missing |
 //! | 8 | [`study`]: what a config's table describes |
+//!
+//! # A walk
+//! From `delta = [0.0, 0.5, 1.0]` under `[axis]` to a row of `points.csv`, file by file:
+//!
+//! 1. `config/tree.rs` reads the text as a tree in which every value keeps its place; `experiment/sweep.rs` lays
+//!    file, curve and axis over each other, and `config/read.rs` lets serde read the sections from that.
+//! 2. `scenario/parameters.rs` says that the axis' `delta` is `motion.delta`; `scenario/check.rs` asks what the
+//!    sections ask of each other. Here a wrong value is refused, with its place.
+//! 3. `plan.rs` makes the point, and the family of points that share its noise.
+//! 4. `study/sweep/trials.rs` tells `run` what to count; `run/session.rs` sees what the directory has and
+//!    `run/missing.rs` has the rest counted.
+//! 5. `schedule.rs` spreads blocks of trials over the threads; in each, `chain/trial.rs` adds Δ to the noise of
+//!    `chain/batch.rs`, whitens, ranks and decides.
+//! 6. `run/tally.rs` counts the decisions, and `counts` adds them up.
+//! 7. `study/sweep/mod.rs` makes the row (`results/row.rs`, `delta` by the same table as in 2), and
+//!    `results/directory.rs` writes it; `study/sweep/picture.rs` makes of the rows what `figure` draws.
 //!
 //! # Laws
 //! - A trial cannot fail: what can go wrong goes wrong when the plan is made.
