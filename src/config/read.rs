@@ -65,6 +65,11 @@ impl Error for Refusal {
     }
 
     fn invalid_type(got: Unexpected, expected: &dyn Expected) -> Self {
+        // serde names the type, which only its author knows.
+        let expected = match expected.to_string() {
+            name if name.starts_with("struct ") => "a table".to_owned(),
+            words => words,
+        };
         Self::custom(format_args!("must be {expected}, got {}", described(got)))
     }
 
@@ -158,7 +163,8 @@ impl<'de> Deserializer<'de> for &'de Node {
             Value::Bool(flag) => visitor.visit_bool(*flag),
             Value::Integer(number) => visitor.visit_i64(*number),
             Value::Float(number) => visitor.visit_f64(*number),
-            Value::Text(text) | Value::Date(text) => visitor.visit_borrowed_str(text),
+            Value::Text(text) => visitor.visit_borrowed_str(text),
+            Value::Date(_) => Err(self.refused(&visitor)),
             Value::List(list) => visitor.visit_seq(Items { list, next: 0 }),
             Value::Table(table) => visitor.visit_map(Entries::new(table)),
         }

@@ -75,10 +75,14 @@ impl Node {
             })
     }
 
-    /// The entries whose keys `is_wanted`, as a table of its own.
+    /// The entries whose keys `is_wanted`, as a table of its own. What is no table stays as it is, for the
+    /// reader of a table to refuse.
     pub fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {
-        let entries = self.table().into_iter().flatten();
+        let Some(entries) = self.table() else {
+            return self.clone();
+        };
         let wanted = entries
+            .iter()
             .filter(|(key, _)| is_wanted(key))
             .map(|(key, entry)| (key.clone(), entry.clone()));
         Self {

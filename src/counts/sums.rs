@@ -39,12 +39,13 @@ impl Sums {
         }
     }
 
-    /// Adds those of other trials.
+    /// Adds those of other trials. What files say may be anything: a sum stops at the largest number, which no
+    /// trials can bring, and is refused as such.
     pub fn add(&mut self, more: &Self) {
         let counts = self.counts.iter_mut().zip(&more.counts);
-        counts.for_each(|(sum, more)| *sum += more);
+        counts.for_each(|(sum, more)| *sum = sum.saturating_add(*more));
         let lengths = self.lengths.iter_mut().zip(&more.lengths);
-        lengths.for_each(|(sum, more)| sum.0 += more.0);
+        lengths.for_each(|(sum, more)| sum.0 = sum.0.saturating_add(more.0));
         let values = self.values.iter_mut().zip(&more.values);
         values.for_each(|(sum, more)| sum.add(more));
     }
@@ -152,7 +153,8 @@ impl Values {
     /// Those of other trials.
     pub fn add(&mut self, more: &Self) {
         for (bits, times) in &more.times {
-            *self.times.entry(*bits).or_default() += times;
+            let sum = self.times.entry(*bits).or_default();
+            *sum = sum.saturating_add(*times);
         }
     }
 
@@ -171,6 +173,15 @@ impl Values {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Else two counts that no trials can bring would add up to one that they can.
+    #[test]
+    fn no_sum_wraps() {
+        let mut sum = Sums::of(&[u64::MAX - 5]);
+        sum.add(&Sums::of(&[1000]));
+        let shape = Shape::events(1);
+        assert_eq!(shape.excess(&sum, 3000), Some([u64::MAX, 3000]));
+    }
 
     #[test]
     fn a_file_loses_nothing() {

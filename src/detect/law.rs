@@ -416,7 +416,12 @@ mod tests {
         assert!(error.to_string().contains("MB"), "{error}");
         assert!(NullLaw::rank_sum(&sizes(5000, 12, 5000)).is_ok());
         let error = NullLaw::exceedances(&sizes(300_000, 1, 300_000)).unwrap_err();
-        assert!(error.to_string().contains("law of T"), "{error}");
+        assert!(
+            error
+                .to_string()
+                .contains("laws of W and T at 300000/1/300000"),
+            "{error}"
+        );
     }
 
     #[test]

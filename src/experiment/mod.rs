@@ -22,7 +22,7 @@ pub use trace::{Part, Trace};
 
 use crate::claim::{Narrative, Scope};
 pub use crate::config::{Axis, AxisValue, ConfigError};
-use crate::config::{Conflict, Node, Source, Unfit};
+use crate::config::{Conflict, Node, Source, Unfit, Value};
 use crate::detect::RegionError;
 use crate::scenario::{Scenario, ScenarioError, Sections};
 use crate::suggest::among;
@@ -337,5 +337,21 @@ fn check_heeded(file: &File, kind: &ExhibitKind) -> Result<(), ConfigError> {
                 .at(Some(span), ExperimentError::Unheeded { key, kind }))
         }
         None => Ok(()),
+    }
+}
+
+/// The tables under `curve`; one plain curve where there are none.
+fn curve_tables(table: &Node, path: &str) -> Result<Vec<Node>, Conflict> {
+    let plain = || Ok(vec![Node::empty(table.span.clone())]);
+    let Some((span, node)) = table.table().and_then(|entries| entries.get("curve")) else {
+        return plain();
+    };
+    match &node.value {
+        Value::List(list) if list.is_empty() => plain(),
+        Value::List(list) => Ok(list.clone()),
+        _ => {
+            let rule = "be a list (write [[curve]] for [curve])";
+            Err(Conflict::at(span, Unfit::new(path, rule, "a single one")))
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! A sweep: an axis, curves, and the scenario of each value on each curve: file ⊕ curve ⊕ axis.
 
-use super::{CHOICES, Experiment, File, SECTIONS, scenario};
+use super::{CHOICES, Experiment, File, SECTIONS, curve_tables, scenario};
 use crate::claim::{self, Narrative, Scope};
-use crate::config::{Axis, AxisValue, ConfigError, Conflict, Node, Source, Unfit, Value};
+use crate::config::{Axis, AxisValue, ConfigError, Conflict, Node, Source, Unfit};
 use crate::scenario::{PARAMETERS, Parameter, Scenario, parameter};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -202,16 +202,8 @@ fn curves(file: &File, axis: &Axis) -> Result<Vec<Curve>, ConfigError> {
     let (source, root) = (&file.source, &file.root);
     let base = file.sections();
     check_free(source, &base, axis)?;
-    let tables: Vec<Node> = match root.get("curve") {
-        None => vec![Node::empty(root.span.clone())],
-        Some(node) => match &node.value {
-            Value::List(list) => list.clone(),
-            _ => {
-                let unfit = Unfit::new("curve", "be a list (write [[curve]] for [curve])", "one");
-                return Err(source.at(file.key_span("curve"), unfit));
-            }
-        },
-    };
+    let tables = curve_tables(root, "curve")
+        .map_err(|conflict| source.conflict(root, conflict, &root.span))?;
     if tables.len() > MOST_CURVES {
         let rule = format!("be at most {MOST_CURVES} curves");
         let span = root.get("curve").map(|list| list.span.clone());

@@ -35,6 +35,12 @@ fn curves_lie_over_the_file_and_the_axis_over_both() {
     assert_eq!(second.whitening.fit(), Fit::Burg);
 }
 
+#[test]
+fn an_empty_list_of_curves_is_one_plain_curve() {
+    let curves = config("curve = []\n[axis]\ndelta = [1.0]\n").curves;
+    assert_eq!((curves.len(), curves[0].label.as_str()), (1, "1"));
+}
+
 /// A sensor is one choice, so a curve's sensor replaces the file's.
 #[test]
 fn a_curve_replaces_the_sensor() {

@@ -101,8 +101,11 @@ pub struct Shard {
 
 /// Not a share of a run.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a shard is i/n with i from 1 to n, got {0:?}")]
+#[error("a shard is i/n with i from 1 to n and n at most 100000, got {0:?}")]
 pub struct NoShard(String);
+
+/// More than there are cores; `merge` lists those that are not there.
+const MOST_SHARDS: u64 = 100_000;
 
 impl Shard {
     /// Its trials of `trials`: whole blocks, as evenly as can be.
@@ -128,7 +131,8 @@ impl FromStr for Shard {
     fn from_str(text: &str) -> Result<Self, NoShard> {
         let parse = |(number, count): (&str, &str)| {
             let (number, count) = (number.parse().ok()?, count.parse().ok()?);
-            (1 <= number && number <= count).then_some(Self { number, count })
+            (1 <= number && number <= count && count <= MOST_SHARDS)
+                .then_some(Self { number, count })
         };
         let shard = text.split_once('/').and_then(parse);
         shard.ok_or_else(|| NoShard(text.to_owned()))

@@ -44,7 +44,7 @@ impl Estimate {
             work.count(&Mutex::default(), &());
             let time = start.elapsed();
             if time >= LONG_ENOUGH || short == number {
-                break time.mul_f64(total / work.size() as f64);
+                break time.mul_f64(total / work.size().max(1) as f64);
             }
             short = number.min(4 * short);
         };

@@ -15,6 +15,18 @@ pub const CONFIGS: &[(&str, &str)] = &[
         "[axis]\ndelta = [1.0]\n[detector]\nalhpa = 0.1\n",
     ),
     (
+        "a date for a text",
+        "title = 1979-05-27\n[axis]\ndelta = [1.0]\n",
+    ),
+    (
+        "a number for a curve",
+        "curve = [5]\n[axis]\ndelta = [1.0]\n",
+    ),
+    (
+        "a text among curves",
+        "curve = [{ label = \"1\" }, \"x\"]\n[axis]\ndelta = [1.0]\n",
+    ),
+    (
         "unknown key in a curve",
         "[axis]\ndelta = [1.0]\n[[curve]]\nlabel = \"1\"\nimpulses = { nu = 0.1, tehta = 2.0 }\n",
     ),
@@ -526,6 +538,18 @@ const DRAWINGS: &[(&str, &str)] = &[
 /// Tables of rides that are wrong in their own ways.
 pub const RIDES: &[(&str, &str)] = &[
     ("no measure", "[ride.axis]\nrate = [100]\n"),
+    (
+        "one curve for a list",
+        "measure = \"rides\"\n[ride.axis]\nrate = [100]\n[ride.curve]\nlabel = \"x\"\n",
+    ),
+    (
+        "a number for a curve",
+        "measure = \"rides\"\ncurve = [5]\n[ride.axis]\nrate = [100]\n",
+    ),
+    (
+        "a text for a curve",
+        "measure = \"rides\"\ncurve = [\"x\"]\n[ride.axis]\nrate = [100]\n",
+    ),
     (
         "an unknown measure",
         "measure = \"ride\"\n[ride.axis]\nrate = [100]\n",

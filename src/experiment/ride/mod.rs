@@ -14,7 +14,8 @@ mod tests;
 pub use point::RidePoint;
 pub use problem::RideProblem;
 
-use crate::config::{Axis, AxisValue, ConfigError, Conflict, Node, Source, Unfit, Value};
+use super::curve_tables;
+use crate::config::{Axis, AxisValue, ConfigError, Conflict, Node, Source, Unfit};
 use keys::{RideKeys, STRENGTH};
 use schemars::{JsonSchema, SchemaGenerator};
 use serde::Deserialize;
@@ -128,7 +129,7 @@ fn study(measure: Measure, table: &Node) -> Result<RideStudy, Conflict> {
     check_free(&axis, &base)?;
     keys::check_used(measure, &base)?;
     let mut curves: Vec<RideCurve> = Vec::new();
-    for (index, curve) in tables(table).iter().enumerate() {
+    for (index, curve) in curve_tables(table, "ride.curve")?.iter().enumerate() {
         let values = keys::values(curve, &["label"])?;
         check_free(&axis, &values)?;
         keys::check_used(measure, &values)?;
@@ -146,14 +147,6 @@ fn study(measure: Measure, table: &Node) -> Result<RideStudy, Conflict> {
         axis: axis.name,
         curves,
     })
-}
-
-/// The curves, or the one that a table without any stands for.
-fn tables(table: &Node) -> Vec<Node> {
-    match table.get("curve").map(|curves| &curves.value) {
-        Some(Value::List(curves)) if !curves.is_empty() => curves.clone(),
-        _ => vec![Node::empty(table.span.clone())],
-    }
 }
 
 /// A label of its own, also when it is part of a quantity's name.
