@@ -124,7 +124,7 @@ fn results_of_another_experiment_are_kept() {
     };
     let (code, _, err) = other(&[]);
     assert_eq!(code, 2);
-    assert!(err.contains("theta is 1.0 there, 1.5 here"), "{err}");
+    assert!(err.contains("theta is 1 there, 1.5 here"), "{err}");
     assert!(read(directory.path(), "points.csv") == before);
 
     assert_eq!(other(&["--fresh"]).0, 0);

@@ -66,7 +66,7 @@ fn a_config_is_read_strictly() {
         ("trip = [\"up\"]", "a trip reads up:METRES or down:METRES"),
         (
             "rate = \"fast\"",
-            "short.toml:1:8: rate: must be f64, got string \"fast\"",
+            "short.toml:1:8: rate: must be a finite number, got \"fast\"",
         ),
         ("rate = 0", "rate must lie in"),
     ] {

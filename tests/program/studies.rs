@@ -167,7 +167,7 @@ fn verbs_that_need_a_sweep() {
     assert_eq!((code, out.as_str()), (2, ""), "{err}");
     let words = "[layout] says what to draw, but nothing is swept here";
     assert!(
-        err.contains("configs/fig5.toml:16:1") && err.contains(words),
+        err.contains("configs/fig5.toml:17:1") && err.contains(words),
         "{err}"
     );
     let shard = ["sweep", "configs/fig5.toml", "--shard", "1/2"];
@@ -177,10 +177,7 @@ fn verbs_that_need_a_sweep() {
     let one = ["sweep", "configs/fig1.toml", "--trials", "1"];
     let (code, _, err) = outcome(liftsim().args(one));
     assert_eq!(code, 2);
-    assert!(
-        err.contains("autocorrelation.trials must be at least 2, got 1"),
-        "{err}"
-    );
+    assert!(err.contains("trials: must be at least 2, got 1"), "{err}");
 }
 
 /// Every study can be planned.
