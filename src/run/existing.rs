@@ -47,7 +47,11 @@ impl Existing {
         let comparisons = directory.comparisons(&manifest)?;
         let origin = manifest.origin.clone();
         let there = experiment.of(&origin).filter(|_| origin.results == RESULTS);
-        let counts = there.and_then(|there| there.recall(&points, &comparisons));
+        let counts = match there {
+            Some(there) => (there.recall(&points, &comparisons))
+                .map_err(|error| directory.damaged_points(error))?,
+            None => None,
+        };
         Ok(Self {
             state: Checkpoint {
                 shard: None,

@@ -128,7 +128,14 @@ pub trait Experiment {
     fn trials(&self) -> Option<Box<dyn Trials + '_>>;
 
     /// The counts behind finished results of its own, where these tell them.
-    fn recall(&self, points: &[u8], comparisons: &[Comparison]) -> Option<Counts>;
+    ///
+    /// # Errors
+    /// Where the bytes are not the study's rows.
+    fn recall(
+        &self,
+        points: &[u8],
+        comparisons: &[Comparison],
+    ) -> Result<Option<Counts>, csv::Error>;
 
     /// The experiment behind other results; none where this version cannot read its config.
     fn of(&self, origin: &Origin) -> Option<Box<dyn Experiment>>;

@@ -19,7 +19,11 @@ pub(super) trait AnyStudy: Send + Sync {
     fn trials(&self) -> Option<Box<dyn Trials + '_>>;
     fn points(&self) -> String;
     fn output(&self, counts: &Counts) -> Result<Output, StudyError>;
-    fn recall(&self, points: &[u8], comparisons: &[Comparison]) -> Option<Counts>;
+    fn recall(
+        &self,
+        points: &[u8],
+        comparisons: &[Comparison],
+    ) -> Result<Option<Counts>, csv::Error>;
     fn draw(&self, points: &[u8], manifest: &Manifest) -> Result<Drawing, DrawError>;
     fn curves(&self, points: &[u8]) -> Result<(Scope, Vec<Outcome>), csv::Error>;
 }
@@ -52,9 +56,13 @@ impl<S: Study> AnyStudy for S {
         })
     }
 
-    fn recall(&self, points: &[u8], comparisons: &[Comparison]) -> Option<Counts> {
-        let rows: Vec<S::Row> = read(points).ok()?;
-        Study::recall(self, &rows, comparisons)
+    fn recall(
+        &self,
+        points: &[u8],
+        comparisons: &[Comparison],
+    ) -> Result<Option<Counts>, csv::Error> {
+        let rows: Vec<S::Row> = read(points)?;
+        Ok(Study::recall(self, &rows, comparisons))
     }
 
     fn draw(&self, points: &[u8], manifest: &Manifest) -> Result<Drawing, DrawError> {
@@ -252,7 +260,11 @@ impl Experiment for Loaded {
         self.study.trials()
     }
 
-    fn recall(&self, points: &[u8], comparisons: &[Comparison]) -> Option<Counts> {
+    fn recall(
+        &self,
+        points: &[u8],
+        comparisons: &[Comparison],
+    ) -> Result<Option<Counts>, csv::Error> {
         self.study.recall(points, comparisons)
     }
 
