@@ -4,7 +4,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use liftsim::detect::{Alternative, Crossings, Lines, NullLaws, Pooled, Rule, Samples};
-use liftsim::experiment::Config;
+use liftsim::experiment::SweepConfig;
 use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
 use liftsim::rng::Stream;
@@ -93,7 +93,7 @@ fn narrow(criterion: &mut Criterion) {
 /// Goal: 40 ns a trial and point, all of Fig. 6 in one family.
 fn family(criterion: &mut Criterion) {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/configs/fig6.toml");
-    let config = Config::load(path.as_ref()).expect("a config");
+    let config = SweepConfig::load(path.as_ref()).expect("a config");
     let plan = Plan::new(&config).expect("a plan");
     let decisions = Pilots::new(&plan).and_then(|pilots| pilots.decide(|_| {}));
     let decisions = decisions.expect("exact regions");

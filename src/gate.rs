@@ -113,14 +113,14 @@ pub fn overall(findings: &[Finding]) -> Verdict {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::Config;
+    use crate::experiment::SweepConfig;
     use crate::plan::Plan;
 
     const THREE: &str =
         "question = \"?\"\nseed = 1\n[impulses]\nnu = 0.0\n[axis]\norder = [1, 2, 3]\n";
 
     fn findings(hits: [u64; 3], trials: u64, nominal: Option<f64>) -> Vec<Finding> {
-        let plan = Plan::at_rest(&Config::parse("test", THREE).unwrap()).unwrap();
+        let plan = Plan::at_rest(&SweepConfig::parse("test", THREE).unwrap()).unwrap();
         let tallies = hits.map(|hits| Tally { hits, trials });
         judge(&plan.points, &tallies, nominal)
     }

@@ -11,9 +11,9 @@
 //! figures.
 //!
 //! ```
-//! use liftsim::{experiment::Config, pilot::Pilots, plan::Plan, run};
+//! use liftsim::{experiment::SweepConfig, pilot::Pilots, plan::Plan, run};
 //!
-//! let config = Config::parse("example", r#"
+//! let config = SweepConfig::parse("example", r#"
 //!     question = "How does the power grow with Δ?"
 //!     seed = 1
 //!     trials = 2000

@@ -3,8 +3,9 @@
 
 use crate::chain::{Detector, Purpose, Scenario};
 use crate::claim::{self, Pair};
+use crate::config::AxisValue;
 use crate::detect::{Alternative, Method, NullLaws, Region, RegionError, Rule, Samples};
-use crate::experiment::{AxisValue, Config, ConfigError};
+use crate::experiment::{ConfigError, SweepConfig};
 use crate::scenario::{RECORD_KEYS, ScenarioError};
 use crate::schedule::Schedule;
 use std::sync::Arc;
@@ -74,8 +75,8 @@ impl Plan {
     ///
     /// # Errors
     /// Where a parameter of a point is out of range, or no region or record can be made for it.
-    pub fn new(config: &Config) -> Result<Self, ConfigError> {
-        match config.at_rest {
+    pub fn new(config: &SweepConfig) -> Result<Self, ConfigError> {
+        match config.header().at_rest {
             true => Self::at_rest(config),
             false => Self::of(config, |_| true),
         }
@@ -85,7 +86,7 @@ impl Plan {
     ///
     /// # Errors
     /// As [`Plan::new`].
-    pub fn at_rest(config: &Config) -> Result<Self, ConfigError> {
+    pub fn at_rest(config: &SweepConfig) -> Result<Self, ConfigError> {
         Self::of(config, |hypothesis| hypothesis == Hypothesis::H0)
     }
 
@@ -116,17 +117,17 @@ impl Plan {
     }
 
     /// The pairs of points that the claims of its config compare.
-    pub fn pairs(&self, config: &Config) -> Vec<Pair> {
+    pub fn pairs(&self, config: &SweepConfig) -> Vec<Pair> {
         let claims = &config.narrative.claims;
         if claims.is_empty() {
             return Vec::new();
         }
-        claim::pairs(claims, &config.scope(), &self.along_axis(config))
+        claim::pairs(claims, &config.scope, &self.along_axis(config))
     }
 
     /// Of each curve the point at each value of the axis: the one in motion, or the one at rest where nothing
     /// in the curve moves. What is the same at rest is planned once, under the first curve.
-    fn along_axis(&self, config: &Config) -> Vec<Vec<Option<usize>>> {
+    fn along_axis(&self, config: &SweepConfig) -> Vec<Vec<Option<usize>>> {
         let along = |curve| {
             let is_moving = |&at: &usize| {
                 let Point {
@@ -146,17 +147,17 @@ impl Plan {
                     point.hypothesis == Hypothesis::H0 && point.scenario == scenario
                 })
             };
-            config.axis.values.iter().map(at_rest).collect()
+            config.axis().values.iter().map(at_rest).collect()
         };
-        (0..config.curves.len()).map(along).collect()
+        (0..config.scope.curves.len()).map(along).collect()
     }
 
-    fn of(config: &Config, wanted: impl Fn(Hypothesis) -> bool) -> Result<Self, ConfigError> {
+    fn of(config: &SweepConfig, wanted: impl Fn(Hypothesis) -> bool) -> Result<Self, ConfigError> {
         let mut designer = Designer::default();
         let mut points: Vec<Point> = Vec::new();
         let mut blame = Vec::new();
         for (curve, Curve { scenarios, moves }) in curves(config)?.into_iter().enumerate() {
-            for (value, scenario) in config.axis.values.iter().zip(scenarios) {
+            for (value, scenario) in config.axis().values.iter().zip(scenarios) {
                 let design = designer
                     .design(&scenario)
                     .map_err(|error| config.blame(curve, value, error.keys(), error))?;
@@ -164,7 +165,7 @@ impl Plan {
                     if wanted(hypothesis) {
                         points.push(Point {
                             curve,
-                            label: config.curves[curve].label.clone(),
+                            label: config.scope.curves[curve].label.clone(),
                             hypothesis,
                             scenario,
                             design: design.clone(),
@@ -182,10 +183,10 @@ impl Plan {
         }
         let schedule = Schedule::new(
             points.iter().map(|point| &point.scenario),
-            config.trials,
-            config.seed,
+            config.header().trials(),
+            config.header().seed,
             Purpose::Results,
-            config.common_random_numbers,
+            config.header().common_random_numbers,
         )
         .map_err(|(point, refusal)| {
             let (curve, value) = blame[point];
@@ -193,9 +194,9 @@ impl Plan {
         })?;
         Ok(Self {
             points,
-            seed: config.seed,
-            common_random_numbers: config.common_random_numbers,
-            pilot: config.pilot,
+            seed: config.header().seed,
+            common_random_numbers: config.header().common_random_numbers,
+            pilot: config.header().pilot,
             schedule,
         })
     }
@@ -207,11 +208,11 @@ struct Curve {
     moves: bool,
 }
 
-fn curves(config: &Config) -> Result<Vec<Curve>, ConfigError> {
+fn curves(config: &SweepConfig) -> Result<Vec<Curve>, ConfigError> {
     let scenario = |curve: usize, value: &AxisValue| config.scenario(curve, value);
-    (0..config.curves.len())
+    (0..config.scope.curves.len())
         .map(|curve| {
-            let values = config.axis.values.iter();
+            let values = config.axis().values.iter();
             let scenarios: Vec<Scenario> = values
                 .map(|value| scenario(curve, value))
                 .collect::<Result<_, _>>()?;

@@ -1,6 +1,6 @@
 //! Numbers that hold one rule, wherever they stand: checked once, when they are made or read from a file.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// A value outside its range.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -152,6 +152,18 @@ impl schemars::JsonSchema for Size {
     fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
         schemars::json_schema!({ "type": "integer", "minimum": 1 })
     }
+}
+
+/// Reads a plain number that keeps the rule of `T`, for `deserialize_with`.
+///
+/// # Errors
+/// Where it does not.
+pub fn number<'de, T, D>(deserializer: D) -> Result<f64, D::Error>
+where
+    T: Deserialize<'de> + Into<f64>,
+    D: Deserializer<'de>,
+{
+    T::deserialize(deserializer).map(T::into)
 }
 
 impl Default for Probability {

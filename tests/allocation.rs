@@ -2,7 +2,7 @@
 //! holds as much memory after a day as after a minute.
 
 use liftsim::chain::{Observation, Trial};
-use liftsim::experiment::Config;
+use liftsim::experiment::SweepConfig;
 use liftsim::monitor::{Knowledge, Monitor, Settings};
 use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
@@ -83,7 +83,7 @@ motion = { profile = { trapezoid = { rise = 3.0 } } }
 
 #[test]
 fn trials_do_not_allocate() {
-    let config = Config::parse("everything", EVERYTHING).unwrap();
+    let config = SweepConfig::parse("everything", EVERYTHING).unwrap();
     let plan = Plan::new(&config).unwrap();
     let mut counts = vec![0; plan.points.len()];
     let decisions = Pilots::new(&plan).unwrap().decide(|_| {}).unwrap();

@@ -2,7 +2,7 @@
 
 use liftsim::chain::{Decision, Observation, Trial};
 use liftsim::detect::{NullLaw, Samples};
-use liftsim::experiment::Config;
+use liftsim::experiment::SweepConfig;
 use liftsim::pilot::Pilots;
 use liftsim::plan::{Design, Hypothesis, Plan};
 use liftsim::run;
@@ -13,7 +13,7 @@ use rand_chacha::ChaCha20Rng;
 use statrs::distribution::{ChiSquared, ContinuousCDF, DiscreteCDF, Hypergeometric};
 
 fn plan(text: &str) -> Plan {
-    let config = Config::parse("test", text).unwrap_or_else(|error| panic!("{error}"));
+    let config = SweepConfig::parse("test", text).unwrap_or_else(|error| panic!("{error}"));
     Plan::new(&config).unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -1,7 +1,7 @@
 //! Every verdict of every test on made-up results, and the boundaries between verdicts.
 
 use super::*;
-use crate::experiment::Config;
+use crate::experiment::SweepConfig;
 use crate::plan::Plan;
 use crate::results::Row;
 use crate::stats::tally::Tally;
@@ -9,17 +9,17 @@ use crate::stats::tally::Tally;
 const MARGIN: f64 = 0.005;
 
 /// Two curves, four values of Δ, and one claim with this test.
-fn config(test: &str) -> Config {
+fn config(test: &str) -> SweepConfig {
     let text = format!(
         "question = \"?\"\nseed = 1\n[axis]\ndelta = [0.0, 0.5, 1.0, 2.0]\n\
          [[curve]]\nlabel = \"a\"\n[[curve]]\nlabel = \"b\"\nwhitening = {{ order = 3 }}\n\
          [[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = {test}\n"
     );
-    Config::parse("test", &text).unwrap_or_else(|error| panic!("{error}"))
+    SweepConfig::parse("test", &text).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The rows of that config, by their counts: at rest and along the axis, for either curve.
-fn rows(config: &Config, trials: u64, hits: [[u64; 5]; 2]) -> Vec<Row> {
+fn rows(config: &SweepConfig, trials: u64, hits: [[u64; 5]; 2]) -> Vec<Row> {
     let points = Plan::new(config).unwrap().points;
     let hits = hits.into_iter().flatten();
     (points.iter().zip(hits))
@@ -29,13 +29,13 @@ fn rows(config: &Config, trials: u64, hits: [[u64; 5]; 2]) -> Vec<Row> {
 
 /// The first claim of a config, by its rows and comparisons.
 fn judge_first(
-    config: &Config,
+    config: &SweepConfig,
     rows: &[Row],
     comparisons: Vec<Comparison>,
 ) -> Result<Judgement, ClaimError> {
     let outcomes = rows.iter().map(|row| row.outcome(config.parameter()));
     let evidence = Evidence {
-        scope: config.scope(),
+        scope: config.scope.clone(),
         outcomes: outcomes.collect(),
         comparisons,
         quantities: Vec::new(),
@@ -111,7 +111,7 @@ fn pairs_at_rest() {
                 [[curve]]\nlabel = \"a\"\n[[curve]]\nlabel = \"b\"\nimpulses = { theta = 3.0 }\n\
                 [[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = { equals = { first = \"a\", second = \"b\" } }\n\
                 [[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = \"grows\"\n";
-    let config = Config::parse("test", text).unwrap();
+    let config = SweepConfig::parse("test", text).unwrap();
     let plan = Plan::new(&config).unwrap();
     let pairs = plan.pairs(&config);
     let found: Vec<_> = (pairs.iter())
@@ -210,7 +210,7 @@ fn growth_boundaries() {
 fn growth_between_two_values() {
     let text = "question = \"?\"\nseed = 1\n[axis]\ndelta = [0.0, 1.0]\n\
                 [[claim]]\nclaim = \"?\"\nsource = \"?\"\ntest = \"grows\"\n";
-    let config = Config::parse("test", text).unwrap();
+    let config = SweepConfig::parse("test", text).unwrap();
     let plan = Plan::new(&config).unwrap();
     let pairs = plan.pairs(&config);
     assert_eq!(pairs.len(), 1);
@@ -414,7 +414,7 @@ fn held_along(axis: &str, hits: [[u64; 3]; 2]) -> Judgement {
          [[curve]]\nlabel = \"b\"\nwhitening = {{ order = 3 }}\n\
          [[claim]]\nclaim = \"?\"\ntest = \"alpha_held\"\n"
     );
-    let config = Config::parse("test", &text).unwrap_or_else(|error| panic!("{error}"));
+    let config = SweepConfig::parse("test", &text).unwrap_or_else(|error| panic!("{error}"));
     let points = Plan::new(&config).unwrap().points;
     let trials = 200_000;
     let rows: Vec<Row> = (points.iter().zip(hits.into_iter().flatten()))

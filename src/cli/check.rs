@@ -5,7 +5,7 @@ use super::{Failure, Outcome, Simulation, print, table};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::chain::Decision;
-use liftsim::experiment::Config;
+use liftsim::experiment::SweepConfig;
 use liftsim::gate::{self, EXCESS, FAMILY_LEVEL, Finding, Verdict};
 use liftsim::plan::{Plan, Point};
 use liftsim::results::Row;
@@ -51,7 +51,12 @@ impl Check {
     }
 }
 
-fn report(config: &Config, plan: &Plan, decisions: &[Decision], findings: &[Finding]) -> String {
+fn report(
+    config: &SweepConfig,
+    plan: &Plan,
+    decisions: &[Decision],
+    findings: &[Finding],
+) -> String {
     let header = [
         "scenario",
         "rule",
@@ -79,17 +84,22 @@ fn report(config: &Config, plan: &Plan, decisions: &[Decision], findings: &[Find
          {} % intervals\n{advice}",
         table(&header, &rows),
         findings.len(),
-        config.seed,
+        config.header().seed,
         count(Verdict::Pass),
         count(Verdict::Inconclusive),
         count(Verdict::Fail),
-        config.confidence * 100.0,
+        config.header().confidence.get() * 100.0,
     )
 }
 
-fn row(config: &Config, point: &Point, decision: &Decision, finding: &Finding) -> Vec<String> {
-    let row = Row::new(point, Some(decision), finding.tally, config.confidence);
-    let (low, high) = row.tally.interval(config.confidence);
+fn row(config: &SweepConfig, point: &Point, decision: &Decision, finding: &Finding) -> Vec<String> {
+    let row = Row::new(
+        point,
+        Some(decision),
+        finding.tally,
+        config.header().confidence.get(),
+    );
+    let (low, high) = row.tally.interval(config.header().confidence.get());
     // Four digits of the nominal rate, and six decimals at least.
     let decimals = (3.0 - finding.nominal.log10().floor()).max(6.0) as usize;
     let digits = |rate: f64| format!("{rate:.decimals$}");
@@ -122,7 +132,7 @@ fn p_value(p: f64) -> String {
 }
 
 /// The curve's label, and what the axis changes unless another column says it, or it is a motion.
-fn scenario(config: &Config, row: &Row) -> String {
+fn scenario(config: &SweepConfig, row: &Row) -> String {
     let parameter = config.parameter();
     let is_told = ["motion.", "impulses.", "detector.alpha"]
         .iter()

@@ -4,12 +4,11 @@ use super::progress::{self, Progress, Reporter};
 use super::{Failure, Outcome, print, say, store, sweep, table};
 use anyhow::anyhow;
 use clap::Args;
-use liftsim::experiment;
 use liftsim::report;
 use liftsim::results::Directory;
 use liftsim::run::{Experiment, Overwrite, Session};
 use liftsim::stats::tally::MOST_TRIALS;
-use liftsim::study::Loaded;
+use liftsim::study::{self, Loaded};
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -112,13 +111,13 @@ impl Figures {
     }
 
     fn entry(&self, name: &str, path: &Path) -> Result<Entry, Failure> {
-        let mut config = experiment::Experiment::load(path).map_err(Failure::input)?;
+        let mut config = study::load(path).map_err(Failure::input)?;
         if let Some(trials) = self.trials {
-            config = config.with_trials(trials).map_err(Failure::input)?;
+            config.header.set_trials(trials);
         }
         Ok(Entry {
             name: name.to_owned(),
-            study: Loaded::new(&config).map_err(Failure::study)?,
+            study: Loaded::new(config).map_err(Failure::study)?,
             directory: Directory::new(self.results.join(name)),
         })
     }

@@ -2,7 +2,7 @@
 
 use super::{Outcome, print};
 use clap::Args;
-use liftsim::experiment::reference;
+use liftsim::study::reference;
 use std::process::ExitCode;
 
 /// Print the reference of every table and key of a config.

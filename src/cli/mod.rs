@@ -27,12 +27,12 @@ mod threshold;
 use anyhow::Context;
 use clap::error::{ContextKind, ContextValue};
 use clap::{Args, Parser, Subcommand};
-use liftsim::experiment::{Config, ConfigError, Experiment, MOST_PILOT_TRIALS};
+use liftsim::experiment::{ConfigError, Experiment, MOST_PILOT_TRIALS, SWEEP, SweepConfig};
 use liftsim::format::shorten;
 use liftsim::plan::Plan;
 use liftsim::run::StudyError;
 use liftsim::stats::tally::MOST_TRIALS;
-use liftsim::study::Loaded;
+use liftsim::study::{self, Loaded};
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -184,10 +184,9 @@ impl Simulation {
     /// Reads the config of a sweep, puts the command line in its place, and plans it.
     fn prepare(
         &self,
-        plan: impl Fn(&Config) -> Result<Plan, ConfigError>,
-    ) -> Result<(Config, Plan), Failure> {
-        let mut config = Config::load(&self.config).map_err(Failure::input)?;
-        self.lay_over(&mut config);
+        plan: impl Fn(&SweepConfig) -> Result<Plan, ConfigError>,
+    ) -> Result<(SweepConfig, Plan), Failure> {
+        let config = SweepConfig::new(self.config()?).map_err(Failure::input)?;
         let plan = plan(&config).map_err(Failure::input)?;
         self.start_threads()?;
         Ok((config, plan))
@@ -195,23 +194,22 @@ impl Simulation {
 
     /// The same for any config.
     fn study(&self) -> Result<Loaded, Failure> {
-        let mut config = Experiment::load(&self.config).map_err(Failure::input)?;
-        if let Some(trials) = self.trials {
-            config = config.with_trials(trials).map_err(Failure::input)?;
-        }
-        match &mut config {
-            Experiment::Sweep(config) => self.lay_over(config),
-            Experiment::Exhibit(config) => config.seed = self.seed.unwrap_or(config.seed),
-        }
-        let study = Loaded::new(&config).map_err(Failure::study)?;
+        let study = Loaded::new(self.config()?).map_err(Failure::study)?;
         self.start_threads()?;
         Ok(study)
     }
 
-    fn lay_over(&self, config: &mut Config) {
-        config.trials = self.trials.unwrap_or(config.trials);
-        config.seed = self.seed.unwrap_or(config.seed);
-        config.pilot = self.pilot.unwrap_or(config.pilot);
+    /// The config with the command line in its place.
+    fn config(&self) -> Result<Experiment, Failure> {
+        let mut config = study::load(&self.config).map_err(Failure::input)?;
+        let header = &mut config.header;
+        header.set_trials(self.trials.unwrap_or(header.trials()));
+        header.seed = self.seed.unwrap_or(header.seed);
+        // A study without pilots is known by the usual number of them.
+        if config.study() == SWEEP {
+            config.header.pilot = self.pilot.unwrap_or(config.header.pilot);
+        }
+        Ok(config)
     }
 
     fn start_threads(&self) -> Result<(), Failure> {

@@ -3,7 +3,7 @@
 use super::Failure;
 use anyhow::anyhow;
 use clap::Args;
-use liftsim::experiment::MonitorOptions;
+use liftsim::detection::MonitorOptions;
 use liftsim::monitor::{MOST_ORDER, STRONGEST, SavedState};
 use liftsim::whiten::Order;
 use serde::Serialize;

@@ -5,12 +5,14 @@
 
 mod at_rest;
 mod columns;
+mod options;
 mod report;
 mod trace;
 mod trip;
 
 pub use at_rest::AtRest;
 pub use columns::columns;
+pub use options::{MonitorOptions, RecordingTable};
 pub use report::{DetectReport, Recorded, Warning};
 pub use trace::{Column, Trace};
 pub use trip::{End, Trip};

@@ -17,6 +17,7 @@ pub struct Header {
     pub seed: u64,
     /// Trials per point.
     #[serde(default, deserialize_with = "trials")]
+    #[schemars(range(min = 1, max = MOST_TRIALS))]
     trials: Option<u64>,
     /// Half of the widest interval; fixes the number of trials before the run.
     #[serde(default)]
@@ -29,6 +30,7 @@ pub struct Header {
     pub common_random_numbers: bool,
     /// Trials of each pilot run.
     #[serde(default = "usual_pilot", deserialize_with = "pilot")]
+    #[schemars(range(min = 1, max = MOST_PILOT_TRIALS))]
     pub pilot: u64,
     /// Whether only the points at rest are run.
     #[serde(default)]
@@ -96,20 +98,28 @@ impl Header {
     ];
 
     /// Trials per point.
-    pub(super) fn trials(&self) -> Result<u64, Conflict> {
-        match (self.trials, self.half_width) {
-            (Some(_), Some(half_width)) => {
-                let rule = "be left out where trials is given";
-                let remedy = " (both fix the number of trials: leave one of them out)";
-                let unfit = Unfit::new("half_width", rule, half_width.get());
-                Err(Unfit { remedy, ..unfit }.into())
-            }
-            (Some(trials), None) => Ok(trials),
-            (None, Some(half_width)) => Ok(trials_for_half_width(
-                half_width.get(),
-                self.confidence.get(),
-            )),
-            (None, None) => Ok(DEFAULT_TRIALS),
+    pub fn trials(&self) -> u64 {
+        self.trials.unwrap_or(DEFAULT_TRIALS)
+    }
+
+    /// Takes another number of trials, whatever the file says.
+    pub fn set_trials(&mut self, trials: u64) {
+        self.trials = Some(trials);
+    }
+
+    /// Fixes the number of trials where the width of an interval is given in its place.
+    pub(super) fn settle(&mut self) -> Result<(), Conflict> {
+        let Some(half_width) = self.half_width.map(HalfWidth::get) else {
+            return Ok(());
+        };
+        if self.trials.is_some() {
+            let rule = "be left out where trials is given";
+            let remedy = " (both fix the number of trials: leave one of them out)";
+            let unfit = Unfit::new("half_width", rule, half_width);
+            return Err(Unfit { remedy, ..unfit }.into());
         }
+        let trials = trials_for_half_width(half_width, self.confidence.get());
+        self.set_trials(trials);
+        Ok(())
     }
 }

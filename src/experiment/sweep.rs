@@ -1,50 +1,30 @@
 //! A sweep: an axis, curves, and the scenario of each value on each curve: file ⊕ curve ⊕ axis.
 
-use super::{CHOICES, Experiment, File, SECTIONS, curve_tables, scenario};
-use crate::claim::{self, Narrative, Scope};
-use crate::config::{Axis, AxisValue, ConfigError, Conflict, Node, Source, Unfit};
+use super::{ConfigError, Experiment, Header, Keys, Overlay, SECTIONS};
+use crate::claim::{self, Curve, Narrative, Scope};
+use crate::config::{Axis, AxisValue, Conflict, Unfit};
 use crate::scenario::{PARAMETERS, Parameter, Scenario, parameter};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use serde::de::IgnoredAny;
+use std::error::Error;
 use std::path::Path;
 
-/// An experiment: what it asks, how often, along which axis, for which curves.
+/// The table that makes a config a sweep.
+pub const SWEEP: &str = "axis";
+
+/// Keys of the sections of which one replaces the others.
+const CHOICES: &[&[&str]] = &[&["sensor.model", "sensor.ar", "sensor.transfer"]];
+
+/// A sweep as its author wrote it.
 #[derive(Clone, Debug)]
-pub struct Config {
-    /// What the experiment is for.
-    pub question: String,
-    /// Where every draw starts from.
-    pub seed: u64,
-    /// Trials per point.
-    pub trials: u64,
-    /// Of the intervals.
-    pub confidence: f64,
-    /// Whether one noise realisation serves every point that can share it.
-    pub common_random_numbers: bool,
-    /// Trials of each pilot run.
-    pub pilot: u64,
-    /// Whether only the points at rest are run.
-    pub at_rest: bool,
-    /// What the x axis sweeps.
-    pub axis: Axis,
-    /// At least one.
-    pub curves: Vec<Curve>,
+pub struct SweepConfig {
+    /// Its curves, one at least, and what the axis sweeps: what its claims may refer to.
+    pub scope: Scope,
     /// What the report says of it, and the claims it tests.
     pub narrative: Narrative,
-    source: Source,
-}
-
-/// One curve: a label and what it changes.
-#[derive(Clone, Debug)]
-pub struct Curve {
-    /// What tells it from the others.
-    pub label: String,
-    /// The panel it is drawn in.
-    pub panel: Option<String>,
-    /// Its name in the legend, where curves of several panels share it.
-    pub series: Option<String>,
-    /// The file's sections with its own laid over them.
-    sections: Node,
+    experiment: Experiment,
+    overlay: Overlay,
 }
 
 /// The keys of `[[curve]]` beside the sections.
@@ -52,66 +32,86 @@ pub struct Curve {
 #[serde(default, deny_unknown_fields)]
 pub struct CurveHeader {
     /// What tells it from the others; by default its number.
-    label: Option<String>,
+    #[serde(rename = "label")]
+    #[schemars(with = "Option<String>")]
+    _label: Option<IgnoredAny>,
     /// The panel it is drawn in.
     panel: Option<String>,
     /// Its name in the legend, where curves of several panels share it.
     series: Option<String>,
 }
 
-/// More curves than this are a mistake.
-const MOST_CURVES: usize = 1000;
+/// A config that is no sweep.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "[{0}] says what to draw, but nothing is swept here (give a config with [axis], \
+     or draw this one with `liftsim sweep`)"
+)]
+struct NoSweep(&'static str);
 
-impl Config {
-    /// Reads and checks a file.
+impl SweepConfig {
+    /// Reads the text of a sweep; `name` is what messages call it.
     ///
     /// # Errors
-    /// Where it cannot be read, is no TOML, has an unknown key, lacks a required one, or holds a
-    /// value of the wrong kind or range; where it sweeps nothing.
-    pub fn load(path: &Path) -> Result<Self, ConfigError> {
-        Experiment::load(path)?.sweep()
-    }
-
-    /// Checks a file's text; `name` is what messages call it.
-    ///
-    /// # Errors
-    /// As [`Config::load`].
+    /// As [`Experiment::load`] and [`SweepConfig::new`].
     pub fn parse(name: &str, text: &str) -> Result<Self, ConfigError> {
-        Experiment::parse(name, text)?.sweep()
+        Self::new(Experiment::parse(name, text, &[SWEEP])?)
     }
 
-    pub(super) fn new(file: File) -> Result<Self, ConfigError> {
-        let (source, root) = (&file.source, &file.root);
-        let refused = |conflict| source.conflict(root, conflict, &root.span);
-        let swept = PARAMETERS.iter().filter(|p| p.is_swept()).map(|p| p.name);
-        let axis = root.get("axis").expect("it is asked for");
-        let axis = Axis::read(axis, swept).map_err(refused)?;
-        check_order(&axis).map_err(refused)?;
-        let curves = curves(&file, &axis)?;
-        let narrative = file.narrative(&scope(&axis, &curves))?;
+    /// Reads the file of a sweep.
+    ///
+    /// # Errors
+    /// As [`Experiment::load`] and [`SweepConfig::new`].
+    pub fn load(path: &Path) -> Result<Self, ConfigError> {
+        Self::new(Experiment::load(path, &[SWEEP])?)
+    }
+
+    /// The sweep of an experiment.
+    ///
+    /// # Errors
+    /// Where it is none, or a curve or a claim is not what it must be.
+    pub fn new(experiment: Experiment) -> Result<Self, ConfigError> {
+        if experiment.study != SWEEP {
+            return Err(experiment.refuse(NoSweep(experiment.study)));
+        }
+        let swept: Vec<_> = (PARAMETERS.iter().filter(|parameter| parameter.is_swept()))
+            .map(|parameter| (parameter.name, parameter.paths.to_vec()))
+            .collect();
+        let keys = Keys {
+            prefix: "",
+            swept: &swept,
+            is_parameter: &|key| SECTIONS.contains(&key),
+            choices: CHOICES,
+            name: |label| label.trim().to_owned(),
+        };
+        let overlay =
+            Overlay::read(&experiment.root, &keys).map_err(|error| experiment.conflict(error))?;
+        check_order(&overlay.axis).map_err(|error| experiment.conflict(error))?;
+        let scope = Scope {
+            curves: curves(&experiment, &overlay)?,
+            axis: described(&overlay.axis),
+        };
         Ok(Self {
-            question: file.header.question.clone(),
-            seed: file.header.seed,
-            trials: file.trials,
-            confidence: file.header.confidence.get(),
-            common_random_numbers: file.header.common_random_numbers,
-            at_rest: file.header.at_rest,
-            pilot: file.header.pilot,
-            axis,
-            curves,
-            narrative,
-            source: file.source,
+            narrative: experiment.narrative(&scope)?,
+            scope,
+            experiment,
+            overlay,
         })
     }
 
-    /// What the axis sweeps.
-    pub fn parameter(&self) -> &'static Parameter {
-        parameter(&self.axis.name).expect("the axis has been checked")
+    /// What it says of itself.
+    pub fn header(&self) -> &Header {
+        &self.experiment.header
     }
 
-    /// What its claims may refer to.
-    pub fn scope(&self) -> Scope {
-        scope(&self.axis, &self.curves)
+    /// What the x axis sweeps.
+    pub fn axis(&self) -> &Axis {
+        &self.overlay.axis
+    }
+
+    /// The parameter that the axis sweeps.
+    pub fn parameter(&self) -> &'static Parameter {
+        swept(self.axis())
     }
 
     /// The scenario of `curve` (from 0) at one value of the axis.
@@ -119,21 +119,8 @@ impl Config {
     /// # Errors
     /// Where a parameter is out of range or does not fit another.
     pub fn scenario(&self, curve: usize, value: &AxisValue) -> Result<Scenario, ConfigError> {
-        scenario(
-            &self.source,
-            &self.laid(curve, value),
-            self.pilot,
-            &self.axis.span,
-        )
-    }
-
-    /// The sections of a curve with a value of the axis laid over them.
-    fn laid(&self, curve: usize, value: &AxisValue) -> Node {
-        let mut laid = self.curves[curve].sections.clone();
-        for path in self.parameter().paths {
-            laid.set(path, value.0.clone());
-        }
-        laid
+        let laid = self.overlay.at(curve, value);
+        self.experiment.laid_scenario(&laid, &self.axis().span)
     }
 
     /// A problem of one point that only shows when its region is designed or its record laid out.
@@ -142,45 +129,32 @@ impl Config {
         curve: usize,
         value: &AxisValue,
         keys: &[&str],
-        error: impl Into<Box<dyn std::error::Error + Send + Sync>>,
+        error: impl Into<Box<dyn Error + Send + Sync>>,
     ) -> ConfigError {
         let conflict = Conflict::of(keys.iter().copied(), error);
-        (self.source).conflict(&self.laid(curve, value), conflict, &self.axis.span)
-    }
-
-    /// The file's text.
-    pub fn text(&self) -> &str {
-        self.source.text()
-    }
-
-    /// What messages call the file.
-    pub fn name(&self) -> &str {
-        self.source.name()
+        let laid = self.overlay.at(curve, value);
+        (self.experiment.source).conflict(&laid, conflict, &self.axis().span)
     }
 }
 
-fn scope(axis: &Axis, curves: &[Curve]) -> Scope {
-    let parameter = parameter(&axis.name).expect("the axis has been checked");
-    let curve = |curve: &Curve| claim::Curve {
-        label: curve.label.clone(),
-        panel: curve.panel.clone(),
-        series: curve.series.clone(),
-    };
-    let values = axis
-        .values
-        .iter()
-        .map(|value| (value.to_string(), value.number()));
-    Scope {
-        curves: curves.iter().map(curve).collect(),
-        axis: claim::Axis {
-            name: parameter.name,
-            symbol: if parameter.symbol.is_empty() {
-                parameter.name
-            } else {
-                parameter.symbol
-            },
-            values: values.collect(),
+fn swept(axis: &Axis) -> &'static Parameter {
+    parameter(&axis.name).expect("the axis has been checked")
+}
+
+/// The axis as claims refer to it.
+fn described(axis: &Axis) -> claim::Axis {
+    let parameter = swept(axis);
+    let values = axis.values.iter();
+    claim::Axis {
+        name: parameter.name,
+        symbol: if parameter.symbol.is_empty() {
+            parameter.name
+        } else {
+            parameter.symbol
         },
+        values: values
+            .map(|value| (value.to_string(), value.number()))
+            .collect(),
     }
 }
 
@@ -198,70 +172,34 @@ fn check_order(axis: &Axis) -> Result<(), Conflict> {
     }
 }
 
-fn curves(file: &File, axis: &Axis) -> Result<Vec<Curve>, ConfigError> {
-    let (source, root) = (&file.source, &file.root);
-    let base = file.sections();
-    check_free(source, &base, axis)?;
-    let tables = curve_tables(root, "curve")
-        .map_err(|conflict| source.conflict(root, conflict, &root.span))?;
-    if tables.len() > MOST_CURVES {
-        let rule = format!("be at most {MOST_CURVES} curves");
-        let span = root.get("curve").map(|list| list.span.clone());
-        return Err(source.at(span, Unfit::new("curve", rule, tables.len())));
-    }
+/// The curves, whose panels and series must fit each other.
+fn curves(experiment: &Experiment, overlay: &Overlay) -> Result<Vec<Curve>, ConfigError> {
     let mut curves: Vec<Curve> = Vec::new();
-    for (index, table) in tables.iter().enumerate() {
+    for (index, laid) in overlay.curves.iter().enumerate() {
         let prefix = format!("curve[{index}]");
-        let header = table.only(|key| !SECTIONS.contains(&key));
-        let header: CurveHeader = source.read(&header, &prefix)?;
-        let own = table.only(|key| SECTIONS.contains(&key));
-        check_free(source, &own, axis)?;
-        let label = header.label.unwrap_or((index + 1).to_string());
-        let refuse = |path: &str, rule: &str, got: &str| {
-            let path = format!("{prefix}.{path}");
-            let span = table.get("label").map(|label| label.span.clone());
-            Err(source.at(span, Unfit::new(path, rule, got)))
+        let CurveHeader { panel, series, .. } = experiment.source.read(&laid.header, &prefix)?;
+        let refuse = |key: &str, rule: &str, got: &str| {
+            let label = laid.header.get("label").map(|label| label.span.clone());
+            let unfit = Unfit::new(format!("{prefix}.{key}"), rule, got);
+            Err(experiment.source.at(label, unfit))
         };
-        if label.trim().is_empty() || curves.iter().any(|other| other.label == label) {
-            return refuse(
-                "label",
-                "be there and differ from every other",
-                &format!("\"{label}\""),
-            );
+        if let Some(first) = curves.first()
+            && first.panel.is_some() != panel.is_some()
+        {
+            let got = panel.as_deref().unwrap_or("none");
+            return refuse("panel", "be named by every curve or by none", got);
         }
-        let curve = Curve {
-            label,
-            panel: header.panel,
-            series: header.series,
-            sections: own.over(&base, CHOICES),
-        };
-        let first = curves.first().unwrap_or(&curve);
-        if curve.panel.is_some() != first.panel.is_some() {
-            return refuse(
-                "panel",
-                "be named by every curve or by none",
-                curve.panel.as_deref().unwrap_or("none"),
-            );
-        }
-        let is_same = |other: &Curve| other.panel == curve.panel && other.series == curve.series;
-        if let Some(series) = curve
-            .series
-            .as_deref()
-            .filter(|_| curves.iter().any(is_same))
+        let is_same = |other: &Curve| other.panel == panel && other.series == series;
+        if let Some(series) = &series
+            && curves.iter().any(is_same)
         {
             return refuse("series", "differ from the others of its panel", series);
         }
-        curves.push(curve);
+        curves.push(Curve {
+            label: laid.label.clone(),
+            panel,
+            series,
+        });
     }
     Ok(curves)
-}
-
-/// What is swept must not be set as well.
-fn check_free(source: &Source, sections: &Node, axis: &Axis) -> Result<(), ConfigError> {
-    let parameter = parameter(&axis.name).expect("the axis has been checked");
-    let set = parameter.paths.iter().find_map(|path| sections.get(path));
-    match set {
-        Some(node) => Err(source.at(Some(node.span.clone()), axis.swept_and_set())),
-        None => Ok(()),
-    }
 }

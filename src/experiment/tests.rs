@@ -1,6 +1,6 @@
 //! How the parts of a config are laid over each other.
 
-use super::Config;
+use super::SweepConfig;
 use crate::claim::Test;
 use crate::detect::{Alternative, Method, Rule, Samples, Ties};
 use crate::scenario::PARAMETERS;
@@ -10,8 +10,8 @@ use crate::signal::{
 };
 use crate::whiten::{Fit, Whitening};
 
-fn config(rest: &str) -> Config {
-    Config::parse("test", &format!("question = \"?\"\nseed = 1\n{rest}"))
+fn config(rest: &str) -> SweepConfig {
+    SweepConfig::parse("test", &format!("question = \"?\"\nseed = 1\n{rest}"))
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -22,9 +22,14 @@ fn curves_lie_over_the_file_and_the_axis_over_both() {
         "[impulses]\nnu = 0.2\nduring = \"inertial\"\n[whitening]\nfit = \"burg\"\n[axis]\ntheta = [7.0]\n\
          [[curve]]\n[[curve]]\nlabel = \"b\"\nimpulses = { nu = 0.4 }\n",
     );
-    let labels: Vec<&str> = config.curves.iter().map(|c| c.label.as_str()).collect();
+    let labels: Vec<&str> = config
+        .scope
+        .curves
+        .iter()
+        .map(|c| c.label.as_str())
+        .collect();
     assert_eq!(labels, ["1", "b"]);
-    let value = &config.axis.values[0];
+    let value = &config.axis().values[0];
     let (first, second) = (
         config.scenario(0, value).unwrap(),
         config.scenario(1, value).unwrap(),
@@ -37,7 +42,7 @@ fn curves_lie_over_the_file_and_the_axis_over_both() {
 
 #[test]
 fn an_empty_list_of_curves_is_one_plain_curve() {
-    let curves = config("curve = []\n[axis]\ndelta = [1.0]\n").curves;
+    let curves = config("curve = []\n[axis]\ndelta = [1.0]\n").scope.curves;
     assert_eq!((curves.len(), curves[0].label.as_str()), (1, "1"));
 }
 
@@ -49,7 +54,7 @@ fn a_curve_replaces_the_sensor() {
     );
     let sensor = |curve| {
         config
-            .scenario(curve, &config.axis.values[0])
+            .scenario(curve, &config.axis().values[0])
             .unwrap()
             .sensor
     };
@@ -61,7 +66,7 @@ fn a_curve_replaces_the_sensor() {
 #[test]
 fn duration_follows_the_samples() {
     let config = config("[samples]\ngap = 3\n[axis]\nshift = [5, 9]\n");
-    let durations: Vec<usize> = (config.axis.values.iter())
+    let durations: Vec<usize> = (config.axis().values.iter())
         .map(|value| config.scenario(0, value).unwrap().motion.duration)
         .collect();
     assert_eq!(durations, [8, 12]);
@@ -71,7 +76,10 @@ fn duration_follows_the_samples() {
 fn all_samples_moves_three_sizes() {
     let config = config("[axis]\nall_samples = [20]\n");
     assert_eq!(config.parameter().name, "all_samples");
-    let samples = config.scenario(0, &config.axis.values[0]).unwrap().samples;
+    let samples = config
+        .scenario(0, &config.axis().values[0])
+        .unwrap()
+        .samples;
     assert_eq!(samples.to_string(), "20/20/20");
 }
 
@@ -104,7 +112,7 @@ fn every_parameter_does_what_its_key_does() {
         };
         let section_says = config(&format!("[{section}]\n{keys}\n{idle}\n"));
         let axis_says = config(&format!("[axis]\n{name} = [{value}]\n"));
-        let scenario = |config: &Config| config.scenario(0, &config.axis.values[0]).unwrap();
+        let scenario = |config: &SweepConfig| config.scenario(0, &config.axis().values[0]).unwrap();
         assert_eq!(scenario(&section_says), scenario(&axis_says), "{name}");
         assert_eq!(axis_says.parameter().name, name);
         let default = config("[axis]\nnu = [0.1]\n");
@@ -114,7 +122,9 @@ fn every_parameter_does_what_its_key_does() {
 
 #[test]
 fn half_width_fixes_the_trials() {
-    let trials = config("half_width = 0.01\n[axis]\ndelta = [0.0]\n").trials;
+    let trials = config("half_width = 0.01\n[axis]\ndelta = [0.0]\n")
+        .header()
+        .trials();
     assert!((9_600..9_800).contains(&trials), "{trials}");
 }
 
@@ -158,7 +168,7 @@ fn every_key_reaches_the_scenario() {
         },
     };
     assert_eq!(
-        config.scenario(0, &config.axis.values[0]).unwrap(),
+        config.scenario(0, &config.axis().values[0]).unwrap(),
         expected
     );
 }
@@ -170,7 +180,7 @@ fn words_mean_themselves() {
         let config = config(&format!(
             "[{section}]\n{key} = {value}\n[axis]\nnu = [0.1]\n"
         ));
-        config.scenario(0, &config.axis.values[0]).unwrap()
+        config.scenario(0, &config.axis().values[0]).unwrap()
     };
     for (word, law) in [
         ("normal", Law::Normal),
@@ -223,7 +233,7 @@ fn words_mean_themselves() {
 #[test]
 fn duration_follows_the_offset() {
     let config = config("[axis]\noffset = [0, 3, 11, 12]\n");
-    let scenario = |index: usize| config.scenario(0, &config.axis.values[index]);
+    let scenario = |index: usize| config.scenario(0, &config.axis().values[index]);
     for (index, expected) in [(0, 12), (1, 9), (2, 1)] {
         assert_eq!(scenario(index).unwrap().motion.duration, expected);
     }

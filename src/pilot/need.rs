@@ -178,7 +178,7 @@ fn allowed(detector: &Detector, pilot: u64) -> Option<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::Config;
+    use crate::experiment::SweepConfig;
 
     /// Against the definition by sums of exact masses: the largest count that a rate of α would reach or
     /// undercut with probability 0.001 at most; none where no count would do.
@@ -188,8 +188,11 @@ mod tests {
             let text = format!(
                 "question = \"?\"\nseed = 1\n[detector]\ncalibrate = {calibrate}\n[axis]\ndelta = [1.0]\n"
             );
-            let config = Config::parse("test", &text).unwrap();
-            config.scenario(0, &config.axis.values[0]).unwrap().detector
+            let config = SweepConfig::parse("test", &text).unwrap();
+            config
+                .scenario(0, &config.axis().values[0])
+                .unwrap()
+                .detector
         };
         let promise = detector("true");
         for pilot in [700u64, 1000, 5000, 20_000] {

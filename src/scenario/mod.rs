@@ -16,10 +16,10 @@ use crate::signal::{
     DeltaAt, Digitiser, Disturbance, Impulses, Motion, Noise, Profile, Quantum, Sensor,
     SensorChoice,
 };
-use crate::values::{Level, Positive};
+use crate::values::{Level, Positive, number};
 use crate::whiten::Whitening;
 use schemars::JsonSchema;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 /// The sections that a file has and a curve may change.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
@@ -86,7 +86,7 @@ pub struct Scenario {
 #[serde(default, deny_unknown_fields)]
 pub struct Detector {
     /// Nominal probability of a false alarm.
-    #[serde(deserialize_with = "level")]
+    #[serde(deserialize_with = "number::<Level, _>")]
     #[schemars(with = "Level")]
     pub alpha: f64,
     /// What decides. `wilcoxon`: W alone; `product`: the product of both p-values; `disjunction`: either statistic;
@@ -126,10 +126,6 @@ impl Default for Detector {
             pilot: 0,
         }
     }
-}
-
-fn level<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    Level::deserialize(deserializer).map(Level::get)
 }
 
 impl Sections {

@@ -1,135 +1,24 @@
 //! A config as a study that can be run, whatever its kind.
 
-use super::{Study, Table, build};
-use crate::claim::{Evidence, Narrative, Outcome, Scope};
+use super::any::{AnyStudy, DrawError, Output};
+use super::kind::Context;
+use super::registry::{STUDIES, parse};
+use crate::claim::{Evidence, Narrative};
 use crate::counts::Counts;
 use crate::experiment::Experiment as Config;
-use crate::figure::{Drawing, FigureError, render};
+use crate::figure::Drawing;
 use crate::report::Section;
 use crate::results::{
-    Comparison, Directory, Manifest, Origin, Quantity, RESULTS, ResultsError, csv_bytes, file_name,
+    Comparison, Directory, Manifest, Origin, Quantity, RESULTS, ResultsError, file_name,
 };
 use crate::run::{Experiment, Identity, StudyError, Trials};
-use crate::schedule::DEFAULT_PILOT_TRIALS;
-
-/// A study whose kind is not known, its rows in bytes.
-pub(super) trait AnyStudy: Send + Sync {
-    fn name(&self) -> &'static str;
-    fn identities(&self) -> Vec<Identity>;
-    fn trials(&self) -> Option<Box<dyn Trials + '_>>;
-    fn points(&self) -> String;
-    fn output(&self, counts: &Counts) -> Result<Output, StudyError>;
-    fn recall(
-        &self,
-        points: &[u8],
-        comparisons: &[Comparison],
-    ) -> Result<Option<Counts>, csv::Error>;
-    fn draw(&self, points: &[u8], manifest: &Manifest) -> Result<Drawing, DrawError>;
-    fn curves(&self, points: &[u8]) -> Result<(Scope, Vec<Outcome>), csv::Error>;
-}
-
-impl<S: Study> AnyStudy for S {
-    fn name(&self) -> &'static str {
-        S::NAME
-    }
-
-    fn identities(&self) -> Vec<Identity> {
-        Study::identities(self)
-    }
-
-    fn trials(&self) -> Option<Box<dyn Trials + '_>> {
-        Study::trials(self)
-    }
-
-    fn points(&self) -> String {
-        Study::points(self)
-    }
-
-    fn output(&self, counts: &Counts) -> Result<Output, StudyError> {
-        let rows = self.rows(counts);
-        Ok(Output {
-            points: csv_bytes(&rows),
-            comparisons: self.comparisons(&rows, counts),
-            quantities: self.quantities(&rows)?,
-            findings: self.findings(&rows),
-            rows: rows.len(),
-        })
-    }
-
-    fn recall(
-        &self,
-        points: &[u8],
-        comparisons: &[Comparison],
-    ) -> Result<Option<Counts>, csv::Error> {
-        let rows: Vec<S::Row> = read(points)?;
-        Ok(Study::recall(self, &rows, comparisons))
-    }
-
-    fn draw(&self, points: &[u8], manifest: &Manifest) -> Result<Drawing, DrawError> {
-        let rows: Vec<S::Row> = read(points)?;
-        if rows.is_empty() {
-            return Err(FigureError::NoRows(S::NAME).into());
-        }
-        let plot = self.plot(&rows, manifest.origin.seed)?;
-        Ok(render(&plot, &manifest.provenance())?)
-    }
-
-    fn curves(&self, points: &[u8]) -> Result<(Scope, Vec<Outcome>), csv::Error> {
-        let rows: Vec<S::Row> = read(points)?;
-        Ok(Study::curves(self, &rows))
-    }
-}
-
-fn read<R: serde::de::DeserializeOwned>(bytes: &[u8]) -> Result<Vec<R>, csv::Error> {
-    csv::Reader::from_reader(bytes).deserialize().collect()
-}
-
-/// Why rows could not be drawn.
-#[derive(Debug, thiserror::Error)]
-#[allow(missing_docs, reason = "the messages say it")]
-pub enum DrawError {
-    #[error(transparent)]
-    Rows(#[from] csv::Error),
-    #[error(transparent)]
-    Figure(#[from] FigureError),
-}
-
-/// What a study comes to.
-#[derive(Clone, Debug)]
-pub struct Output {
-    /// `points.csv`
-    pub points: Vec<u8>,
-    /// `comparisons.csv`
-    pub comparisons: Vec<Comparison>,
-    /// `quantities.csv`
-    pub quantities: Vec<Quantity>,
-    /// A table for whoever ran it.
-    pub findings: Option<Table>,
-    /// How many rows `points` has.
-    pub rows: usize,
-}
-
-impl Output {
-    /// The files by their names.
-    pub fn files(&self) -> Vec<(&'static str, Vec<u8>)> {
-        let mut files = vec![("points.csv", self.points.clone())];
-        if !self.comparisons.is_empty() {
-            files.push(("comparisons.csv", csv_bytes(&self.comparisons)));
-        }
-        if !self.quantities.is_empty() {
-            files.push(("quantities.csv", csv_bytes(&self.quantities)));
-        }
-        files
-    }
-}
 
 /// A config's study, with the numbers of this run.
 pub struct Loaded {
     study: Box<dyn AnyStudy>,
-    origin: Origin,
-    question: String,
+    config: Config,
     narrative: Narrative,
-    confidence: f64,
+    origin: Origin,
 }
 
 impl Loaded {
@@ -137,29 +26,28 @@ impl Loaded {
     ///
     /// # Errors
     /// Where a parameter of a point is out of range, or no region or record can be made for it.
-    pub fn new(config: &Config) -> Result<Self, StudyError> {
-        let study = build(config)?;
-        let (question, narrative, confidence) = match config {
-            Config::Sweep(c) => (&c.question, &c.narrative, c.confidence),
-            Config::Exhibit(c) => (&c.question, &c.narrative, c.confidence),
-        };
+    pub fn new(config: Config) -> Result<Self, StudyError> {
+        let mut studies = STUDIES.iter();
+        let entry = studies.find(|entry| entry.name == config.study());
+        let entry = entry.expect("a config names a study");
+        let context = Context::of(&config, entry.counts_trials);
+        let study = (entry.read)(&config, context)?;
         Ok(Self {
+            narrative: config.narrative(&study.scope())?,
+            origin: origin(&config, context.trials),
             study,
-            origin: origin(config),
-            question: question.clone(),
-            narrative: narrative.clone(),
-            confidence,
+            config,
         })
     }
 
     /// What the config asks.
     pub fn question(&self) -> &str {
-        &self.question
+        &self.config.header.question
     }
 
     /// Of the intervals.
     pub fn confidence(&self) -> f64 {
-        self.confidence
+        self.config.header.confidence.get()
     }
 
     /// How many points there are, in words.
@@ -226,16 +114,15 @@ impl Loaded {
         comparisons: Vec<Comparison>,
         quantities: Vec<Quantity>,
     ) -> Result<Section, csv::Error> {
-        let (scope, outcomes) = self.study.curves(points)?;
         Ok(Section {
             name,
             config: self.origin.config_name.clone(),
-            question: self.question.clone(),
+            question: self.question().to_owned(),
             narrative: self.narrative.clone(),
             trials: self.origin.trials,
             evidence: Evidence {
-                scope,
-                outcomes,
+                scope: self.study.scope(),
+                outcomes: self.study.outcomes(points)?,
                 comparisons,
                 quantities,
             },
@@ -280,33 +167,24 @@ impl Loaded {
     /// # Errors
     /// Where this version cannot read its config.
     pub fn again(origin: &Origin) -> Result<Self, StudyError> {
-        let config = Config::parse(&origin.config_name, &origin.config)?;
-        let mut config = config.with_trials(origin.trials)?;
-        match &mut config {
-            Config::Sweep(config) => (config.seed, config.pilot) = (origin.seed, origin.pilot),
-            Config::Exhibit(config) => config.seed = origin.seed,
-        }
-        Self::new(&config)
+        let mut config = parse(&origin.config_name, &origin.config)?;
+        config.header.set_trials(origin.trials);
+        config.header.seed = origin.seed;
+        config.header.pilot = origin.pilot;
+        Self::new(config)
     }
 }
 
 /// What a config's results are known by.
-pub fn origin(config: &Config) -> Origin {
-    let (name, text, seed, trials) = match config {
-        Config::Sweep(c) => (c.name(), c.text(), c.seed, c.trials),
-        Config::Exhibit(c) => (c.name(), c.text(), c.seed, c.trials),
-    };
-    let (pilot, common_random_numbers) = match config {
-        Config::Sweep(config) => (config.pilot, config.common_random_numbers),
-        Config::Exhibit(_) => (DEFAULT_PILOT_TRIALS, true),
-    };
+fn origin(config: &Config, trials: u64) -> Origin {
+    let header = &config.header;
     Origin {
-        config_name: file_name(name),
-        config: text.to_owned(),
-        seed,
+        config_name: file_name(config.name()),
+        config: config.text().to_owned(),
+        seed: header.seed,
         trials,
-        pilot,
-        common_random_numbers,
+        pilot: header.pilot,
+        common_random_numbers: header.common_random_numbers,
         version: env!("CARGO_PKG_VERSION").to_owned(),
         results: RESULTS,
     }

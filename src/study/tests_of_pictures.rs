@@ -2,10 +2,8 @@
 
 use super::sweep::picture::{Sweep, SweepCurve};
 use super::*;
-use crate::detect::NullLaws;
-use crate::experiment::{ExhibitConfig, ExhibitKind, Experiment};
 use crate::figure::render;
-use crate::plot::{Limit, Mark, Panel, Place, Point};
+use crate::plot::{Limit, Mark, Panel, Place, Plot, Point};
 use crate::results::Row;
 use crate::scenario::{Parameter, parameter};
 use serde::de::DeserializeOwned;
@@ -21,11 +19,14 @@ fn rows<R: DeserializeOwned>(study: &str) -> Vec<R> {
     rows.collect::<Result<_, _>>().unwrap()
 }
 
-fn config(study: &str) -> ExhibitConfig {
-    match Experiment::load(&path(&format!("configs/{study}.toml"))).unwrap() {
-        Experiment::Exhibit(config) => *config,
-        Experiment::Sweep(_) => panic!("{study} is a sweep"),
-    }
+/// What a study draws of its committed rows.
+fn drawn<S: Study>(name: &str) -> (Vec<S::Row>, Plot) {
+    let experiment = load(&path(&format!("configs/{name}.toml"))).unwrap();
+    let context = Context::of(&experiment, S::COUNTS_TRIALS);
+    let study = S::read(&experiment, context).unwrap();
+    let rows: Vec<S::Row> = rows(name);
+    let plot = checked(study.plot(&rows, 7).unwrap());
+    (rows, plot)
 }
 
 /// A sweep of curves in these panels, without more to say.
@@ -193,19 +194,7 @@ fn panels_share_a_legend_and_their_axes() {
 
 #[test]
 fn an_autocorrelation_shows_theory_and_simulation() {
-    let (rows, config) = (
-        rows::<crate::study::autocorrelation::Row>("fig1"),
-        config("fig1"),
-    );
-    let records = autocorrelation::picture::Records {
-        sensor: &config.scenario.sensor,
-        noise: &config.scenario.noise,
-        trials: 1000,
-        length: 64,
-        confidence: 0.95,
-        seed: 7,
-    };
-    let plot = checked(autocorrelation::picture::plot(&rows, &records));
+    let (rows, plot) = drawn::<autocorrelation::Autocorrelation>("fig1");
     assert_eq!(labels(&plot.panels[0]), ["", "ρ_k, autocorrelation"]);
     assert_eq!(
         labels(&plot.panels[1]),
@@ -219,13 +208,13 @@ fn an_autocorrelation_shows_theory_and_simulation() {
 
 #[test]
 fn traces_name_what_lies_in_them() {
-    let (rows, config) = (rows::<crate::study::trace::Row>("fig3_4"), config("fig3_4"));
-    let ExhibitKind::Trace(trace) = &config.kind else {
-        panic!("fig3_4 is a trace")
-    };
-    let plot = checked(trace::picture::plot(&rows, trace, &config.scenario, 7));
+    let (_, plot) = drawn::<trace::Realisation>("fig3_4");
     assert_eq!(names(&plot), ["record", "acceleration in it"]);
-    assert_eq!(plot.panels.len(), if trace.whitened { 2 } else { 1 });
+    assert_eq!(
+        plot.panels.len(),
+        2,
+        "the record and what whitening makes of it"
+    );
     let named = plot.marks_of(0).find_map(|mark| match mark {
         Mark::Names(names, _) => Some(
             names
@@ -243,8 +232,7 @@ fn traces_name_what_lies_in_them() {
 
 #[test]
 fn a_layout_labels_its_blocks() {
-    let (rows, config) = (rows("fig5"), config("fig5"));
-    let plot = checked(layout::picture::plot(&rows, &config.scenario));
+    let (_, plot) = drawn::<layout::Layout>("fig5");
     let blocks = plot.marks_of(1).filter_map(|mark| match mark {
         Mark::Block(block) => Some((block.lines[0].as_str(), block.ends, block.is_cut)),
         _ => None,
@@ -258,11 +246,7 @@ fn a_layout_labels_its_blocks() {
 
 #[test]
 fn regions_are_drawn_over_their_law() {
-    let (rows, config) = (rows("regions"), config("regions"));
-    let (samples, detector) = (&config.scenario.samples, &config.scenario.detector);
-    let laws = NullLaws::new(detector.alternative, samples).unwrap();
-    let title = region::picture::title(samples, detector.alternative, detector.alpha);
-    let plot = checked(region::picture::plot(&laws, &rows, &title));
+    let (_, plot) = drawn::<region::Regions>("regions");
     assert_eq!(names(&plot)[0], "wilcoxon, exact size 0.009972");
     let Some(Mark::Cells(cells)) = plot.marks_of(0).next() else {
         panic!("cells are drawn first");
@@ -305,44 +289,27 @@ fn laws_of_impulses_have_intervals() {
 
 #[test]
 fn operating_points_stand_at_their_sizes() {
-    let (rows, config) = (rows("field"), config("field"));
-    let plot = checked(operating_point::picture::plot(&rows, &config.scenario, 7));
+    let (rows, plot) = drawn::<operating_point::OperatingPoint>("field");
     assert_eq!(ticks(&plot.panels[0])[0], "8");
     assert!(matches!(
         plot.legend.as_ref().unwrap().place,
         Place::Inside(..)
     ));
-    let first: &crate::study::operating_point::Row = &rows[0];
-    assert_eq!(points(&plot, 0)[0][0].low, first.low.unwrap());
+    assert_eq!(points(&plot, 0)[0][0].low, rows[0].low.unwrap());
 }
 
 #[test]
 fn rides_show_rates_above_delays() {
-    let (rows, config) = (rows("ride_found"), config("ride_found"));
-    let ExhibitKind::Ride(study) = &config.kind else {
-        panic!("ride_found is a study of rides")
-    };
-    let labels: Vec<String> = study
-        .curves
-        .iter()
-        .map(|curve| curve.label.clone())
-        .collect();
-    let rides = ride::picture::Rides {
-        measure: study.measure,
-        axis: &study.axis,
-        labels: &labels,
-        seed: 7,
-    };
-    let plot = checked(ride::picture::plot(&rows, &rides));
-    assert_eq!(names(&plot), labels);
+    let (rows, plot) = drawn::<ride::Rides>("ride_found");
+    let curves = ["10 Hz", "25 Hz", "100 Hz", "200 Hz", "100 Hz, within 2 s"];
+    assert_eq!(names(&plot), curves);
     let y: Vec<&str> = plot
         .panels
         .iter()
         .map(|panel| panel.y.label.as_str())
         .collect();
     assert_eq!(y, ["P(every trip is found)", "start to H_1*, s"]);
-    let first: &crate::study::ride::Row = &rows[0];
-    assert_eq!(points(&plot, 0)[0][0].x, first.x.log10());
+    assert_eq!(points(&plot, 0)[0][0].x, rows[0].x.log10());
 }
 
 #[test]

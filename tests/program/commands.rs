@@ -2,7 +2,8 @@
 
 use super::survival::{Bench, TINY};
 use super::{liftsim, outcome, project};
-use liftsim::experiment::{Config, Experiment};
+use liftsim::experiment::{SWEEP, SweepConfig};
+use liftsim::study;
 use std::fs;
 
 fn run(arguments: &[&str]) -> String {
@@ -182,7 +183,7 @@ fn every_config_runs() {
         run(&[&["sweep", path, "--out", out], &short[..]].concat());
         let rows = fs::read_to_string(directory.path().join("points.csv")).unwrap();
         assert!(rows.lines().count() > 1, "{path}");
-        if let Experiment::Sweep(_) = Experiment::load(path.as_ref()).unwrap() {
+        if study::load(path.as_ref()).unwrap().study() == SWEEP {
             run(&[&["plan", path], &short[..]].concat());
             assert!(rows.contains(",H0,"), "{path}");
         }
@@ -246,7 +247,7 @@ fn the_readme_is_right() {
     let readme = fs::read_to_string(project().join("README.md")).unwrap();
     let (_, config) = readme.split_once("```toml\n").unwrap();
     let (config, _) = config.split_once("```").unwrap();
-    Config::parse("README.md", config).unwrap_or_else(|error| panic!("{error}"));
+    SweepConfig::parse("README.md", config).unwrap_or_else(|error| panic!("{error}"));
     for link in readme.split("](").skip(1) {
         let (path, _) = link.split_once(')').unwrap();
         let is_there = project().join(path).exists();

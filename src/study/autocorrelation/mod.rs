@@ -19,16 +19,22 @@ mod row;
 
 pub use row::Row;
 
-use super::{Context, Counters, Study, counted};
 use crate::chain::Scenario;
+use crate::config::{Conflict, Unfit};
 use crate::counts::{Counts, Fixed, Shape, Sums};
+use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::{Quantity, eight_digits};
 use crate::rng::Stream;
 use crate::run::{Group, Identity, Simulation, StudyError, Target, Trials};
-use crate::signal::{Sensor, Transfer};
+use crate::signal::{Law, Sensor, Transfer};
 use crate::stats::normal::two_sided_quantile;
+use crate::study::kind::{Context, Counters, Study, counted};
+use crate::study::rules::within;
+use schemars::{JsonSchema, SchemaGenerator};
+use serde::Deserialize;
+use serde_json::Value;
 
 /// (1), with the T₀ of (2).
 const TRANSFER: Transfer = Transfer {
@@ -43,6 +49,25 @@ const PRINTED_NUMERATOR: f64 = 9.404e-6;
 /// A record takes a tenth of a millisecond.
 const BLOCK: u64 = 16;
 
+/// `[autocorrelation]`
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+struct Keys {
+    /// The largest lag.
+    lags: usize,
+    /// Samples in one record.
+    length: usize,
+}
+
+impl Default for Keys {
+    fn default() -> Self {
+        Self {
+            lags: 40,
+            length: 4096,
+        }
+    }
+}
+
 /// Theory and simulation at lags 0 … `lags`, from records of `length` samples each.
 pub(super) struct Autocorrelation {
     context: Context,
@@ -53,20 +78,33 @@ pub(super) struct Autocorrelation {
     counters: Counters,
 }
 
-impl Autocorrelation {
-    pub fn new(context: Context, scenario: Scenario, lags: usize, length: usize) -> Self {
-        let mut study = Self {
-            theory: autocorrelation(scenario.sensor.ar(), lags),
-            context,
-            scenario,
-            lags,
-            length,
-            counters: Counters::default(),
-        };
-        study.counters = Counters::new(&study, context.seed, &study.shape());
-        study
-    }
+const LONGEST: usize = 1_000_000;
+const MOST_LAGS: usize = 10_000;
 
+impl Keys {
+    fn check(&self, scenario: &Scenario, context: Context) -> Result<(), Conflict> {
+        within("autocorrelation.length", self.length, 2..=LONGEST)?;
+        let most = self.length.min(MOST_LAGS) - 1;
+        within("autocorrelation.lags", self.lags, 1..=most)?;
+        if context.trials < 2 {
+            let remedy = " (one record has no deviation)";
+            let unfit = Unfit::new("trials", "be at least 2", context.trials);
+            return Err(Unfit { remedy, ..unfit }.into());
+        }
+        match Law::from(scenario.noise) {
+            Law::Cauchy => {}
+            Law::StudentT(freedom) if freedom <= 4.0 => {}
+            _ => return Ok(()),
+        }
+        // The band is that of a mean of squares, which a heavy tail does not have.
+        let rule = "have a fourth moment, which the band of an autocorrelation needs";
+        let unfit = Unfit::new("noise.law", rule, scenario.noise);
+        let remedy = " (take another law, or a student_t above 4)";
+        Err(Unfit { remedy, ..unfit }.into())
+    }
+}
+
+impl Autocorrelation {
     /// The sum of the deviations at each lag, and then of their squares.
     fn shape(&self) -> Shape {
         Shape {
@@ -78,7 +116,30 @@ impl Autocorrelation {
 
 impl Study for Autocorrelation {
     const NAME: &'static str = "autocorrelation";
+    const USES: &'static [&'static str] = &["sensor", "noise.law"];
+    const COUNTS_TRIALS: bool = true;
     type Row = Row;
+
+    fn read(experiment: &Experiment, context: Context) -> Result<Self, StudyError> {
+        let keys: Keys = experiment.read()?;
+        let scenario = experiment.scenario()?;
+        keys.check(&scenario, context)
+            .map_err(|conflict| experiment.conflict(conflict))?;
+        let mut study = Self {
+            theory: autocorrelation(scenario.sensor.ar(), keys.lags),
+            context,
+            scenario,
+            lags: keys.lags,
+            length: keys.length,
+            counters: Counters::default(),
+        };
+        study.counters = Counters::new(&study, context.seed, &study.shape());
+        Ok(study)
+    }
+
+    fn schema(generator: &mut SchemaGenerator) -> Value {
+        Keys::json_schema(generator).to_value()
+    }
 
     fn identities(&self) -> Vec<Identity> {
         vec![Identity::new([
@@ -316,7 +377,7 @@ fn variance_ratio(ar: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::tests::{config, context, rows};
+    use crate::study::tests::{read, rows};
 
     /// The study of a short config, and its rows.
     fn study(trials: u64, length: usize, lags: usize) -> (Autocorrelation, Vec<Row>) {
@@ -324,9 +385,7 @@ mod tests {
             "question = \"?\"\nseed = 2014\ntrials = {trials}\n\
              [autocorrelation]\nlength = {length}\nlags = {lags}\n"
         );
-        let config = config(&text);
-        let scenario = config.scenario.clone();
-        let study = Autocorrelation::new(context(&config), scenario, lags, length);
+        let study: Autocorrelation = read(&text);
         let rows = rows(&study, trials);
         (study, rows)
     }

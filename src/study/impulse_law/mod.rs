@@ -13,8 +13,9 @@ mod row;
 
 pub use row::Row;
 
-use super::{Context, Counters, Study, counted};
+use crate::config::Conflict;
 use crate::counts::{Counts, Shape, Sums};
+use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::{Comparison, Quantity, eight_digits};
@@ -23,8 +24,44 @@ use crate::run::{Group, Identity, Simulation, StudyError, Target, Trials};
 use crate::schedule::BLOCK;
 use crate::signal::ImpulseMemory;
 use crate::stats::tally::Tally;
+use crate::study::kind::{Context, Counters, Study, counted};
+use crate::study::rules::{distinct, each, within};
 use rand::Rng;
 use rayon::prelude::*;
+use schemars::{JsonSchema, SchemaGenerator};
+use serde::Deserialize;
+use serde_json::Value;
+
+/// `[impulse_law]`
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Keys {
+    /// ν, strictly between 0 and 1.
+    nu: Vec<f64>,
+    /// Samples of one realisation.
+    #[serde(default = "two_hundred")]
+    length: usize,
+}
+
+fn two_hundred() -> usize {
+    200
+}
+
+/// More curves than this cannot be told apart.
+const MOST_CURVES: usize = 36;
+const LONGEST: usize = 10_000;
+
+impl Keys {
+    fn check(&self) -> Result<(), Conflict> {
+        const NU: &str = "impulse_law.nu";
+        let words = ["probability", "probabilities"];
+        distinct(NU, words, MOST_CURVES, &self.nu, f64::to_string)?;
+        each(NU, &self.nu, "lie strictly between 0 and 1", |nu| {
+            *nu > 0.0 && *nu < 1.0
+        })?;
+        within("impulse_law.length", self.length, 1..=LONGEST)
+    }
+}
 
 /// Every ν at samples 1 … `length`.
 pub(super) struct ImpulseLaw {
@@ -54,7 +91,19 @@ impl ImpulseLaw {
 
 impl Study for ImpulseLaw {
     const NAME: &'static str = "impulse_law";
+    const USES: &'static [&'static str] = &[];
+    const COUNTS_TRIALS: bool = true;
     type Row = Row;
+
+    fn read(experiment: &Experiment, context: Context) -> Result<Self, StudyError> {
+        let keys: Keys = experiment.read()?;
+        (keys.check()).map_err(|conflict| experiment.conflict(conflict))?;
+        Ok(Self::new(context, keys.nu, keys.length))
+    }
+
+    fn schema(generator: &mut SchemaGenerator) -> Value {
+        Keys::json_schema(generator).to_value()
+    }
 
     fn identities(&self) -> Vec<Identity> {
         let length = self.length.to_string();

@@ -12,23 +12,86 @@ mod row;
 
 pub use row::{Finding, Row, findings};
 
-use super::{Study, Table};
+use crate::config::{Conflict, Unfit};
 use crate::counts::Counts;
+use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::Quantity;
 use crate::run::{Identity, StudyError};
+use crate::study::kind::{Context, Study, Table};
+use crate::study::rules::distinct;
 use rayon::prelude::*;
+use schemars::{JsonSchema, SchemaGenerator};
+use serde::Deserialize;
+use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// Every cell of every set of sizes: N, M₁ and M₂.
+/// Every cell of every set of sizes.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub(super) struct Independence {
-    pub sizes: Vec<[usize; 3]>,
+    /// N, M₁ and M₂ of each enumeration.
+    sizes: Vec<[usize; 3]>,
+}
+
+/// An enumeration may take so many assignments of ranks; the square of their number is exact in an f64.
+const MOST_ASSIGNMENTS: u128 = 50_000_000;
+/// All enumerations of a config are held in memory.
+const MOST_SIZES: usize = 100;
+
+impl Independence {
+    fn check(&self) -> Result<(), Conflict> {
+        const PATH: &str = "independence.sizes";
+        for (i, sizes) in self.sizes.iter().enumerate() {
+            let unfit = |rule: String| {
+                Err(Unfit::new(format!("{PATH}[{i}]"), rule, format!("{sizes:?}")).into())
+            };
+            if sizes.contains(&0) {
+                return unfit("be at least 1 each".to_owned());
+            }
+            if assignments(*sizes).is_none() {
+                return unfit(format!(
+                    "have at most {MOST_ASSIGNMENTS} assignments of ranks"
+                ));
+            }
+        }
+        let words = ["[N, M1, M2]", "[N, M1, M2]"];
+        distinct(PATH, words, MOST_SIZES, &self.sizes, |sizes| {
+            format!("{sizes:?}")
+        })
+    }
+}
+
+/// (N + M₁ + M₂)!/(N! M₁! M₂!), unless it is very large.
+fn assignments([n, m1, m2]: [usize; 3]) -> Option<u128> {
+    let mut number = 1u128;
+    for (before, more) in [(n, m1), (n.checked_add(m1)?, m2)] {
+        for i in 1..=more {
+            number = number.checked_mul(before.checked_add(i)? as u128)? / i as u128;
+            if number > MOST_ASSIGNMENTS {
+                return None;
+            }
+        }
+    }
+    Some(number)
 }
 
 impl Study for Independence {
     const NAME: &'static str = "independence";
+    const USES: &'static [&'static str] = &[];
+    const COUNTS_TRIALS: bool = false;
     type Row = Row;
+
+    fn read(experiment: &Experiment, _context: Context) -> Result<Self, StudyError> {
+        let study: Self = experiment.read()?;
+        (study.check()).map_err(|conflict| experiment.conflict(conflict))?;
+        Ok(study)
+    }
+
+    fn schema(generator: &mut SchemaGenerator) -> Value {
+        Self::json_schema(generator).to_value()
+    }
 
     fn identities(&self) -> Vec<Identity> {
         let identity = |sizes: &[usize; 3]| Identity::new([("sizes", format!("{sizes:?}"))]);

@@ -9,19 +9,66 @@ mod row;
 
 pub use row::Row;
 
-use super::Study;
 use crate::chain::Scenario;
+use crate::config::{Conflict, Unfit};
 use crate::counts::Counts;
+use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
-use crate::run::Identity;
+use crate::run::{Identity, StudyError};
+use crate::study::kind::{Context, Study};
+use schemars::{JsonSchema, SchemaGenerator};
+use serde::Deserialize;
+use serde_json::Value;
+
+/// `[layout]`
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Keys {}
 
 /// The samples of a scenario.
-pub(super) struct Layout(pub Scenario);
+pub(super) struct Layout(Scenario);
+
+/// More observations than this have no end that can be drawn.
+const LONGEST: usize = 1_000_000;
+
+impl Layout {
+    fn check(&self) -> Result<(), Conflict> {
+        let training = self.0.whitening.training();
+        let length = self.0.samples.span().saturating_add(training);
+        if length <= LONGEST {
+            return Ok(());
+        }
+        let rule = format!("span at most {LONGEST} observations");
+        Err(Unfit::new("layout.samples", rule, length).into())
+    }
+}
 
 impl Study for Layout {
     const NAME: &'static str = "layout";
+    const USES: &'static [&'static str] = &[
+        "motion.profile",
+        "motion.duration",
+        "motion.offset",
+        "whitening",
+        "samples.reference",
+        "samples.shift",
+        "samples.scale",
+        "samples.gap",
+    ];
+    const COUNTS_TRIALS: bool = false;
     type Row = Row;
+
+    fn read(experiment: &Experiment, _context: Context) -> Result<Self, StudyError> {
+        let Keys {} = experiment.read()?;
+        let study = Self(experiment.scenario()?);
+        (study.check()).map_err(|conflict| experiment.conflict(conflict))?;
+        Ok(study)
+    }
+
+    fn schema(generator: &mut SchemaGenerator) -> Value {
+        Keys::json_schema(generator).to_value()
+    }
 
     fn identities(&self) -> Vec<Identity> {
         let Scenario {
@@ -95,11 +142,11 @@ fn rows(scenario: &Scenario) -> Vec<Row> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::tests::config;
+    use crate::study::tests::read;
 
     fn layout(rest: &str) -> Vec<(String, i64, i64)> {
         let text = format!("question = \"?\"\nseed = 1\n[layout]\n{rest}");
-        let rows = rows(&config(&text).scenario).into_iter();
+        let rows = rows(&read::<Layout>(&text).0).into_iter();
         rows.map(|row| (row.name, row.start, row.end)).collect()
     }
 

@@ -16,12 +16,11 @@ mod trials;
 
 pub use row::Row;
 
-use super::{Context, Study, counted};
 use crate::chain::{RecordTooLong, Scenario};
-use crate::config::Unfit;
+use crate::config::{Conflict, Unfit};
 use crate::counts::{Counts, Key, Shape};
 use crate::detect::{Method, NullLaws, Region, RegionError, Samples};
-use crate::experiment::Search;
+use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::{self, Quantity, eight_digits};
@@ -30,7 +29,72 @@ use crate::scenario::ScenarioError;
 use crate::schedule::Schedule;
 use crate::signal::Motion;
 use crate::stats::tally::Tally;
+use crate::study::kind::{Context, Study, counted};
+use crate::study::rules::{distinct, each};
+use schemars::{JsonSchema, SchemaGenerator};
+use serde::Deserialize;
+use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// The powers looked for, and where: `[operating_point]`.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Search {
+    /// N = M₁ = M₂.
+    sizes: Vec<usize>,
+    /// The powers looked for.
+    power: Vec<f64>,
+    /// Where they are looked for, Δ/σ_ξ.
+    delta: DeltaRange,
+}
+
+/// `operating_point.delta`
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct DeltaRange {
+    from: f64,
+    to: f64,
+}
+
+/// Each size has a thousand levels.
+const MOST_SIZES: usize = 100;
+const MOST_POWERS: usize = 100;
+
+impl Search {
+    fn check(&self) -> Result<(), Conflict> {
+        const SIZES: &str = "operating_point.sizes";
+        const POWER: &str = "operating_point.power";
+        let Self {
+            sizes,
+            power,
+            delta,
+        } = self;
+        distinct(
+            SIZES,
+            ["size", "sizes"],
+            MOST_SIZES,
+            sizes,
+            usize::to_string,
+        )?;
+        distinct(
+            POWER,
+            ["power", "powers"],
+            MOST_POWERS,
+            power,
+            f64::to_string,
+        )?;
+        each(SIZES, sizes, "be at least 1", |size| *size > 0)?;
+        each(POWER, power, "lie strictly between 0 and 1", |power| {
+            (f64::EPSILON..1.0).contains(power)
+        })?;
+        if delta.from >= delta.to {
+            let got = format!("{} to {}", delta.from, delta.to);
+            let unfit = Unfit::new("operating_point.delta", "rise from `from` to `to`", got);
+            return Err(unfit.into());
+        }
+        Ok(())
+    }
+}
 
 /// The operating points of a scenario at every size.
 pub(super) struct OperatingPoint {
@@ -57,8 +121,8 @@ struct Sized {
 impl OperatingPoint {
     /// # Errors
     /// Where a size has no region, a motion that does not fit, or a record that does not fit in memory.
-    pub fn new(context: Context, scenario: &Scenario, search: Search) -> Result<Self, StudyError> {
-        let [from, to] = search.delta;
+    fn new(context: Context, scenario: &Scenario, search: Search) -> Result<Self, StudyError> {
+        let DeltaRange { from, to } = search.delta;
         let coarse = grid(from, to);
         let sized = search.sizes.iter();
         let sized = sized.map(|&size| Sized::new(scenario, size, coarse.clone()));
@@ -97,11 +161,39 @@ impl OperatingPoint {
 
 impl Study for OperatingPoint {
     const NAME: &'static str = "operating_point";
+    const USES: &'static [&'static str] = &[
+        "sensor",
+        "noise",
+        "rest",
+        "motion.delta_at",
+        "motion.profile",
+        "motion.offset",
+        "impulses",
+        "whitening",
+        "samples.gap",
+        "samples.decimation",
+        "detector.alpha",
+        "detector.rule",
+        "detector.alternative",
+        "detector.ties",
+    ];
+    const COUNTS_TRIALS: bool = true;
     type Row = Row;
+
+    fn read(experiment: &Experiment, context: Context) -> Result<Self, StudyError> {
+        let search: Search = experiment.read()?;
+        (search.check()).map_err(|conflict| experiment.conflict(conflict))?;
+        let study = Self::new(context, &experiment.scenario()?, search);
+        Ok(study.map_err(|problem| experiment.refuse(problem))?)
+    }
+
+    fn schema(generator: &mut SchemaGenerator) -> Value {
+        Search::json_schema(generator).to_value()
+    }
 
     /// The wanted powers change no count.
     fn identities(&self) -> Vec<Identity> {
-        let [from, to] = self.search.delta;
+        let DeltaRange { from, to } = self.search.delta;
         let sized = self.sized.iter();
         sized
             .map(|sized| {
@@ -133,7 +225,7 @@ impl Study for OperatingPoint {
             let power = row.power.to_string().replace('.', "_");
             Quantity {
                 name: format!("delta_for_{power}_at_{}", row.all_samples),
-                value: row.delta.unwrap_or(self.search.delta[1]),
+                value: row.delta.unwrap_or(self.search.delta.to),
                 low: row.low.unwrap_or(f64::NEG_INFINITY),
                 high: row.high.unwrap_or(f64::INFINITY),
             }
@@ -325,7 +417,7 @@ impl<'a> Grids<'a> {
         let low = match low {
             Some([start, above]) if start == above => None,
             Some([below, _]) => Some(below),
-            None => Some(search.delta[1]),
+            None => Some(search.delta.to),
         };
         let Sized {
             size,
@@ -350,23 +442,19 @@ impl<'a> Grids<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::{Config, ExhibitKind};
+    use crate::experiment::SweepConfig;
     use crate::pilot::Pilots;
     use crate::plan::Plan;
     use crate::run;
-    use crate::study::tests::{config, context, rows};
+    use crate::study::tests::{read, rows};
 
     const SEARCH: &str = "question = \"?\"\nseed = 5\ntrials = 4000\n[impulses]\nnu = 0.2\n\
         [operating_point]\nsizes = [9, 12]\npower = [0.5, 0.9]\ndelta = { from = 0.0, to = 3.2 }\n";
 
     /// The study of a config's search, and its rows.
     fn searched(text: &str) -> (OperatingPoint, Vec<Row>) {
-        let config = config(text);
-        let ExhibitKind::OperatingPoint(search) = config.kind.clone() else {
-            panic!("no search");
-        };
-        let study = OperatingPoint::new(context(&config), &config.scenario, search).unwrap();
-        let rows = rows(&study, config.trials);
+        let study: OperatingPoint = read(text);
+        let rows = rows(&study, study.context.trials);
         (study, rows)
     }
 
@@ -383,7 +471,7 @@ mod tests {
                  reference = {size}\nshift = {size}\nscale = {size}\n\
                  [axis]\ndelta = {{ from = 0.0, to = 3.2, step = 0.003125 }}\n"
             );
-            let plan = Plan::new(&Config::parse("test", &text).unwrap()).unwrap();
+            let plan = Plan::new(&SweepConfig::parse("test", &text).unwrap()).unwrap();
             let decisions = Pilots::new(&plan).unwrap().decide(|_| {}).unwrap();
             let tallies = run::run(&plan, &decisions, &[], |_| {}).tallies;
             let along: Vec<(f64, Tally)> = (plan.points.iter().zip(tallies))

@@ -6,7 +6,7 @@ use crate::counts::{Counts, Sums};
 use crate::detect::{Region, Ties};
 use crate::run::{Group, Simulation, Target, Trials};
 use crate::schedule::{BLOCK, Gather, Schedule};
-use crate::study::Context;
+use crate::study::kind::Context;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 

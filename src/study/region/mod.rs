@@ -7,13 +7,51 @@ mod row;
 
 pub use row::Row;
 
-use super::Study;
 use crate::chain::Scenario;
+use crate::config::{Conflict, Unfit};
 use crate::counts::Counts;
-use crate::detect::{NullLaws, Region, RegionError, Rule};
+use crate::detect::{Method, NullLaws, Region, RegionError, Rule};
+use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
-use crate::run::Identity;
+use crate::run::{Identity, StudyError};
+use crate::scenario::ScenarioError;
+use crate::study::kind::{Context, Study};
+use crate::study::rules::distinct;
+use schemars::{JsonSchema, SchemaGenerator};
+use serde::Deserialize;
+use serde_json::Value;
+
+/// `[region]`
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Keys {
+    /// Rules with an exact region.
+    rules: Vec<Method>,
+}
+
+/// More regions than this cannot be told apart.
+const MOST_RULES: usize = 36;
+
+/// The rules of methods that have exact regions, each once.
+fn with_regions(methods: Vec<Method>) -> Result<Vec<Rule>, Conflict> {
+    let words = ["rule", "rules"];
+    distinct(
+        "region.rules",
+        words,
+        MOST_RULES,
+        &methods,
+        Method::to_string,
+    )?;
+    let rule = |(i, method)| match method {
+        Method::Rule(rule) => Ok(rule),
+        other => {
+            let must = "have an exact region (name wilcoxon, product, disjunction or conjunction)";
+            Err(Unfit::new(format!("region.rules[{i}]"), must, other).into())
+        }
+    };
+    methods.into_iter().enumerate().map(rule).collect()
+}
 
 /// The regions of several rules at the same sizes and level.
 pub(super) struct Regions {
@@ -24,7 +62,7 @@ pub(super) struct Regions {
 impl Regions {
     /// # Errors
     /// Where a rule has no region.
-    pub fn new(scenario: Scenario, rules: Vec<Rule>) -> Result<Self, RegionError> {
+    fn new(scenario: Scenario, rules: Vec<Rule>) -> Result<Self, RegionError> {
         let detector = &scenario.detector;
         let laws = NullLaws::new(detector.alternative, &scenario.samples)?;
         let mut regions = Vec::new();
@@ -38,7 +76,28 @@ impl Regions {
 
 impl Study for Regions {
     const NAME: &'static str = "region";
+    const USES: &'static [&'static str] = &[
+        "samples.reference",
+        "samples.shift",
+        "samples.scale",
+        "detector.alpha",
+        "detector.alternative",
+        "detector.ties",
+        "detector.calibrate",
+    ];
+    const COUNTS_TRIALS: bool = false;
     type Row = Row;
+
+    fn read(experiment: &Experiment, _context: Context) -> Result<Self, StudyError> {
+        let Keys { rules } = experiment.read()?;
+        let rules = with_regions(rules).map_err(|conflict| experiment.conflict(conflict))?;
+        let study = Self::new(experiment.scenario()?, rules);
+        Ok(study.map_err(|error| experiment.refuse(ScenarioError::from(error)))?)
+    }
+
+    fn schema(generator: &mut SchemaGenerator) -> Value {
+        Keys::json_schema(generator).to_value()
+    }
 
     fn identities(&self) -> Vec<Identity> {
         let Scenario {
@@ -87,9 +146,8 @@ pub fn boundary(rule: &Rule, region: &Region) -> Vec<Row> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::ExhibitKind;
     use crate::study::independence;
-    use crate::study::tests::{config, rows};
+    use crate::study::tests::{read, rows};
 
     /// The size of each boundary, summed cell by cell from a full enumeration of ranks.
     #[test]
@@ -97,12 +155,8 @@ mod tests {
         let text = "question = \"?\"\nseed = 1\n[region]\nrules = [\"wilcoxon\", \"product\", \
                     \"disjunction\"]\n[samples]\nreference = 3\nshift = 3\nscale = 3\n\
                     [detector]\nalpha = 0.2\nalternative = \"two-sided\"\n";
-        let config = config(text);
-        let ExhibitKind::Region { rules } = &config.kind else {
-            panic!("{config:?}");
-        };
         let cells = independence::rows(&[[3, 3, 3]]);
-        let study = Regions::new(config.scenario.clone(), rules.clone()).unwrap();
+        let study: Regions = read(text);
         let rows = rows(&study, 1);
         assert_eq!(rows.len(), 12);
         for of_rule in rows.chunk_by(|a, b| a.rule == b.rule) {

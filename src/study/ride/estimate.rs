@@ -1,8 +1,8 @@
 //! From what came of each trial to rates and quantiles with exact intervals.
 
 use super::sums::RideSums;
+use super::table::Measure;
 use crate::counts::Values;
-use crate::experiment::Measure;
 use crate::stats::poisson;
 use crate::stats::quantile::Quantile;
 use crate::stats::tally::Tally;

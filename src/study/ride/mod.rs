@@ -23,86 +23,77 @@
 
 mod account;
 mod estimate;
+mod keys;
 pub(super) mod picture;
+mod point;
+mod problem;
 mod row;
 mod sums;
+mod table;
+#[cfg(test)]
+mod table_tests;
 #[cfg(test)]
 mod tests;
 mod watch;
 
 pub use row::Row;
 
-use super::{Context, Counters, Study, TooMany, counted};
 use crate::counts::{Counts, Sums};
-use crate::experiment::{RidePoint, RideStudy};
+use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::Quantity;
 use crate::run::{Group, Identity, Simulation, StudyError, Target, Trials};
+use crate::study::kind::{Context, Counters, Study, counted};
+use point::RidePoint;
+use schemars::SchemaGenerator;
+use serde_json::Value;
 use std::ops::Range;
 use sums::RideSums;
+use table::RideTable;
 use watch::Watch;
 
 /// A trial takes milliseconds.
 const BLOCK: u64 = 4;
 
-const MOST_POINTS: usize = 10_000;
-
 /// Rides along an axis.
 pub(super) struct Rides {
     context: Context,
-    study: RideStudy,
+    table: RideTable,
     counters: Counters,
 }
 
 impl Rides {
-    /// # Errors
-    /// Where there are more points than anybody would look at.
-    pub fn new(context: Context, study: RideStudy) -> Result<Self, TooMany> {
-        let points = study.curves.iter().map(|curve| curve.points.len()).sum();
-        TooMany::check("points", points, MOST_POINTS, "take fewer curves or values")?;
+    /// Every point with its curve and its value on the axis.
+    fn points(&self) -> impl Iterator<Item = (usize, f64, &RidePoint)> {
+        let curves = self.table.curves.iter().enumerate();
+        curves.flat_map(|(curve, of)| of.points.iter().map(move |(x, point)| (curve, *x, point)))
+    }
+}
+
+impl Study for Rides {
+    const NAME: &'static str = "ride";
+    const USES: &'static [&'static str] = &[];
+    const COUNTS_TRIALS: bool = true;
+    type Row = Row;
+
+    fn read(experiment: &Experiment, context: Context) -> Result<Self, StudyError> {
+        let table = RideTable::read(experiment)?;
         let mut rides = Self {
             context,
-            study,
+            table,
             counters: Counters::default(),
         };
         rides.counters = Counters::new(&rides, context.seed, &RideSums::shape());
         Ok(rides)
     }
 
-    /// Every point with its curve and its value on the axis.
-    fn points(&self) -> impl Iterator<Item = (usize, f64, &RidePoint)> {
-        let curves = self.study.curves.iter().enumerate();
-        curves.flat_map(|(curve, of)| of.points.iter().map(move |(x, point)| (curve, *x, point)))
+    fn schema(generator: &mut SchemaGenerator) -> Value {
+        table::schema(generator)
     }
-}
-
-/// Every parameter of a point.
-fn identity(point: &RidePoint) -> Identity {
-    Identity::new([
-        ("measure", point.measure.name().to_owned()),
-        ("rate", point.rate.to_string()),
-        ("pickup", format!("{:?}", point.pickup)),
-        ("drive", format!("{:?}", point.drive)),
-        ("distance", point.distance.to_string()),
-        ("trips", point.trips.to_string()),
-        ("rest", format!("{:?}", point.rest)),
-        ("length", point.length.to_string()),
-        ("jam_within", point.jam_within.to_string()),
-        ("tolerance", point.tolerance.to_string()),
-        ("settings", format!("{:?}", point.settings)),
-        ("learnt", point.learnt.to_string()),
-        ("begins_at_rest", point.begins_at_rest.to_string()),
-        ("motion_shows", point.motion_shows.to_string()),
-    ])
-}
-
-impl Study for Rides {
-    const NAME: &'static str = "ride";
-    type Row = Row;
 
     fn identities(&self) -> Vec<Identity> {
-        self.points().map(|(.., point)| identity(point)).collect()
+        self.points().map(|(.., point)| point.identity()).collect()
     }
 
     fn trials(&self) -> Option<Box<dyn Trials + '_>> {
@@ -111,14 +102,14 @@ impl Study for Rides {
 
     /// All outcomes of every point, in the order of curves and values.
     fn rows(&self, counts: &Counts) -> Vec<Row> {
-        let Self { context, study, .. } = self;
+        let Self { context, table, .. } = self;
         let mut rows = Vec::new();
         for ((curve, x, point), key) in self.points().zip(&self.counters.keys) {
             let (trials, sums) = counted(counts, key, &RideSums::shape());
             let size = Watch::new(point, context.seed).size();
-            let estimates = estimate::of(study.measure, &sums.into(), trials, context.confidence);
+            let estimates = estimate::of(table.measure, &sums.into(), trials, context.confidence);
             for estimate in estimates {
-                rows.push(Row::new(study, curve, x, point, size, estimate, context));
+                rows.push(Row::new(table, curve, x, point, size, estimate, context));
             }
         }
         rows
@@ -127,7 +118,7 @@ impl Study for Rides {
     /// Every outcome by name: that of the outcome, of its curve and of its place on the axis.
     fn quantities(&self, rows: &[Row]) -> Result<Vec<Quantity>, StudyError> {
         let quantity = |row: &Row| {
-            let curve = self.study.curves[row.curve - 1].name();
+            let curve = self.table.curves[row.curve - 1].name();
             let x = row.x.to_string().replace('.', "_");
             Quantity {
                 name: format!("{}_{curve}_at_{x}", row.outcome),
@@ -140,11 +131,11 @@ impl Study for Rides {
     }
 
     fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        let curves = self.study.curves.iter();
+        let curves = self.table.curves.iter();
         let labels: Vec<String> = curves.map(|curve| curve.label.clone()).collect();
         let rides = picture::Rides {
-            measure: self.study.measure,
-            axis: &self.study.axis,
+            measure: self.table.measure,
+            axis: &self.table.axis,
             labels: &labels,
             seed,
         };

@@ -2,7 +2,7 @@
 //! between false motions against the delay.
 
 use super::row::Row;
-use crate::experiment::Measure;
+use super::table::Measure;
 use crate::figure::rates::{Curve, add_bands};
 use crate::format::thousands;
 use crate::plot::{

@@ -1,9 +1,10 @@
 //! One row of `points.csv`: an outcome at a point.
 
-use super::Context;
 use super::estimate::Estimate;
-use crate::experiment::{RidePoint, RideStudy};
+use super::point::RidePoint;
+use super::table::RideTable;
 use crate::results::eight_digits;
+use crate::study::kind::Context;
 use crate::whiten::Order;
 use serde::{Deserialize, Serialize};
 
@@ -71,7 +72,7 @@ pub struct Row {
 
 impl Row {
     pub(super) fn new(
-        study: &RideStudy,
+        table: &RideTable,
         curve: usize,
         x: f64,
         point: &RidePoint,
@@ -80,11 +81,12 @@ impl Row {
         context: &Context,
     ) -> Self {
         let (pickup, settings) = (&point.pickup, &point.settings);
-        let [shortest_rest, longest_rest] = point.rest;
+        let keys = &point.keys;
+        let [shortest_rest, longest_rest] = keys.rest;
         Self {
             curve: curve + 1,
-            label: study.curves[curve].label.clone(),
-            axis: study.axis.to_owned(),
+            label: table.curves[curve].label.clone(),
+            axis: table.axis.to_owned(),
             x,
             outcome: estimate.outcome,
             count: estimate.count,
@@ -95,8 +97,8 @@ impl Row {
             high: eight_digits(estimate.high),
             trials: context.trials,
             confidence: context.confidence,
-            measure: study.measure.name().to_owned(),
-            rate: point.rate,
+            measure: table.measure.name().to_owned(),
+            rate: keys.rate,
             sigma: eight_digits(pickup.sigma),
             sensor: pickup.sensor.to_string(),
             vibration: pickup.vibration,
@@ -105,16 +107,16 @@ impl Row {
             quantum: pickup.digitiser.quantum(),
             footfalls: pickup.disturbance.footfalls(),
             jolt: pickup.disturbance.jolt(),
-            distance: point.distance,
-            speed: point.drive.speed,
-            acceleration: point.drive.acceleration,
-            jerk: point.drive.jerk,
-            trips: point.trips,
+            distance: keys.distance,
+            speed: keys.speed,
+            acceleration: keys.acceleration,
+            jerk: keys.jerk,
+            trips: keys.trips,
             shortest_rest,
             longest_rest,
-            length: point.length,
-            jam_within: point.jam_within,
-            tolerance: point.tolerance,
+            length: keys.length,
+            jam_within: keys.jam_within,
+            tolerance: keys.tolerance,
             alpha: settings.detector.alpha,
             size: eight_digits(size),
             block: settings.monitor.block,
@@ -130,9 +132,9 @@ impl Row {
             least_speed: settings.monitor.least_speed,
             least_acceleration: settings.monitor.least_acceleration,
             most_acceleration: settings.monitor.most_acceleration,
-            learnt: point.learnt,
+            learnt: keys.learnt,
             begins_at_rest: point.begins_at_rest,
-            motion_shows: point.motion_shows,
+            motion_shows: keys.motion_shows,
         }
     }
 }

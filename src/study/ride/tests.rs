@@ -3,12 +3,12 @@
 use super::account::{Account, Truth};
 use super::estimate::of;
 use super::sums::RideSums;
+use super::table::Measure;
 use super::{Rides, Row};
-use crate::experiment::{ExhibitKind, Measure};
 use crate::monitor::{Alarm, Direction, Event, Kind, State};
 use crate::signal::{Journey, Phase};
-use crate::study::Study;
-use crate::study::tests::{config, context, rows};
+use crate::study::kind::Study;
+use crate::study::tests::{read, rows};
 
 /// One trip up from 10 to 20 s and one down from 30 s that jams at 35 s, in a record of 60 s.
 fn truth() -> Truth {
@@ -177,12 +177,8 @@ fn what_is_never_told_takes_for_ever() {
 
 /// The study of a config, and its rows.
 fn study(text: &str) -> (Rides, Vec<Row>) {
-    let config = config(&format!("question = \"?\"\nseed = 5\ntrials = 4\n{text}"));
-    let ExhibitKind::Ride(study) = config.kind.clone() else {
-        panic!("no rides");
-    };
-    let study = Rides::new(context(&config), study).unwrap();
-    let rows = rows(&study, config.trials);
+    let study: Rides = read(&format!("question = \"?\"\nseed = 5\ntrials = 4\n{text}"));
+    let rows = rows(&study, study.context.trials);
     (study, rows)
 }
 

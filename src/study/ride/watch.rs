@@ -1,7 +1,8 @@
 //! One trial: a ride and what a monitor said of it.
 
 use super::account::{Account, Truth};
-use crate::experiment::{Measure, RidePoint};
+use super::point::RidePoint;
+use super::table::Measure;
 use crate::monitor::{Design, Event, Knowledge, Monitor};
 use crate::rng::Stream;
 use crate::signal::Ride;
@@ -27,7 +28,7 @@ const CHECKED: &str = "the config was checked";
 
 impl<'a> Watch<'a> {
     pub fn new(point: &'a RidePoint, seed: u64) -> Self {
-        let design = point.settings.at(point.rate).expect(CHECKED);
+        let design = point.settings.at(point.keys.rate).expect(CHECKED);
         Self {
             point,
             design,
@@ -79,7 +80,7 @@ impl<'a> Watch<'a> {
             journeys: ride.journeys(),
             to: ride.duration(),
         };
-        Account::new(&truth, &events, self.point.tolerance)
+        Account::new(&truth, &events, self.point.keys.tolerance)
     }
 
     fn samples(&self, ride: &Ride, trial: u64, part: Part) -> impl Iterator<Item = Sample> {
@@ -97,9 +98,9 @@ impl<'a> Watch<'a> {
         let mut knowledge = Knowledge {
             reference: None,
             begins_at_rest: self.point.begins_at_rest,
-            motion_shows: self.point.motion_shows,
+            motion_shows: self.point.keys.motion_shows,
         };
-        if self.point.learnt {
+        if self.point.keys.learnt {
             let mut monitor = Monitor::new(self.design.clone(), Knowledge::default());
             for sample in self.samples(&self.lesson(), trial, Part::Lesson) {
                 monitor.step(sample, None);
@@ -115,6 +116,6 @@ impl<'a> Watch<'a> {
         let blocks =
             settings.whitening.training + settings.samples.reference + settings.samples.shift;
         let seconds = 3.0 * blocks as f64 * self.design.block;
-        Ride::still(self.point.rate, seconds).expect(CHECKED)
+        Ride::still(self.point.keys.rate, seconds).expect(CHECKED)
     }
 }

@@ -1,6 +1,6 @@
 //! The trials of a sweep: families of points that share their noise, and the pilots before them.
 
-use super::{NOTHING, Subject, Sweep};
+use super::targets::{NOTHING, Subject, Sweep};
 use crate::chain::Decision;
 use crate::counts::{Counts, DecisionSummary, Key, Sums};
 use crate::pilot::Pilots;

@@ -13,21 +13,25 @@
 
 pub(super) mod picture;
 mod row;
+mod table;
 
 pub use row::Row;
 
-use super::Study;
 use crate::chain::Scenario;
 use crate::counts::Counts;
-use crate::experiment::{Part, Trace};
+use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::{self, Quantity, eight_digits};
 use crate::rng::Stream;
 use crate::run::{Identity, StudyError};
 use crate::signal::{During, ImpulseMemory, Law, Motion, Noise, Phase};
+use crate::study::kind::{Context, Study};
 use crate::whiten::{Fitter, whiten};
 use rand::Rng;
+use schemars::{JsonSchema, SchemaGenerator};
+use serde_json::Value;
+use table::{Part, Trace};
 
 /// What one realisation is drawn from.
 pub(super) struct Realisation {
@@ -36,19 +40,51 @@ pub(super) struct Realisation {
     trace: Trace,
 }
 
-impl Realisation {
-    pub fn new(seed: u64, scenario: Scenario, trace: Trace) -> Self {
-        Self {
-            seed,
-            scenario,
-            trace,
-        }
-    }
-}
-
 impl Study for Realisation {
     const NAME: &'static str = "trace";
+    const USES: &'static [&'static str] = &[
+        "sensor",
+        "noise",
+        "impulses",
+        "motion.delta",
+        "motion.delta_at",
+        "motion.profile",
+        "whitening",
+        "samples.reference",
+        "samples.shift",
+        "samples.scale",
+        "samples.gap",
+    ];
+    const COUNTS_TRIALS: bool = false;
     type Row = Row;
+
+    fn read(experiment: &Experiment, context: Context) -> Result<Self, StudyError> {
+        let trace: Trace = experiment.read()?;
+        if !trace.whitened {
+            let is_of_the_record =
+                |of: &&&str| !of.starts_with("whitening") && !of.starts_with("samples");
+            let uses: Vec<&str> = Self::USES
+                .iter()
+                .filter(is_of_the_record)
+                .copied()
+                .collect();
+            experiment.check_used(&uses, Self::COUNTS_TRIALS)?;
+        }
+        (trace.check()).map_err(|conflict| experiment.conflict(conflict))?;
+        let mut sections = experiment.sections();
+        trace.lay_over(&mut sections, &experiment.table().span);
+        let scenario = experiment.scenario_of(&sections)?;
+        (trace.check_fit(&scenario)).map_err(|conflict| experiment.conflict(conflict))?;
+        Ok(Self {
+            seed: context.seed,
+            scenario,
+            trace,
+        })
+    }
+
+    fn schema(generator: &mut SchemaGenerator) -> Value {
+        Trace::json_schema(generator).to_value()
+    }
 
     fn identities(&self) -> Vec<Identity> {
         let mut identity = Identity::new([("trace", format!("{:?}", self.trace))]);
@@ -293,8 +329,7 @@ fn vibration(config: &Realisation, trace: &Trace) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::ExhibitKind;
-    use crate::study::tests::config;
+    use crate::study::tests::read;
 
     const HEAD: &str = "question = \"?\"\nseed = 2014\n";
     const PHASES: &str = "phases = [{ rest = 60 }, { acceleration = 20 }, { inertial = 30 }, \
@@ -303,12 +338,7 @@ mod tests {
                             [whitening]\ntraining = 40\n";
 
     fn ride<R>(text: &str, of: impl FnOnce(Ride) -> R) -> R {
-        let config = config(text);
-        let ExhibitKind::Trace(trace) = config.kind.clone() else {
-            panic!("{config:?}");
-        };
-        let realisation = Realisation::new(config.seed, config.scenario.clone(), trace);
-        of(Ride::new(&realisation))
+        of(Ride::new(&read(text)))
     }
 
     fn whitened() -> String {

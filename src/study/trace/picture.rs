@@ -2,8 +2,8 @@
 //! bracketed.
 
 use super::row::Row;
+use super::table::Trace;
 use crate::chain::Scenario;
-use crate::experiment::Trace;
 use crate::figure::phases::add_phases;
 use crate::plot::{Axis, Entry, Key, Legend, Mark, Place, Plot, Point, Style, ends, literal};
 

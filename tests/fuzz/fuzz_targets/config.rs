@@ -3,7 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use liftsim::experiment::MonitorOptions;
+use liftsim::detection::MonitorOptions;
 use liftsim::monitor::{Monitor, Settings};
 
 fuzz_target!(|bytes: &[u8]| {

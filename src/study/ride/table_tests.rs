@@ -1,19 +1,17 @@
 //! Studies of `[ride]` tables.
 
-use super::{RideCurve, RidePoint, RideStudy};
-use crate::experiment::{ExhibitKind, Experiment};
+use super::Rides;
+use super::point::RidePoint;
+use super::table::{RideCurve, RideTable};
 use crate::signal::Ending;
+use crate::study::tests::read;
 use crate::whiten::Order;
 
-fn study(text: &str) -> RideStudy {
-    let text = format!("question = \"?\"\nseed = 1\ntrials = 1\n[ride]\n{text}");
-    match Experiment::parse("test", &text) {
-        Ok(Experiment::Exhibit(config)) => match config.kind {
-            ExhibitKind::Ride(study) => study,
-            _ => panic!("no rides"),
-        },
-        other => panic!("{other:?}"),
-    }
+fn study(text: &str) -> RideTable {
+    read::<Rides>(&format!(
+        "question = \"?\"\nseed = 1\ntrials = 1\n[ride]\n{text}"
+    ))
+    .table
 }
 
 fn points(text: &str) -> Vec<RidePoint> {

@@ -30,9 +30,10 @@ struct OptionsFile {
     monitor: Limits,
 }
 
+/// `[recording]`: how a recording is read.
 #[derive(Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub(super) struct RecordingTable {
+pub struct RecordingTable {
     /// The column of times, by its name.
     time: Option<String>,
     /// The column of accelerations, by its name.

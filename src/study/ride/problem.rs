@@ -1,6 +1,6 @@
 //! Why rides were refused.
 
-use super::Measure;
+use super::table::Measure;
 use crate::config::Refusal;
 use crate::monitor::SettingsError;
 use crate::rule::OutOfRange;

@@ -1,36 +1,48 @@
 //! `[trace]`: a ride in phases, and how it is shown.
 
-use super::tables::LONGEST;
 use crate::config::{Conflict, Node, Unfit, Value};
 use crate::detect::Samples;
 use crate::scenario::Scenario;
 use crate::signal::Phase;
-use crate::values::{NonNegative, Positive, Size};
+use crate::values::{NonNegative, Positive, Size, number};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Range;
 
 /// A ride and how it is shown.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Trace {
-    /// In the order of time.
+    /// The phases of the ride, each with its length in samples.
+    #[serde(rename = "phases")]
+    #[schemars(with = "Vec<PhaseTable>")]
     pub parts: Vec<Part>,
     /// Samples per second.
+    #[serde(default = "one", deserialize_with = "number::<Positive, _>")]
+    #[schemars(with = "Positive")]
     pub rate: f64,
     /// σ_ξ in `unit`.
+    #[serde(default = "one", deserialize_with = "number::<Positive, _>")]
+    #[schemars(with = "Positive")]
     pub sigma: f64,
     /// Of the record.
+    #[serde(default = "sigma_xi")]
     pub unit: String,
-    /// Deviation of the vibration, white noise added in motion, in σ_ξ.
+    /// Deviation of the vibration, white noise added in motion, σ_ξ.
+    #[serde(default, deserialize_with = "number::<NonNegative, _>")]
+    #[schemars(with = "NonNegative")]
     pub vibration: f64,
     /// Whether the record is also shown after whitening, with X, Y₁ and Y₂ marked.
+    #[serde(default)]
     pub whitened: bool,
     /// The first sample in the picture.
+    #[serde(default)]
     pub drawn_from: usize,
 }
 
 /// A part of a ride.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(from = "PhaseTable")]
 pub struct Part {
     /// What the cage does.
     pub phase: Phase,
@@ -38,33 +50,7 @@ pub struct Part {
     pub length: usize,
 }
 
-/// `[trace]`
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct TraceTable {
-    /// The phases of the ride, each with its length in samples.
-    phases: Vec<PhaseTable>,
-    /// Samples per second.
-    #[serde(default = "one")]
-    rate: Positive,
-    /// σ_ξ in `unit`.
-    #[serde(default = "one")]
-    sigma: Positive,
-    /// Of the record.
-    #[serde(default = "sigma_xi")]
-    unit: String,
-    /// Deviation of the vibration, white noise added in motion, σ_ξ.
-    #[serde(default = "still")]
-    vibration: NonNegative,
-    /// Whether the record is also shown after whitening, with X, Y₁ and Y₂ marked.
-    #[serde(default)]
-    whitened: bool,
-    /// The first sample in the picture.
-    #[serde(default)]
-    drawn_from: usize,
-}
-
-/// One of `trace.phases`, its length in samples.
+/// A part as it is written, its length in samples.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum PhaseTable {
@@ -78,12 +64,11 @@ enum PhaseTable {
     Braking(Size),
 }
 
-fn one() -> Positive {
-    Positive::new(1.0).expect("it is in its range")
-}
+/// A ride that takes longer to draw than anyone waits.
+const LONGEST: usize = 1_000_000;
 
-fn still() -> NonNegative {
-    NonNegative::new(0.0).expect("it is in its range")
+fn one() -> f64 {
+    1.0
 }
 
 fn sigma_xi() -> String {
@@ -117,41 +102,32 @@ impl Trace {
         self.acceleration_start()?.checked_sub(samples.reference())
     }
 
-    pub(super) fn acceleration_start(&self) -> Option<usize> {
+    fn acceleration_start(&self) -> Option<usize> {
         let mut parts = self.parts.iter();
         let first = parts.position(|part| part.phase == Phase::Accelerating)?;
         Some(self.parts[..first].iter().map(|part| part.length).sum())
     }
 
-    /// The ride of a table whose values fit each other.
-    pub(super) fn checked(table: TraceTable) -> Result<Self, Conflict> {
-        let trace = Self {
-            parts: table.phases.into_iter().map(Part::from).collect(),
-            rate: table.rate.get(),
-            sigma: table.sigma.get(),
-            unit: table.unit.trim().to_owned(),
-            vibration: table.vibration.get(),
-            whitened: table.whitened,
-            drawn_from: table.drawn_from,
-        };
-        let lengths = trace.parts.iter().map(|part| part.length);
+    /// Whether its values fit each other.
+    pub fn check(&self) -> Result<(), Conflict> {
+        let lengths = self.parts.iter().map(|part| part.length);
         let length = lengths.fold(0usize, usize::saturating_add);
         if !(1..=LONGEST).contains(&length) {
             let rule = format!("hold 1 to {LONGEST} samples");
             return Err(Unfit::new("trace.phases", rule, length).into());
         }
-        if trace.unit.is_empty() {
+        if self.unit.trim().is_empty() {
             return Err(Unfit::new("trace.unit", "have a name", "\"\"").into());
         }
-        if trace.drawn_from >= length {
+        if self.drawn_from >= length {
             let rule = format!("lie in 0 to {}", length - 1);
-            return Err(Unfit::new("trace.drawn_from", rule, trace.drawn_from).into());
+            return Err(Unfit::new("trace.drawn_from", rule, self.drawn_from).into());
         }
-        Ok(trace)
+        Ok(())
     }
 
     /// Lays over the sections that the acceleration lasts as long as its shortest phase.
-    pub(super) fn lay_over(&self, sections: &mut Node, table: &Range<usize>) {
+    pub fn lay_over(&self, sections: &mut Node, table: &Range<usize>) {
         let accelerated = self.parts.iter().filter(|part| part.phase.sign() != 0.0);
         let shortest = accelerated.map(|part| part.length as i64).min();
         let value = Value::Integer(shortest.unwrap_or(1));
@@ -164,8 +140,11 @@ impl Trace {
         );
     }
 
-    /// Training, X, Y₁ and Y₂ must lie inside the ride.
-    pub(super) fn check_fit(&self, scenario: &Scenario) -> Result<(), Conflict> {
+    /// Training, X, Y₁ and Y₂ of what is whitened must lie inside the ride.
+    pub fn check_fit(&self, scenario: &Scenario) -> Result<(), Conflict> {
+        if !self.whitened {
+            return Ok(());
+        }
         const LENGTHEN: &str = " (lengthen them, or leave whitened out)";
         let refuse = |rule: String, got: usize, remedy| {
             let unfit = Unfit::new("trace.phases", rule, got);

@@ -1,7 +1,7 @@
 //! The keys of `[ride]`. Those of the ride and its sensor are the fields of [`RideKeys`]; those of the monitor are all
 //! of [`Settings`], by the last word of their path.
 
-use super::{Measure, RideProblem};
+use super::problem::RideProblem;
 use crate::config::{Conflict, Node, Refusal};
 use crate::fields::names;
 use crate::monitor::Settings;
@@ -12,9 +12,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The keys of the ride and its sensor, with their defaults.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub(super) struct RideKeys {
+pub struct RideKeys {
     /// Of every trip, m; up and down in turn.
     pub distance: f64,
     /// The top speed of a trip, m/s.
@@ -94,28 +94,29 @@ impl Default for RideKeys {
 }
 
 /// Three ways to say one thing: how strong the noise is.
-pub(super) const STRENGTH: [&str; 3] = ["sigma", "density", "delta_over_sigma"];
+pub const STRENGTH: [&str; 3] = ["sigma", "density", "delta_over_sigma"];
 
 /// All keys that a curve may change and an axis may sweep.
-pub(super) fn all() -> impl Iterator<Item = &'static str> + Clone {
+pub fn all() -> impl Iterator<Item = &'static str> + Clone {
     let own = names::<RideKeys>().iter().copied();
     own.chain(Settings::names())
 }
 
-/// The values of a `[ride]` or `[[ride.curve]]` table; beside them it may have the keys of `more`.
-pub(super) fn values(table: &Node, more: &[&'static str]) -> Result<Node, Conflict> {
+/// Refuses the first key of a table that is no parameter and none of `more`.
+pub fn check_known(table: &Node, more: &[&'static str]) -> Result<(), Conflict> {
     let known = more.iter().copied().chain(all());
     let mut entries = table.table().into_iter().flatten();
-    if let Some((key, (span, _))) = entries.find(|(key, _)| !known.clone().any(|name| name == *key))
-    {
-        let problem = RideProblem::UnknownKey(among(key, known));
-        return Err(Conflict::at(span, problem));
+    match entries.find(|(key, _)| !known.clone().any(|name| name == *key)) {
+        Some((key, (span, _))) => {
+            let problem = RideProblem::UnknownKey(among(key, known));
+            Err(Conflict::at(span, problem))
+        }
+        None => Ok(()),
     }
-    Ok(table.only(|key| !more.contains(&key)))
 }
 
 /// The keys with their values, of the ride and of the monitor.
-pub(super) fn read(values: &Node) -> Result<(RideKeys, Settings), Conflict> {
+pub fn read(values: &Node) -> Result<(RideKeys, Settings), Conflict> {
     let mut settings = Node::empty(values.span.clone());
     for (key, (_, node)) in values.table().into_iter().flatten() {
         if let Some(path) = Settings::path(key) {
@@ -136,19 +137,4 @@ fn refused(mut refusal: Refusal) -> Conflict {
     let span = refusal.span.clone();
     let conflict = Conflict::of([""; 0], RideProblem::from(refusal.within("ride")));
     Conflict { span, ..conflict }
-}
-
-/// The first key that means nothing to what is measured.
-pub(super) fn check_used(measure: Measure, values: &Node) -> Result<(), Conflict> {
-    let mut entries = values.table().into_iter().flatten();
-    match entries.find(|(key, _)| measure.unused().contains(&&key[..])) {
-        Some((key, (_, node))) => {
-            let problem = RideProblem::Unused {
-                key: key.clone(),
-                measure,
-            };
-            Err(Conflict::at(&node.span, problem))
-        }
-        None => Ok(()),
-    }
 }

@@ -1,15 +1,15 @@
 //! The reference of every table and key, written from the types that read them: a JSON Schema for editors, and
 //! the same in words.
 
-use super::header::Header;
-use super::monitor_options::RecordingTable;
-use super::sweep::CurveHeader;
-use super::tables;
+use super::registry::STUDIES;
 use crate::claim::Narrative;
+use crate::detection::RecordingTable;
+use crate::experiment::schema::properties;
+use crate::experiment::{CurveHeader, Header};
 use crate::monitor::Settings;
-use crate::scenario::{PARAMETERS, Sections};
+use crate::scenario::Sections;
+use schemars::SchemaGenerator;
 use schemars::generate::SchemaSettings;
-use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -19,9 +19,6 @@ pub fn schema() -> Value {
     let sections = properties::<Sections>(&mut generator);
     let mut all = properties::<Header>(&mut generator);
     all.extend(properties::<Narrative>(&mut generator));
-    let swept = PARAMETERS.iter().filter(|parameter| parameter.is_swept());
-    let swept = swept.map(|parameter| (parameter.name, at(&sections, parameter.paths[0])));
-    all.insert("axis".to_owned(), axis(swept));
     let mut curve = properties::<CurveHeader>(&mut generator);
     curve.extend(sections.clone());
     let description = "One curve of a sweep; each may change any of the sections.";
@@ -34,20 +31,12 @@ pub fn schema() -> Value {
         "curve".to_owned(),
         json!({ "description": description, "type": "array", "items": curve }),
     );
-    let studies = tables::schemas(&mut generator);
-    let names: Vec<&str> = ["axis"]
-        .into_iter()
-        .chain(studies.iter().map(|(name, _)| *name))
-        .collect();
-    let one_thing: Vec<Value> = names
-        .iter()
-        .map(|name| json!({ "required": [name] }))
-        .collect();
-    all.extend(
-        studies
-            .into_iter()
-            .map(|(name, schema)| (name.to_owned(), schema)),
-    );
+    for study in STUDIES {
+        all.insert(study.name.to_owned(), (study.schema)(&mut generator));
+    }
+    let one_thing = STUDIES.iter();
+    let one_thing = one_thing.map(|study| json!({ "required": [study.name] }));
+    let one_thing: Vec<Value> = one_thing.collect();
     all.extend(sections);
     let mut all = Value::Object(all);
     allow_bare_names(&mut all);
@@ -80,52 +69,6 @@ fn bare_name(choice: &Value) -> Option<Value> {
     let parameters = &choice["properties"][name];
     let none_is_required = parameters["required"].is_null();
     (parameters["type"] == "object" && none_is_required).then(|| json!({ "const": name }))
-}
-
-/// The keys of a type, each with its schema.
-pub(super) fn properties<T: JsonSchema>(generator: &mut SchemaGenerator) -> Map<String, Value> {
-    let schema = T::json_schema(generator).to_value();
-    match schema.get("properties") {
-        Some(Value::Object(properties)) => properties.clone(),
-        _ => Map::new(),
-    }
-}
-
-/// The schema of a key of a section.
-fn at(sections: &Map<String, Value>, path: &str) -> Value {
-    let (section, key) = path.split_once('.').unwrap_or((path, ""));
-    sections[section]["properties"][key].clone()
-}
-
-/// An axis of one of these keys, each with the schema of its values.
-pub(super) fn axis<'a>(keys: impl Iterator<Item = (&'a str, Value)>) -> Value {
-    let values = |value: Value| {
-        json!({ "anyOf": [
-        { "type": "array", "minItems": 1, "items": value },
-        {
-            "type": "object",
-            "properties": {
-                "from": { "type": "number" },
-                "to": { "type": "number" },
-                "step": { "type": "number", "exclusiveMinimum": 0 },
-            },
-            "required": ["from", "to", "step"],
-            "additionalProperties": false,
-        },
-        value,
-    ] })
-    };
-    let keys: Map<String, Value> = keys
-        .map(|(name, value)| (name.to_owned(), values(value)))
-        .collect();
-    json!({
-        "description": "What the x axis sweeps, exactly one key: a list of values, or { from, to, step }.",
-        "type": "object",
-        "properties": keys,
-        "minProperties": 1,
-        "maxProperties": 1,
-        "additionalProperties": false,
-    })
 }
 
 /// The same in words.

@@ -1,9 +1,11 @@
 //! One point of a study: a drive, a cage with a sensor in it, and a monitor.
 
-use super::keys::RideKeys;
-use super::{MOST_TRIPS, Measure, RideProblem};
+use super::keys::{RideKeys, STRENGTH};
+use super::problem::RideProblem;
+use super::table::Measure;
 use crate::monitor::Settings;
 use crate::rule::{OutOfRange, Rule};
+use crate::run::Identity;
 use crate::signal::{
     Digitiser, Disturbance, Drive, During, Ending, Impulses, Pickup, Ride, RideError, Sensor, Trip,
 };
@@ -13,73 +15,75 @@ use crate::signal::{
 pub struct RidePoint {
     /// What is asked of it.
     pub measure: Measure,
-    /// Of every trip, m; up and down in turn.
-    pub distance: f64,
-    /// The limits of its motion.
-    pub drive: Drive,
-    /// How many there are.
-    pub trips: usize,
-    /// The shortest and the longest rest before, between and after them, s; uniformly random.
-    pub rest: [f64; 2],
-    /// How long a rest is that is watched for itself, s.
-    pub length: f64,
-    /// In how many s a jam brings the cage to a stand.
-    pub jam_within: f64,
-    /// How far from the truth, s, a start, a stop or a jam may be reported.
-    pub tolerance: f64,
-    /// Hz.
-    pub rate: f64,
-    /// In the cage.
-    pub pickup: Pickup,
+    /// As the config has them.
+    pub keys: RideKeys,
     /// Of the monitor.
     pub settings: Settings,
-    /// Whether it has learnt what rest is like, from another rest.
-    pub learnt: bool,
-    /// Whether it assumes that the record begins at rest, true or not.
+    /// In the cage.
+    pub pickup: Pickup,
+    /// Whether the monitor assumes that the record begins at rest, true or not.
     pub begins_at_rest: bool,
-    /// Whether it assumes that motion shows.
-    pub motion_shows: bool,
 }
 
 /// The deviation of the noise where the file says nothing, m/s²: that of a good phone.
 const SIGMA: f64 = 0.012;
 
+/// More trips than anyone needs in a ride.
+const MOST_TRIPS: usize = 100;
+
 impl RidePoint {
-    pub(super) fn new(
-        measure: Measure,
-        keys: &RideKeys,
-        settings: Settings,
-    ) -> Result<Self, RideProblem> {
+    /// A point of keys and settings that fit each other.
+    ///
+    /// # Errors
+    /// Where they do not.
+    pub fn new(measure: Measure, keys: RideKeys, settings: Settings) -> Result<Self, RideProblem> {
         keys.check()?;
-        let drive = Drive {
-            speed: keys.speed,
-            acceleration: keys.acceleration,
-            jerk: keys.jerk,
-        };
         let point = Self {
             measure,
-            distance: keys.distance,
-            trips: keys.trips,
-            rest: keys.rest,
-            length: keys.length,
-            jam_within: keys.jam_within,
-            tolerance: keys.tolerance,
-            pickup: keys.pickup(&drive)?,
+            pickup: keys.pickup()?,
+            begins_at_rest: keys
+                .begins_at_rest
+                .unwrap_or(measure != Measure::SwitchedOn),
+            keys,
             settings,
-            learnt: keys.learnt,
-            begins_at_rest: (keys.begins_at_rest).unwrap_or(measure != Measure::SwitchedOn),
-            motion_shows: keys.motion_shows,
-            drive,
-            rate: keys.rate,
         };
         point.check()?;
         Ok(point)
     }
 
+    /// Every parameter; those that say one thing in several ways as what they say.
+    pub fn identity(&self) -> Identity {
+        let keys = serde_json::to_value(&self.keys).expect("keys are plain data");
+        let settings = serde_json::to_value(&self.settings).expect("settings are plain data");
+        let tables = settings
+            .as_object()
+            .into_iter()
+            .flat_map(|tables| tables.values());
+        let is_said_otherwise = |key: &str| STRENGTH.contains(&key) || key == "begins_at_rest";
+        let entries = [&keys]
+            .into_iter()
+            .chain(tables)
+            .filter_map(|table| table.as_object());
+        let parameters = entries
+            .flatten()
+            .filter(|(key, _)| !is_said_otherwise(key))
+            .map(|(key, value)| (key.clone(), value.to_string()));
+        let said = [
+            ("measure", self.measure.name().to_owned()),
+            ("sigma", self.pickup.sigma.to_string()),
+            ("begins_at_rest", self.begins_at_rest.to_string()),
+        ];
+        let said = said.map(|(key, value)| (key.to_owned(), value));
+        Identity {
+            parameters: said.into_iter().chain(parameters).collect(),
+            place: String::new(),
+        }
+    }
+
     /// Whatever is drawn, a trial can be run: the longest can.
     fn check(&self) -> Result<(), RideProblem> {
         let in_ride = |path: &str| format!("ride.{}", path.rsplit('.').next().unwrap_or(path));
-        (self.settings.at(self.rate)).map_err(|error| error.called(in_ride))?;
+        (self.settings.at(self.keys.rate)).map_err(|error| error.called(in_ride))?;
         if self.measure.rests() {
             self.still()?;
         }
@@ -87,7 +91,7 @@ impl RidePoint {
             let (from, to) = self.trip(0, Ending::Commanded).course()?.uniform_motion();
             let must_be_uniform = matches!(self.measure, Measure::Jam | Measure::SwitchedOn);
             if must_be_uniform && to - from < 1e-6 {
-                return Err(RideProblem::NeverUniform(self.distance));
+                return Err(RideProblem::NeverUniform(self.keys.distance));
             }
             self.ride(|| 1.0)?;
         }
@@ -99,7 +103,7 @@ impl RidePoint {
     /// # Errors
     /// Where it is too long to be held.
     pub fn still(&self) -> Result<Ride, RideError> {
-        Ride::still(self.rate, self.length)
+        Ride::still(self.keys.rate, self.keys.length)
     }
 
     /// A ride; its rests and the moment of a jam are drawn by `uniform`, numbers in [0, 1].
@@ -107,10 +111,10 @@ impl RidePoint {
     /// # Errors
     /// Where it is too long to be held.
     pub fn ride(&self, mut uniform: impl FnMut() -> f64) -> Result<Ride, RideError> {
-        let [shortest, longest] = self.rest;
-        let rests = (0..=self.trips).map(|_| shortest + (longest - shortest) * uniform());
+        let [shortest, longest] = self.keys.rest;
+        let rests = (0..=self.keys.trips).map(|_| shortest + (longest - shortest) * uniform());
         let rests = rests.collect();
-        let mut trips: Vec<Trip> = (0..self.trips)
+        let mut trips: Vec<Trip> = (0..self.keys.trips)
             .map(|index| self.trip(index, Ending::Commanded))
             .collect();
         if let (Measure::Jam, Some(last)) = (self.measure, trips.last_mut()) {
@@ -118,17 +122,17 @@ impl RidePoint {
             let (from, to) = last.course().map_err(refused)?.uniform_motion();
             last.ending = Ending::Jam {
                 after: (from + (to - from) * uniform()).min(to),
-                within: self.jam_within,
+                within: self.keys.jam_within,
             };
         }
-        Ride::new(self.rate, rests, trips)
+        Ride::new(self.keys.rate, rests, trips)
     }
 
     fn trip(&self, index: usize, ending: Ending) -> Trip {
         let sign = if index.is_multiple_of(2) { 1.0 } else { -1.0 };
         Trip {
-            distance: sign * self.distance,
-            drive: self.drive,
+            distance: sign * self.keys.distance,
+            drive: self.keys.drive(),
             ending,
         }
     }
@@ -159,17 +163,26 @@ impl RideKeys {
         Ok(())
     }
 
-    fn sigma(&self, drive: &Drive) -> Result<f64, RideProblem> {
+    /// The limits of a trip's motion.
+    pub fn drive(&self) -> Drive {
+        Drive {
+            speed: self.speed,
+            acceleration: self.acceleration,
+            jerk: self.jerk,
+        }
+    }
+
+    fn sigma(&self) -> Result<f64, RideProblem> {
         match (self.sigma, self.density, self.delta_over_sigma) {
             (None, None, None) => Ok(SIGMA),
             (Some(sigma), None, None) => Ok(sigma),
             (None, Some(density), None) => Ok(density * libm::sqrt(self.rate / 2.0)),
-            (None, None, Some(ratio)) => Ok(drive.acceleration / ratio),
+            (None, None, Some(ratio)) => Ok(self.acceleration / ratio),
             _ => Err(RideProblem::Strength),
         }
     }
 
-    fn pickup(&self, drive: &Drive) -> Result<Pickup, RideProblem> {
+    fn pickup(&self) -> Result<Pickup, RideProblem> {
         Ok(Pickup {
             sensor: Sensor::from_ar(self.ar.clone())?,
             digitiser: Digitiser::from((self.quantum, None)),
@@ -184,7 +197,7 @@ impl RideKeys {
                 jolt: self.jolt,
                 ..Disturbance::default()
             },
-            ..Pickup::white(self.sigma(drive)?)
+            ..Pickup::white(self.sigma()?)
         }
         .checked()?)
     }

@@ -1,0 +1,172 @@
+//! Curves along an axis: file ⊕ curve ⊕ axis value, laid over each other as they are written.
+
+use crate::config::{Axis, AxisValue, Conflict, Node, Unfit, Value};
+use serde::Deserialize;
+
+/// What a curve says, and what it says with the file under it.
+#[derive(Clone, Debug)]
+pub struct Laid {
+    /// What tells it from the others; by default its number.
+    pub label: String,
+    /// The keys of its table that are no parameters.
+    pub header: Node,
+    /// The file's parameters with its own laid over them.
+    values: Node,
+}
+
+/// An axis, and curves that change the parameters of a table.
+#[derive(Clone, Debug)]
+pub struct Overlay {
+    /// What the x axis sweeps.
+    pub axis: Axis,
+    /// At least one.
+    pub curves: Vec<Laid>,
+    /// The parameters that the axis sets.
+    paths: Vec<String>,
+}
+
+/// What the keys of a table mean to an overlay.
+pub struct Keys<'a> {
+    /// Before a key in messages, such as `ride.`.
+    pub prefix: &'static str,
+    /// What an axis may sweep, and the paths that each sets.
+    pub swept: &'a [(&'static str, Vec<&'static str>)],
+    /// Whether a key of the table, or of a curve, is a parameter or a section of parameters.
+    pub is_parameter: &'a dyn Fn(&str) -> bool,
+    /// Parameters of which one replaces the others.
+    pub choices: &'a [&'a [&'a str]],
+    /// What of a label must tell it from others.
+    pub name: fn(&str) -> String,
+}
+
+/// More curves than this are a mistake.
+const MOST_CURVES: usize = 1000;
+/// So are more points.
+const MOST_POINTS: usize = 20_000;
+
+impl Laid {
+    /// Every parameter that the file or the curve sets.
+    pub fn values(&self) -> &Node {
+        &self.values
+    }
+}
+
+impl Overlay {
+    /// Reads `axis` and `curve` of a table.
+    ///
+    /// # Errors
+    /// Where the axis is no axis, a curve has no label of its own, or something is both swept and set.
+    pub fn read(table: &Node, keys: &Keys) -> Result<Self, Conflict> {
+        let nothing = Node::empty(table.span.clone());
+        let axis = table.get("axis").unwrap_or(&nothing);
+        let axis = Axis::read(axis, keys.swept.iter().map(|(name, _)| *name))?;
+        let paths = keys.swept.iter().find(|(name, _)| *name == axis.name);
+        let paths = paths.map_or(&[][..], |(_, paths)| &paths[..]);
+        let mut overlay = Self {
+            paths: paths.iter().map(|path| String::from(*path)).collect(),
+            curves: Vec::new(),
+            axis,
+        };
+        let base = table.only(keys.is_parameter);
+        overlay.check_free(&base, keys)?;
+        let curves = curve_tables(table, keys.prefix)?;
+        overlay.check_points(curves.len())?;
+        for curve in curves {
+            let own = curve.only(keys.is_parameter);
+            overlay.check_free(&own, keys)?;
+            overlay.curves.push(Laid {
+                label: overlay.label(&curve, keys)?,
+                header: curve.only(|key| !(keys.is_parameter)(key)),
+                values: own.over(&base, keys.choices),
+            });
+        }
+        Ok(overlay)
+    }
+
+    /// The parameters of a curve (from 0) at a value of the axis.
+    pub fn at(&self, curve: usize, value: &AxisValue) -> Node {
+        let mut laid = self.curves[curve].values.clone();
+        for path in &self.paths {
+            laid.set(path, value.0.clone());
+        }
+        laid
+    }
+
+    fn check_points(&self, curves: usize) -> Result<(), Conflict> {
+        let points = curves * self.axis.values.len();
+        if points <= MOST_POINTS {
+            return Ok(());
+        }
+        let unfit = Unfit::new("points", format!("be at most {MOST_POINTS}"), points);
+        let remedy = " (take fewer curves or values)";
+        Err(Conflict::at(&self.axis.span, Unfit { remedy, ..unfit }))
+    }
+
+    /// What is swept must not be set as well, not in other words either.
+    fn check_free(&self, values: &Node, keys: &Keys) -> Result<(), Conflict> {
+        let rivals = |path: &String| {
+            let choice = keys
+                .choices
+                .iter()
+                .find(|choice| choice.contains(&&path[..]));
+            choice.map_or(vec![path.clone()], |choice| {
+                choice.iter().map(|path| String::from(*path)).collect()
+            })
+        };
+        let mut paths = self.paths.iter().flat_map(rivals);
+        match paths.find_map(|path| values.get(&path)) {
+            Some(node) => Err(Conflict::at(&node.span, self.axis.swept_and_set())),
+            None => Ok(()),
+        }
+    }
+
+    /// The label of the next curve.
+    fn label(&self, curve: &Node, keys: &Keys) -> Result<String, Conflict> {
+        let number = self.curves.len();
+        let path = format!("{}curve[{number}].label", keys.prefix);
+        let Some(node) = curve.get("label") else {
+            return self.distinct((number + 1).to_string(), &path, curve, keys);
+        };
+        let label = String::deserialize(node)
+            .map_err(|refusal| Conflict::at(&node.span, refusal.within(&path)))?;
+        self.distinct(label, &path, node, keys)
+    }
+
+    fn distinct(
+        &self,
+        label: String,
+        path: &str,
+        place: &Node,
+        keys: &Keys,
+    ) -> Result<String, Conflict> {
+        let name = (keys.name)(&label);
+        let is_known = |other: &Laid| (keys.name)(&other.label) == name;
+        if !name.is_empty() && !self.curves.iter().any(is_known) {
+            return Ok(label);
+        }
+        let rule = "be there and differ from every other";
+        let unfit = Unfit::new(path, rule, format_args!("\"{label}\""));
+        Err(Conflict::at(&place.span, unfit))
+    }
+}
+
+/// The tables under `curve`; one plain curve where there are none.
+fn curve_tables(table: &Node, prefix: &str) -> Result<Vec<Node>, Conflict> {
+    let plain = || Ok(vec![Node::empty(table.span.clone())]);
+    let Some((span, node)) = table.table().and_then(|entries| entries.get("curve")) else {
+        return plain();
+    };
+    let path = format!("{prefix}curve");
+    match &node.value {
+        Value::List(list) if list.is_empty() => plain(),
+        Value::List(list) if list.len() > MOST_CURVES => {
+            let rule = format!("be at most {MOST_CURVES} curves");
+            Err(Conflict::at(&node.span, Unfit::new(path, rule, list.len())))
+        }
+        Value::List(list) => Ok(list.clone()),
+        _ => {
+            let rule = "be a list (write [[curve]] for [curve])";
+            Err(Conflict::at(span, Unfit::new(path, rule, "a single one")))
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! What a study is: its table, its trials, its rows, its picture.
+
+use crate::claim::{Outcome, Scope};
+use crate::counts::{Counts, Key, Shape, Sums};
+use crate::experiment::Experiment;
+use crate::figure::FigureError;
+use crate::plot::Plot;
+use crate::results::{Comparison, Quantity};
+use crate::run::{Identity, StudyError, Target, Trials};
+use schemars::SchemaGenerator;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use std::collections::BTreeSet;
+
+/// What a config's table describes.
+pub trait Study: Send + Sync + Sized + 'static {
+    /// The name of its table.
+    const NAME: &'static str;
+
+    /// The sections, or keys of them (`noise.law`), that change it; any other is refused.
+    const USES: &'static [&'static str];
+
+    /// Whether it counts trials.
+    const COUNTS_TRIALS: bool;
+
+    /// One of `points.csv`.
+    type Row: Serialize + DeserializeOwned;
+
+    /// Reads its table.
+    ///
+    /// # Errors
+    /// Where the table is not what it must be, or no region or record can be made for it.
+    fn read(experiment: &Experiment, context: Context) -> Result<Self, StudyError>;
+
+    /// What its table may say, as a JSON Schema.
+    fn schema(generator: &mut SchemaGenerator) -> Value;
+
+    /// What it is of, point by point: every parameter that changes what comes out.
+    fn identities(&self) -> Vec<Identity>;
+
+    /// What it counts; none where everything is computed.
+    fn trials(&self) -> Option<Box<dyn Trials + '_>> {
+        None
+    }
+
+    /// What it comes to. Counters that are not there count as one trial in which nothing happened.
+    fn rows(&self, counts: &Counts) -> Vec<Self::Row>;
+
+    /// Pairs of points held against each other.
+    fn comparisons(&self, _rows: &[Self::Row], _counts: &Counts) -> Vec<Comparison> {
+        Vec::new()
+    }
+
+    /// Single numbers.
+    ///
+    /// # Errors
+    /// Where a number is asked for that the rows do not give.
+    fn quantities(&self, _rows: &[Self::Row]) -> Result<Vec<Quantity>, StudyError> {
+        Ok(Vec::new())
+    }
+
+    /// The counts behind its rows, where these tell them.
+    fn recall(&self, _rows: &[Self::Row], _comparisons: &[Comparison]) -> Option<Counts> {
+        None
+    }
+
+    /// Draws the rows.
+    ///
+    /// # Errors
+    /// Where there is nothing to draw, or drawing fails.
+    fn plot(&self, rows: &[Self::Row], seed: u64) -> Result<Plot, FigureError>;
+
+    /// What is said of the rows when they are written.
+    fn findings(&self, _rows: &[Self::Row]) -> Option<Table> {
+        None
+    }
+
+    /// How many points there are, in words, for a plan.
+    fn points(&self) -> String {
+        let points = self.trials().map_or(1, |trials| trials.points());
+        format!("{points} of [{}]", Self::NAME)
+    }
+
+    /// What claims about curves may refer to.
+    fn scope(&self) -> Scope {
+        Scope::default()
+    }
+
+    /// The rates that claims about curves are judged by.
+    fn outcomes(&self, _rows: &[Self::Row]) -> Vec<Outcome> {
+        Vec::new()
+    }
+}
+
+/// More than a study should be asked for.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what}: must be at most {most}, got {got} ({remedy})")]
+pub struct TooMany {
+    /// Of what.
+    what: &'static str,
+    most: usize,
+    got: usize,
+    remedy: &'static str,
+}
+
+impl TooMany {
+    /// Refuses more than `most`.
+    ///
+    /// # Errors
+    /// Where there are more.
+    pub fn check(
+        what: &'static str,
+        got: usize,
+        most: usize,
+        remedy: &'static str,
+    ) -> Result<(), Self> {
+        if got <= most {
+            return Ok(());
+        }
+        Err(Self {
+            what,
+            most,
+            got,
+            remedy,
+        })
+    }
+}
+
+/// A header and lines.
+pub type Table = (&'static [&'static str], Vec<Vec<String>>);
+
+/// What the studies of one config share.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Context {
+    /// Where every draw starts from.
+    pub seed: u64,
+    /// Trials per point; 1 where nothing is repeated.
+    pub trials: u64,
+    /// Of the intervals.
+    pub confidence: f64,
+}
+
+impl Context {
+    /// The numbers of a config, as a study takes them that counts trials or none.
+    pub fn of(experiment: &Experiment, counts_trials: bool) -> Self {
+        let header = &experiment.header;
+        Self {
+            seed: header.seed,
+            trials: if counts_trials { header.trials() } else { 1 },
+            confidence: header.confidence.get(),
+        }
+    }
+}
+
+/// The counters of the points of a study.
+#[derive(Debug, Default)]
+pub struct Counters {
+    /// Of every point.
+    pub keys: Vec<Key>,
+    /// Every counter once.
+    pub targets: Vec<Target>,
+    /// The first point of each.
+    pub points: Vec<usize>,
+}
+
+impl Counters {
+    /// A counter of this shape for each distinct point.
+    pub fn new<S: Study>(study: &S, seed: u64, shape: &Shape) -> Self {
+        let mut counters = Self::default();
+        let mut known = BTreeSet::new();
+        for (point, identity) in study.identities().iter().enumerate() {
+            let key = identity.key(S::NAME, seed, true);
+            if known.insert(key.clone()) {
+                let shape = shape.clone();
+                counters.targets.push(Target {
+                    key: key.clone(),
+                    shape,
+                });
+                counters.points.push(point);
+            }
+            counters.keys.push(key);
+        }
+        counters
+    }
+}
+
+/// What was counted of a target: its trials and sums; one trial in which nothing happened where nothing was.
+pub fn counted(counts: &Counts, key: &Key, shape: &Shape) -> (u64, Sums) {
+    match counts.get(key) {
+        Some(counter) if !counter.trials.is_empty() => (counter.trials.len(), counter.sums.clone()),
+        _ => (1, shape.empty().sums),
+    }
+}

@@ -1,0 +1,246 @@
+//! `[ride]`: what is asked of rides, along which axis, for which curves.
+//!
+//! Accelerations are in m/s², times in s. What stands for the strength of the noise is one of three keys:
+//! `sigma`, the deviation of a sample; `density`, the one-sided root density of the noise in m/s²/√Hz, which is
+//! what a sensor has whatever it is sampled at, so that sigma = density √(rate/2); `delta_over_sigma`, the
+//! drive's acceleration in units of sigma. Vibration, θ, quantum and jolt are in units of sigma.
+
+use super::keys::{self, RideKeys, STRENGTH};
+use super::point::RidePoint;
+use super::problem::RideProblem;
+use crate::config::{AxisValue, Conflict, Node};
+use crate::experiment::schema::{self, properties};
+use crate::experiment::{ConfigError, Experiment, Keys, Overlay};
+use crate::monitor::Settings;
+use schemars::{JsonSchema, SchemaGenerator};
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+use std::ops::Range;
+
+/// What is asked of each trial.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Measure {
+    /// A ride: are its trips found, and how late?
+    Rides,
+    /// A rest: how often does it look like motion?
+    Rest,
+    /// A ride and a rest: what does finding soon cost?
+    Tradeoff,
+    /// A ride whose last trip jams: does it alarm, and how late?
+    Jam,
+    /// A ride that the monitor sees from somewhere in its first uniform motion on: does it take that for
+    /// rest, and when does it know better?
+    SwitchedOn,
+}
+
+/// Rides along an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RideTable {
+    /// What is asked of each trial.
+    pub measure: Measure,
+    /// The key that is swept.
+    pub axis: String,
+    /// At least one.
+    pub curves: Vec<RideCurve>,
+}
+
+/// One curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RideCurve {
+    /// What tells it from the others.
+    pub label: String,
+    /// Each value of the axis and what it comes to here.
+    pub points: Vec<(f64, RidePoint)>,
+}
+
+impl Measure {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rides => "rides",
+            Self::Rest => "rest",
+            Self::Tradeoff => "tradeoff",
+            Self::Jam => "jam",
+            Self::SwitchedOn => "switched_on",
+        }
+    }
+
+    /// Whether it makes trips.
+    pub fn rides(self) -> bool {
+        self != Self::Rest
+    }
+
+    /// Whether it rests for a given time.
+    pub fn rests(self) -> bool {
+        matches!(self, Self::Rest | Self::Tradeoff)
+    }
+
+    /// The keys that change nothing in it.
+    fn unused(self) -> &'static [&'static str] {
+        match self {
+            Self::Rides | Self::SwitchedOn => &["length", "jam_within"],
+            Self::Rest => &[
+                "distance",
+                "speed",
+                "jerk",
+                "trips",
+                "rest",
+                "jam_within",
+                "tolerance",
+                "vibration",
+                "nu",
+                "theta",
+            ],
+            Self::Tradeoff => &["jam_within"],
+            Self::Jam => &["length"],
+        }
+    }
+
+    fn refuse(self, key: &str, place: &Range<usize>) -> Conflict {
+        let key = key.to_owned();
+        Conflict::at(place, RideProblem::Unused { key, measure: self })
+    }
+
+    /// Refuses the first key that means nothing to it.
+    fn check_used(self, values: &Node) -> Result<(), Conflict> {
+        let mut entries = values.table().into_iter().flatten();
+        match entries.find(|(key, _)| self.unused().contains(&&key[..])) {
+            Some((key, (_, node))) => Err(self.refuse(key, &node.span)),
+            None => Ok(()),
+        }
+    }
+}
+
+/// What must be there; everything else is laid over.
+#[derive(Deserialize)]
+struct Required {
+    measure: Measure,
+    #[serde(rename = "axis")]
+    _axis: IgnoredAny,
+}
+
+impl RideTable {
+    /// Reads the table.
+    ///
+    /// # Errors
+    /// Where a key is unknown or means nothing to the measure, or a point cannot be simulated.
+    pub fn read(experiment: &Experiment) -> Result<Self, ConfigError> {
+        let table = experiment.table();
+        let required = table.only(|key| ["measure", "axis"].contains(&key));
+        let Required { measure, .. } = experiment.read_part(&required)?;
+        Self::of(measure, table).map_err(|conflict| experiment.conflict(conflict))
+    }
+
+    fn of(measure: Measure, table: &Node) -> Result<Self, Conflict> {
+        keys::check_known(table, &["measure", "axis", "curve"])?;
+        let swept: Vec<_> = keys::all().map(|key| (key, vec![key])).collect();
+        let overlay = Overlay::read(
+            table,
+            &Keys {
+                prefix: "ride.",
+                swept: &swept,
+                is_parameter: &|key| keys::all().any(|known| known == key),
+                choices: &[&STRENGTH],
+                name: name_of,
+            },
+        )?;
+        let axis = &overlay.axis;
+        if measure.unused().contains(&axis.name.as_str()) {
+            return Err(measure.refuse(&axis.name, &axis.key_span));
+        }
+        let mut curves = Vec::new();
+        for (index, laid) in overlay.curves.iter().enumerate() {
+            keys::check_known(&laid.header, &["label"])?;
+            let points = axis.values.iter();
+            let points = points.map(|value| point(measure, &overlay, index, value));
+            curves.push(RideCurve {
+                label: laid.label.clone(),
+                points: points.collect::<Result<_, _>>()?,
+            });
+        }
+        Ok(Self {
+            measure,
+            axis: axis.name.clone(),
+            curves,
+        })
+    }
+}
+
+impl RideCurve {
+    /// Its label as part of a quantity's name: letters and digits, `_` for anything between.
+    pub fn name(&self) -> String {
+        name_of(&self.label)
+    }
+}
+
+fn name_of(label: &str) -> String {
+    let lower = label.to_lowercase();
+    let words = lower.split(|c: char| !c.is_alphanumeric());
+    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+    words.join("_")
+}
+
+/// A value of the axis and its point.
+fn point(
+    measure: Measure,
+    overlay: &Overlay,
+    curve: usize,
+    value: &AxisValue,
+) -> Result<(f64, RidePoint), Conflict> {
+    let axis = &overlay.axis.name;
+    let no_number = || Conflict::at(&value.0.span, RideProblem::NoNumber(axis.clone()));
+    let number = value.number().ok_or_else(no_number)?;
+    measure.check_used(overlay.curves[curve].values())?;
+    let values = overlay.at(curve, value);
+    let (keys, settings) = keys::read(&values)?;
+    let point = RidePoint::new(measure, keys, settings).map_err(|problem| {
+        let span = problem.key().and_then(|key| place(&values, key));
+        Conflict {
+            span,
+            ..Conflict::of([""; 0], problem)
+        }
+    })?;
+    Ok((number, point))
+}
+
+/// Where the value of a key stands, or that of a key that says the same in another way.
+fn place(values: &Node, key: &str) -> Option<Range<usize>> {
+    let rivals = STRENGTH.iter().filter(|_| STRENGTH.contains(&key));
+    let mut found = [&key]
+        .into_iter()
+        .chain(rivals)
+        .filter_map(|key| values.get(key));
+    found.next().map(|node| node.span.clone())
+}
+
+/// What the table may say, as a JSON Schema.
+pub fn schema(generator: &mut SchemaGenerator) -> Value {
+    let mut keys = properties::<RideKeys>(generator);
+    for table in properties::<Settings>(generator).values() {
+        keys.extend(table["properties"].as_object().cloned().unwrap_or_default());
+    }
+    let axis = keys
+        .iter()
+        .map(|(key, schema)| (key.as_str(), schema.clone()));
+    let axis = schema::axis(axis);
+    let mut curve = keys.clone();
+    curve.insert("label".to_owned(), json!({ "type": "string" }));
+    let measure = Measure::json_schema(generator).to_value();
+    let curve = json!({
+        "type": "array",
+        "items": { "type": "object", "properties": curve, "additionalProperties": false },
+    });
+    for (key, schema) in [("measure", measure), ("axis", axis), ("curve", curve)] {
+        keys.insert(key.to_owned(), schema);
+    }
+    json!({
+        "description": "Whole simulated rides before the monitor, counted along `axis` for each `curve`. \
+            Lengths in m, times in s; vibration, theta, quantum and jolt in units of sigma.",
+        "type": "object",
+        "properties": keys,
+        "required": ["measure", "axis"],
+        "additionalProperties": false,
+    })
+}

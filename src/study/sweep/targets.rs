@@ -1,0 +1,144 @@
+//! What a sweep counts: its points, and the pairs of points that claims compare.
+
+use crate::claim::{self, Pair};
+use crate::counts::{Counts, DecisionSummary, Key, Shape};
+use crate::experiment::{SWEEP, SweepConfig};
+use crate::plan::{Plan, Point};
+use crate::results::{self, Row};
+use crate::run::{Identity, StudyError, Target};
+use crate::stats::tally::Tally;
+use crate::study::kind::TooMany;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A plan, and what its claims compare.
+pub struct Sweep {
+    pub config: SweepConfig,
+    pub plan: Plan,
+    /// Pairs of points that claims compare.
+    pub pairs: Vec<Pair>,
+    /// Of each pair what it is compared by.
+    pub compared: Vec<Compared>,
+    /// The counter of every point.
+    pub keys: Vec<Key>,
+    /// Every counter once, in the order of the keys, and what it counts.
+    pub targets: Vec<Target>,
+    pub subjects: Vec<Subject>,
+}
+
+/// What a counter counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Subject {
+    /// How often a point of the plan decides for H₁.
+    Point(usize),
+    /// Of two points that share their noise, how often only the first, only the second does.
+    Pair([usize; 2]),
+}
+
+/// How two points are compared.
+#[derive(Clone, Debug)]
+pub enum Compared {
+    /// They are the same and never differ.
+    Itself,
+    /// By the trials of the noise they share.
+    Paired(Key, [usize; 2]),
+    /// By their rates alone.
+    Apart,
+}
+
+impl Subject {
+    /// What its counter adds up.
+    pub fn shape(self) -> Shape {
+        Shape::events(match self {
+            Self::Point(_) => 1,
+            Self::Pair(_) => 2,
+        })
+    }
+}
+
+impl Sweep {
+    /// Plans a config.
+    ///
+    /// # Errors
+    /// Where a parameter of a point is out of range, no region or record can be made for it, or there is more
+    /// than can be planned, compared or drawn.
+    pub fn new(config: SweepConfig) -> Result<Self, StudyError> {
+        check_sizes(&config)?;
+        let plan = Plan::new(&config)?;
+        let keys: Vec<Key> = identities(&plan)
+            .map(|identity| identity.key(SWEEP, plan.seed, plan.common_random_numbers))
+            .collect();
+        let pairs = plan.pairs(&config);
+        let family_of = plan.families();
+        let compared: Vec<Compared> = pairs
+            .iter()
+            .map(|pair| Compared::new([pair.first, pair.second], &keys, &family_of))
+            .collect();
+        let points = keys.iter().cloned().zip((0..).map(Subject::Point));
+        let of_pairs = compared.iter().filter_map(|compared| match compared {
+            Compared::Paired(key, places) => Some((key.clone(), Subject::Pair(*places))),
+            Compared::Itself | Compared::Apart => None,
+        });
+        let each: BTreeMap<Key, Subject> = points.chain(of_pairs).collect();
+        let target = |(key, subject): (&Key, &Subject)| Target {
+            key: key.clone(),
+            shape: subject.shape(),
+        };
+        Ok(Self {
+            targets: each.iter().map(target).collect(),
+            subjects: each.into_values().collect(),
+            config,
+            plan,
+            pairs,
+            compared,
+            keys,
+        })
+    }
+
+    /// How a point decides, as far as that is known.
+    pub fn decision(&self, point: &Point, key: &Key, counts: &Counts) -> DecisionSummary {
+        let known = counts.decisions.get(key).copied();
+        known.unwrap_or_else(|| Row::new(point, None, NOTHING, 0.5).decision())
+    }
+}
+
+/// An interval takes a millisecond.
+const MOST_COMPARISONS: usize = 50_000;
+/// A panel takes 16 MB while it is drawn.
+const MOST_PANELS: usize = 12;
+
+/// Refuses what would take hours or gigabytes, before anything is paid for.
+fn check_sizes(config: &SweepConfig) -> Result<(), TooMany> {
+    let comparisons = claim::number_of_pairs(&config.narrative.claims, &config.scope);
+    let remedy = "make fewer claims, or of fewer curves";
+    TooMany::check("comparisons", comparisons, MOST_COMPARISONS, remedy)?;
+    let panels: BTreeSet<_> = config
+        .scope
+        .curves
+        .iter()
+        .map(|curve| &curve.panel)
+        .collect();
+    TooMany::check("panels", panels.len(), MOST_PANELS, "split the config")
+}
+
+/// A point that was not counted.
+pub const NOTHING: Tally = Tally { hits: 0, trials: 1 };
+
+impl Compared {
+    fn new(places: [usize; 2], keys: &[Key], family_of: &[usize]) -> Self {
+        let pair = places.map(|place| &keys[place]);
+        let [first, second] = places.map(|place| family_of[place]);
+        match (pair[0] == pair[1], first == second) {
+            (true, _) => Self::Itself,
+            (_, true) => Self::Paired(Key::pair(pair), places),
+            _ => Self::Apart,
+        }
+    }
+}
+
+/// Every parameter of every point, its place among the curves apart.
+pub fn identities(plan: &Plan) -> impl Iterator<Item = Identity> + '_ {
+    plan.points.iter().map(|point| Identity {
+        parameters: results::parameters(&point.scenario),
+        place: format!(", in curve {}", point.curve + 1),
+    })
+}
