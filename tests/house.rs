@@ -94,43 +94,49 @@ fn expanded(tree: &str) -> Vec<String> {
         .collect()
 }
 
-fn uses(text: &str) -> Vec<Use> {
-    let flat = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    let mut uses = Vec::new();
-    for statement in flat.split(';') {
-        let Some((before, tree)) = statement.rsplit_once("use ") else {
+/// The names that a file brings in, and its code without the statements that do so.
+fn split(text: &str) -> (Vec<Use>, String) {
+    let (mut uses, mut code) = (Vec::new(), String::new());
+    let mut lines = text.lines();
+    while let Some(line) = lines.next() {
+        let Some((before, tree)) = line.split_once("use ").filter(|(before, _)| {
+            let before = before.trim();
+            before.is_empty() || before == "pub" || before.starts_with("pub(")
+        }) else {
+            code.extend([line, "\n"]);
             continue;
         };
-        for path in expanded(tree) {
+        let mut tree = tree.to_owned();
+        while !tree.ends_with(';') {
+            tree.push_str(lines.next().unwrap().trim());
+        }
+        for path in expanded(tree.trim_end_matches(';')) {
             let (path, alias) = path.split_once(" as ").unwrap_or((&path, ""));
-            let last = path.rsplit("::").next().unwrap_or_default();
+            let last = path.rsplit("::").next().unwrap();
             uses.push(Use {
-                is_public: before.trim_end().ends_with("pub") || before.trim_end().ends_with(')'),
-                name: if alias.is_empty() {
-                    last.to_owned()
-                } else {
-                    alias.trim().to_owned()
-                },
-                path: path.trim().to_owned(),
+                is_public: !before.trim().is_empty(),
+                name: if alias.is_empty() { last } else { alias }.to_owned(),
+                path: path.to_owned(),
             });
         }
     }
-    uses
+    (uses, code)
 }
 
 struct House {
-    library: BTreeMap<String, String>,
+    code: BTreeMap<String, String>,
     uses: BTreeMap<String, Vec<Use>>,
 }
 
 impl House {
     fn new() -> Self {
-        let library = library();
-        let uses = library
-            .iter()
-            .map(|(module, text)| (module.clone(), uses(text)))
-            .collect();
-        Self { library, uses }
+        let (mut code, mut uses) = (BTreeMap::new(), BTreeMap::new());
+        for (module, text) in library() {
+            let (names, rest) = split(&text);
+            code.insert(module.clone(), rest);
+            uses.insert(module, names);
+        }
+        Self { code, uses }
     }
 
     /// A path as written in `module`, from the root of the crate.
@@ -147,7 +153,7 @@ impl House {
                     parts.remove(0);
                 }
             }
-            first if self.library.contains_key(&format!("{module}::{first}")) => {}
+            first if self.code.contains_key(&format!("{module}::{first}")) => {}
             _ => return None,
         }
         base.extend(parts);
@@ -158,7 +164,7 @@ impl House {
     fn file(&self, path: &[String], depth: usize) -> Option<String> {
         let end = (1..=path.len())
             .rev()
-            .find(|&end| self.library.contains_key(&path[..end].join("::")))?;
+            .find(|&end| self.code.contains_key(&path[..end].join("::")))?;
         let module = path[..end].join("::");
         let Some(name) = path.get(end).filter(|_| depth < 20) else {
             return Some(module);
@@ -172,29 +178,58 @@ impl House {
 
     /// The files that a file needs. What it only passes on it does not need.
     fn needs(&self, module: &str) -> BTreeSet<String> {
-        let imported = self.uses[module]
-            .iter()
-            .filter(|of| !of.is_public)
-            .map(|of| of.path.clone());
-        let words =
-            self.library[module].split(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':'));
-        let named = words.filter(|word| word.contains("::") && !word.starts_with(':'));
-        let statements: BTreeSet<&str> = self.uses[module]
-            .iter()
-            .map(|of| of.path.as_str())
-            .collect();
-        let named = named
-            .map(|word| word.trim_end_matches(':').to_owned())
-            .filter(|word| {
-                !statements
-                    .iter()
-                    .any(|path| path.starts_with(word.as_str()))
-            });
+        let is_word = |c: char| c.is_alphanumeric() || c == '_';
+        let code = &self.code[module];
+        // A variable may be called like a function that is passed on.
+        let is_used = |name: &str| {
+            code.match_indices(name).any(|(at, _)| {
+                let before = code[..at].chars().next_back();
+                let after = code[at + name.len()..].chars().next();
+                !before.is_some_and(|c| is_word(c) || c == '.')
+                    && !after.is_some_and(is_word)
+                    && (name.starts_with(char::is_uppercase) || after == Some('('))
+            })
+        };
+        let imported = (self.uses[module].iter())
+            .filter(|of| !of.is_public || is_used(&of.name))
+            .map(|of| of.path.as_str());
+        let paths = (code.split(|c| !(is_word(c) || c == ':')))
+            .filter(|path| path.contains("::") && !path.starts_with(':'))
+            .map(|path| path.trim_end_matches(':'));
         imported
-            .chain(named)
-            .filter_map(|path| self.absolute(module, &path))
+            .chain(paths)
+            .filter_map(|path| self.absolute(module, path))
             .filter_map(|path| self.file(&path, 0))
             .filter(|file| file != module)
+            .collect()
+    }
+
+    /// The files that need each other, by way of others too, as one circle each.
+    fn circles(&self) -> BTreeSet<BTreeSet<String>> {
+        let needs: BTreeMap<&str, BTreeSet<String>> = (self.code.keys())
+            .map(|module| (module.as_str(), self.needs(module)))
+            .collect();
+        let reached = |from: &str| {
+            let (mut reached, mut next) = (BTreeSet::new(), vec![from.to_owned()]);
+            while let Some(module) = next.pop() {
+                for needed in &needs[module.as_str()] {
+                    if reached.insert(needed.clone()) {
+                        next.push(needed.clone());
+                    }
+                }
+            }
+            reached
+        };
+        let reached: BTreeMap<&str, BTreeSet<String>> =
+            (needs.keys().map(|module| (*module, reached(module)))).collect();
+        (reached.iter())
+            .map(|(module, others)| {
+                let back = others
+                    .iter()
+                    .filter(|of| reached[of.as_str()].contains(*module));
+                back.cloned().collect()
+            })
+            .filter(|circle: &BTreeSet<String>| circle.len() > 1)
             .collect()
     }
 }
@@ -210,7 +245,7 @@ fn imports_go_down() {
         .flat_map(|(floor, rooms)| rooms.iter().map(move |room| (*room, floor)))
         .collect();
     let mut needs = 0;
-    for module in house.library.keys() {
+    for module in house.code.keys() {
         let own = room(module);
         let floor = floors
             .get(own)
@@ -226,6 +261,15 @@ fn imports_go_down() {
         }
     }
     assert!(needs > 200, "the test reads the imports");
+}
+
+/// Files that need each other can only be read together.
+#[test]
+fn no_files_form_a_circle() {
+    let circles: Vec<String> = (House::new().circles().iter())
+        .map(|circle| circle.iter().cloned().collect::<Vec<_>>().join(", "))
+        .collect();
+    assert!(circles.is_empty(), "circles:\n{}", circles.join("\n"));
 }
 
 /// Terminals, argument lists and exit codes belong to the program, not to the library.

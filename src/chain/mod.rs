@@ -13,16 +13,20 @@
 //! vectors are for; from there on each trial goes its own way.
 
 mod batch;
+mod decision;
 mod family;
+mod keys;
 mod observation;
 mod replay;
-
+mod score;
 #[cfg(test)]
 mod tests;
 mod trial;
 
 pub use crate::scenario::{Calibration, Detector, Scenario};
+pub use decision::Decision;
 pub use family::{Family, Purpose, RecordTooLong};
-pub use observation::{Decision, Observation, Score, View};
+pub use observation::{Observation, View};
 pub use replay::Replay;
+pub use score::Score;
 pub use trial::Trial;

@@ -1,8 +1,9 @@
 //! One trial of one point, every stage of it laid open.
 
 use super::batch::observe;
+use super::decision::Decision;
 use super::family::{Family, Purpose, RecordTooLong};
-use super::observation::{Decision, Observation};
+use super::observation::Observation;
 use super::trial::Trial;
 use crate::detect::{Samples, Statistics, Ties};
 use crate::scenario::Scenario;

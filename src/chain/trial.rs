@@ -3,13 +3,12 @@
 
 use super::batch::{Batch, observe};
 use super::family::{Branch, Course, Family, Source};
+use super::keys::Keys;
 use super::observation::{Observation, Scratch, View};
 use crate::detect::{Crossings, Lines, Pooled, Samples, Statistics};
-use crate::rng::Stream;
 use crate::signal::Digitiser;
 use crate::simd::Vectors;
 use crate::whiten::whiten;
-use rand::Rng;
 
 /// The buffers of a trial. Times run from the first observation of the record, or, where named
 /// `motion`, from the first after X.
@@ -57,15 +56,6 @@ struct Curve {
     places: Vec<[u32; 2]>,
 }
 
-/// Keys for a trial's ties; random ones are drawn when first asked for.
-pub(super) struct Keys<'a> {
-    stream: &'a Stream,
-    trial: u64,
-    random: Vec<u64>,
-    drawn: bool,
-    positions: Vec<u64>,
-}
-
 /// From how many values of Δ on crossings are cheaper than comparing the samples at each.
 const CROSSINGS_PAY: usize = 4;
 
@@ -75,7 +65,6 @@ impl<'a> Trial<'a> {
         let source = &family.source;
         let after = source.motion_observations();
         let raw_after = after * source.samples.decimation();
-        let span = source.samples.span();
         let courses = family.branches.iter();
         let courses = courses.flat_map(|branch| branch.courses.iter().map(move |c| (branch, c)));
         let looks = family.branches.iter().any(|branch| branch.needs_record);
@@ -100,13 +89,7 @@ impl<'a> Trial<'a> {
             curves: courses
                 .map(|(branch, course)| Curve::new(branch, course))
                 .collect(),
-            keys: Keys {
-                stream: &family.ties,
-                trial: 0,
-                random: vec![0; span],
-                drawn: false,
-                positions: (0..span as u64).collect(),
-            },
+            keys: Keys::new(&family.ties, source.samples.span()),
             scratch: Scratch::default(),
         }
     }
@@ -307,30 +290,6 @@ impl Motion {
             lines(base.shift, slope.shift),
             lines(base.scale, slope.scale),
         )
-    }
-}
-
-impl Keys<'_> {
-    fn start(&mut self, trial: u64) {
-        self.trial = trial;
-        self.drawn = false;
-    }
-
-    /// A random key for each sample.
-    pub fn random(&mut self) -> &[u64] {
-        if !self.drawn {
-            let mut generator = self.stream.at(self.trial);
-            for key in &mut self.random {
-                *key = generator.next_u64();
-            }
-            self.drawn = true;
-        }
-        &self.random
-    }
-
-    /// Keys in the order of time.
-    pub fn positions(&self) -> &[u64] {
-        &self.positions
     }
 }
 

@@ -35,6 +35,7 @@
 
 mod comparison;
 mod contrast;
+mod evidence;
 mod false_alarm;
 mod gain;
 mod growth;
@@ -46,92 +47,17 @@ mod scope;
 #[cfg(test)]
 mod tests;
 mod values;
+mod verdict;
 pub mod words;
 
 pub use comparison::{Comparison, Place};
+pub use evidence::{Evidence, Outcome};
 pub use gain::gains;
 pub use narrative::{Claim, Contrasts, Narrative, Test, Words};
 pub use pairs::{Pair, comparisons, confidence, number_of_pairs, pairs};
 pub use quantity::{Quantity, named_quantity};
 pub use scope::{Axis, ClaimProblem, Curve, Scope};
-
-use crate::stats::tally::Tally;
-
-/// The results that claims are judged by.
-#[derive(Clone, Debug, Default)]
-pub struct Evidence {
-    /// Of the sweep, if it is one.
-    pub scope: Scope,
-    /// Of `points.csv`.
-    pub outcomes: Vec<Outcome>,
-    /// `comparisons.csv`, claim by claim.
-    pub comparisons: Vec<Comparison>,
-    /// `quantities.csv`
-    pub quantities: Vec<Quantity>,
-}
-
-/// A rate, where it stands, and what its rule promises.
-#[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs, reason = "the columns of points.csv")]
-pub struct Outcome {
-    pub label: String,
-    /// Its value on the axis, as the axis prints it.
-    pub value: String,
-    pub is_at_rest: bool,
-    pub tally: Tally,
-    pub low: f64,
-    pub high: f64,
-    pub alpha: f64,
-    pub size: Option<f64>,
-    pub reachable: Option<f64>,
-}
-
-impl Evidence {
-    /// The comparisons of a claim, from 1.
-    fn compared(&self, claim: usize) -> &[Comparison] {
-        let of_claim = self.comparisons.chunk_by(|a, b| a.claim == b.claim);
-        let mut of_claim = of_claim.filter(|chunk| chunk[0].claim == claim);
-        of_claim.next().unwrap_or_default()
-    }
-}
-
-/// The verdict on a claim.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Judgement {
-    /// The conclusion.
-    pub verdict: Verdict,
-    /// The numbers behind it, in words.
-    pub evidence: String,
-    /// The rule, in words.
-    pub how: String,
-}
-
-/// What may be concluded.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// Shown everywhere.
-    Holds,
-    /// Refuted, but shown in these ranges of the axis.
-    HoldsWhere(String),
-    /// Refuted.
-    DoesNotHold,
-    /// The trials were too few to tell.
-    Undecided,
-}
-
-/// Why a claim cannot be judged by these results.
-#[derive(Debug, thiserror::Error)]
-#[allow(missing_docs, reason = "the messages say it")]
-pub enum ClaimError {
-    #[error("quantity `{name}`: not among the results, which have {known} (correct the name)")]
-    NoQuantity { name: String, known: String },
-    #[error("curve {0}: its points have not been compared for this claim (simulate again)")]
-    NotCompared(String),
-    #[error("curve {0}: no row at rest of its own (name the first curve that shares its rest)")]
-    NoRest(String),
-    #[error("curve {0}: no row for each value of the axis (let something move in it)")]
-    NoRows(String),
-}
+pub use verdict::{ClaimError, Judgement, Verdict};
 
 /// Judges a claim, the `number`-th (from 1) of its config.
 ///

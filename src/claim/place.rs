@@ -1,24 +1,7 @@
 //! Where results stand on the axis, and the places where a claim is shown.
 
-use super::{Axis, Evidence, Outcome, Verdict};
+use super::Axis;
 use crate::format::minus;
-
-impl Evidence {
-    /// The outcomes of a curve, in motion or at rest, each with its value on the axis.
-    ///
-    /// A curve with one for each value is placed by the values themselves, which a row need not repeat; at
-    /// rest equal points are simulated once, and what their rows say must do.
-    pub fn along(&self, label: &str, is_at_rest: bool) -> Vec<(&str, &Outcome)> {
-        let is_wanted = |o: &&Outcome| o.label == label && o.is_at_rest == is_at_rest;
-        let outcomes: Vec<&Outcome> = self.outcomes.iter().filter(is_wanted).collect();
-        let values = &self.scope.axis.values;
-        let has_all = outcomes.len() == values.len();
-        let value = |index: usize, own| if has_all { &values[index].0 } else { own };
-        (outcomes.into_iter().enumerate())
-            .map(|(index, outcome)| (value(index, &outcome.value).as_str(), outcome))
-            .collect()
-    }
-}
 
 impl Axis {
     /// `Δ/σ_ξ = 0.3`, `rule wilcoxon`.
@@ -63,16 +46,5 @@ pub(super) fn named_ranges(name: &str, ranges: &[String]) -> Option<String> {
         (true, _) => None,
         (_, true) => Some(ranges),
         _ => Some(format!("{name}: {ranges}")),
-    }
-}
-
-impl Verdict {
-    /// On a claim that is refuted somewhere: it holds where it is shown, if there is such a place for each of
-    /// its curves.
-    pub(super) fn where_shown(places: impl Iterator<Item = Option<String>>) -> Self {
-        match places.collect::<Option<Vec<String>>>() {
-            Some(places) => Self::HoldsWhere(places.join("; ")),
-            None => Self::DoesNotHold,
-        }
     }
 }

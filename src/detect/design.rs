@@ -1,7 +1,6 @@
 //! Filling regions: from the exact laws at one set of sizes to the critical values of each rule.
 
 use super::law::{NullLaw, NullLawError, check_memory, ratio};
-use super::likelihood::LikelihoodOrder;
 use super::region::{NEVER, Region, RegionError};
 use super::rule::{Alternative, Rule};
 use super::samples::Samples;
@@ -103,18 +102,12 @@ impl NullLaws {
         }
     }
 
-    /// The most powerful region of size at most `alpha` for what the order was made for; empty where
-    /// no cell fits the level.
-    pub fn likelihood_region(&self, order: &LikelihoodOrder, alpha: f64) -> Region {
-        self.with_critical(order.critical(self, alpha))
-    }
-
     /// A region that never decides H₁.
     pub fn empty_region(&self) -> Region {
         self.with_critical(vec![NEVER; self.columns()])
     }
 
-    fn with_critical(&self, critical: Vec<u64>) -> Region {
+    pub(super) fn with_critical(&self, critical: Vec<u64>) -> Region {
         let reachable = |c| if c > self.score.last() { NEVER } else { c };
         let critical: Vec<u64> = critical.into_iter().map(reachable).collect();
         Region {

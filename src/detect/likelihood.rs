@@ -13,7 +13,7 @@
 
 use super::design::NullLaws;
 use super::law::NullLaw;
-use super::region::NEVER;
+use super::region::{NEVER, Region};
 use super::statistics::Statistics;
 use std::collections::BTreeMap;
 
@@ -111,7 +111,7 @@ impl LikelihoodOrder {
     /// The critical scores of the region of size at most `alpha`: pools from the top, the last one
     /// from its highest score on, as far as the level allows. What level the pilot's cells leave goes to
     /// cells that it never saw.
-    pub(super) fn critical(&self, laws: &NullLaws, alpha: f64) -> Vec<u64> {
+    fn critical(&self, laws: &NullLaws, alpha: f64) -> Vec<u64> {
         let mut critical = vec![NEVER; laws.columns()];
         let mut size = 0.0;
         for pool in &self.pools {
@@ -165,6 +165,14 @@ impl LikelihoodOrder {
             }
         }
         filled(f64::from_bits(low))
+    }
+}
+
+impl NullLaws {
+    /// The most powerful region of size at most `alpha` for what the order was made for; empty where
+    /// no cell fits the level.
+    pub fn likelihood_region(&self, order: &LikelihoodOrder, alpha: f64) -> Region {
+        self.with_critical(order.critical(self, alpha))
     }
 }
 

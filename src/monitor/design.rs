@@ -1,7 +1,7 @@
 //! Settings at one sampling rate: blocks of whole samples, the region of the decisions.
 
-use super::settings::{LONGEST_BLOCK, Settings, WHY_SHORT};
-use crate::detect::{Alternative, NullLawError, NullLaws, Region, RegionError, Rule, Samples};
+use super::settings::{LONGEST_BLOCK, Settings, SettingsError, WHY_SHORT};
+use crate::detect::{Alternative, NullLaws, Region, Rule, Samples};
 use crate::rule::{self, OutOfRange};
 
 /// Settings at one sampling rate.
@@ -17,38 +17,6 @@ pub struct Design {
     pub block: f64,
     /// Samples per second.
     pub rate: f64,
-}
-
-/// Why settings were refused.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs, reason = "the messages say it")]
-pub enum SettingsError {
-    #[error(transparent)]
-    Value(#[from] OutOfRange),
-    #[error(transparent)]
-    Law(#[from] NullLawError),
-    #[error(transparent)]
-    Region(#[from] RegionError),
-}
-
-impl SettingsError {
-    /// The path of the setting to change, or `rate`.
-    pub fn key(&self) -> &str {
-        match self {
-            Self::Value(error) => &error.key,
-            Self::Law(_) => "samples.reference",
-            Self::Region(_) => "detector.alpha",
-        }
-    }
-
-    /// The same of a key that the user writes in another way than as a path.
-    #[must_use]
-    pub fn called(mut self, name: impl Fn(&str) -> String) -> Self {
-        if let Self::Value(error) = &mut self {
-            error.key = name(&error.key);
-        }
-        self
-    }
 }
 
 impl Settings {

@@ -50,12 +50,12 @@ mod step_input;
 mod tests;
 
 pub use blocks::STRONGEST;
-pub use design::{Design, SettingsError};
+pub use design::Design;
 pub use event::{Alarm, Decision, Direction, Event, Kind, Span, State};
 pub use learn::NoRest;
 pub use reference::Reference;
 pub use saved_state::{SavedState, SavedStateError};
-pub use settings::{Level, Limits, MOST_ORDER, Settings, Sizes, Whitening};
+pub use settings::{Level, Limits, MOST_ORDER, Settings, SettingsError, Sizes, Whitening};
 
 use crate::signal::recording::Sample;
 use blocks::{Block, Blocks};

@@ -7,7 +7,7 @@
 //! noise, and the first zero of its frequency response lies at the block rate, which is all the anti-aliasing that
 //! ranks of levels need.
 
-use super::design::SettingsError;
+use crate::detect::{NullLawError, RegionError};
 use crate::rule::{Checked, Explained, OutOfRange, Rule};
 pub use crate::whiten::MOST_ORDER;
 use crate::whiten::Order;
@@ -152,6 +152,38 @@ impl Settings {
             Ok(()) => Ok(changed),
             Err(error) => Err(error.called(|path| called(last_word(path)))),
         }
+    }
+}
+
+/// Why settings were refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "the messages say it")]
+pub enum SettingsError {
+    #[error(transparent)]
+    Value(#[from] OutOfRange),
+    #[error(transparent)]
+    Law(#[from] NullLawError),
+    #[error(transparent)]
+    Region(#[from] RegionError),
+}
+
+impl SettingsError {
+    /// The path of the setting to change, or `rate`.
+    pub fn key(&self) -> &str {
+        match self {
+            Self::Value(error) => &error.key,
+            Self::Law(_) => "samples.reference",
+            Self::Region(_) => "detector.alpha",
+        }
+    }
+
+    /// The same of a key that the user writes in another way than as a path.
+    #[must_use]
+    pub fn called(mut self, name: impl Fn(&str) -> String) -> Self {
+        if let Self::Value(error) = &mut self {
+            error.key = name(&error.key);
+        }
+        self
     }
 }
 

@@ -15,21 +15,23 @@
 //!
 //! [^1]: see [`crate::signal`].
 
+mod chosen;
 mod fit;
+mod normal_equations;
 mod order;
 mod portmanteau;
 mod schwarz;
 #[cfg(test)]
 mod tests;
 
+pub use chosen::{Chosen, OrderError, coefficients};
 pub use fit::Fitter;
 pub use order::{MOST_ORDER, Order};
 pub use portmanteau::{LjungBox, PortmanteauError};
-pub use schwarz::{Chosen, OrderError, coefficients};
 
 use crate::simd::Value;
+use order::SAMPLES_PER_COEFFICIENT;
 use schemars::JsonSchema;
-use schwarz::SAMPLES_PER_COEFFICIENT;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 

@@ -5,7 +5,6 @@
 //! 3920 that order, the others one or two more. The false-alarm rate of the chain is then as with order 2
 //! given: 982 and 980 in 100 000 trials at α = 0.01.
 
-use super::schwarz::SAMPLES_PER_COEFFICIENT;
 use serde::de::{Deserializer, Error, Unexpected, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 use std::fmt;
@@ -32,6 +31,10 @@ impl schemars::JsonSchema for Order {
         schemars::json_schema!({ "anyOf": [{ "type": "integer", "minimum": 0 }, { "const": "auto" }] })
     }
 }
+
+/// Samples for each coefficient of the highest order, below which the likelihood ratio is far from its
+/// limit law and the criterion adds coefficients as it likes.
+pub(super) const SAMPLES_PER_COEFFICIENT: usize = 5;
 
 /// The highest order that [`Order::Auto`] tries.
 pub const MOST_ORDER: usize = 8;

@@ -1,6 +1,5 @@
 //! The values of Δ that crossings are counted at, and where among them two lines cross.
 
-use super::Lines;
 use crate::simd::Wide;
 
 /// The values of Δ, in ascending order.
@@ -58,22 +57,6 @@ impl Grid {
             first as u32
         });
         (behind, nearest)
-    }
-
-    /// The largest value that a line may have.
-    #[inline(always)]
-    pub fn largest(&self, lines: Lines) -> f64 {
-        let delta = self.deltas[0]
-            .abs()
-            .max(self.deltas[self.deltas.len() - 1].abs());
-        let (mut base, mut slope) = (0.0, 0.0);
-        for value in lines.base {
-            base = greatest(base, value.abs());
-        }
-        for value in lines.slope {
-            slope = greatest(slope, value.abs());
-        }
-        base + delta * slope
     }
 }
 

@@ -1,6 +1,6 @@
 //! Which way is up.
 
-use super::reading::UnknownName;
+use super::unknown_name::UnknownName;
 use std::fmt;
 use std::str::FromStr;
 

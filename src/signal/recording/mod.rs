@@ -54,6 +54,7 @@ mod steps;
 mod table;
 #[cfg(test)]
 mod tests;
+mod unknown_name;
 mod vertical;
 mod warning;
 
@@ -63,8 +64,9 @@ pub use facts::Facts;
 pub use intervals::Gap;
 pub use layout::Format;
 pub use line_reader::{LineError, LineReader, LineReading};
-pub use reading::{GRAVITY, Reading, TimeUnit, Unit, UnitError, UnknownName};
+pub use reading::{GRAVITY, Reading, TimeUnit, Unit, UnitError};
 pub use series::Sample;
+pub use unknown_name::UnknownName;
 pub use vertical::{Direction, Reason, Vertical};
 pub use warning::Warning;
 

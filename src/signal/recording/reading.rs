@@ -1,6 +1,7 @@
 //! How a recording is to be read; whatever is left open is found in the file.
 
 use super::axis::Axis;
+use super::unknown_name::UnknownName;
 use std::fmt;
 use std::str::FromStr;
 
@@ -34,23 +35,6 @@ pub enum TimeUnit {
     Microseconds,
     /// ns.
     Nanoseconds,
-}
-
-/// A name that stands for nothing here.
-#[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
-#[error("must be {known}, got \"{got}\"")]
-pub struct UnknownName {
-    known: &'static str,
-    got: String,
-}
-
-impl UnknownName {
-    pub(super) fn new(known: &'static str, got: &str) -> Self {
-        Self {
-            known,
-            got: got.to_owned(),
-        }
-    }
 }
 
 impl FromStr for TimeUnit {

@@ -1,0 +1,77 @@
+//! The decision on a trial.
+
+use super::observation::Observation;
+use super::score::Score;
+use crate::detect::{Region, Ties};
+use std::sync::Arc;
+
+/// What decides between H₀ and H₁ at a point.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Decision {
+    /// Whether (W, T) lies in ϑ.
+    Region {
+        /// ϑ.
+        region: Arc<Region>,
+        /// What becomes of equal values.
+        ties: Ties,
+    },
+    /// Whether a score lies above a threshold.
+    Threshold {
+        /// The score.
+        score: Arc<Score>,
+        /// What it must exceed.
+        threshold: f64,
+    },
+}
+
+impl Decision {
+    /// Whether it decides H₁.
+    #[inline(always)]
+    pub fn is_h1(&self, observation: &mut Observation) -> bool {
+        match self {
+            Self::Region { region, ties } => region.contains(observation.statistics(*ties)),
+            Self::Threshold { score, threshold } => score.of(observation) > *threshold,
+        }
+    }
+
+    /// Whether both are one and the same.
+    pub fn is_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Region { region, ties }, Self::Region { region: r, ties: t }) => {
+                Arc::ptr_eq(region, r) && ties == t
+            }
+            (
+                Self::Threshold { score, threshold },
+                Self::Threshold {
+                    score: s,
+                    threshold: t,
+                },
+            ) => Arc::ptr_eq(score, s) && threshold == t,
+            _ => false,
+        }
+    }
+
+    /// P(H₁* | H₀) by the exact laws, where they say.
+    pub fn size(&self) -> Option<f64> {
+        match self {
+            Self::Region { region, .. } => Some(region.size()),
+            Self::Threshold { .. } => None,
+        }
+    }
+
+    /// The smallest level that its rule can reach, where the exact laws say.
+    pub fn reachable(&self) -> Option<f64> {
+        match self {
+            Self::Region { region, .. } => region.reachable(),
+            Self::Threshold { .. } => None,
+        }
+    }
+
+    /// What a score must exceed.
+    pub fn threshold(&self) -> Option<f64> {
+        match self {
+            Self::Region { .. } => None,
+            Self::Threshold { threshold, .. } => Some(*threshold),
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Keys that put equal samples in an order.
+
+use crate::rng::Stream;
+use rand::Rng;
+
+/// Keys for a trial's ties; random ones are drawn when first asked for.
+pub(super) struct Keys<'a> {
+    stream: &'a Stream,
+    trial: u64,
+    random: Vec<u64>,
+    drawn: bool,
+    positions: Vec<u64>,
+}
+
+impl<'a> Keys<'a> {
+    /// For trials that span so many samples.
+    pub fn new(stream: &'a Stream, span: usize) -> Self {
+        Self {
+            stream,
+            trial: 0,
+            random: vec![0; span],
+            drawn: false,
+            positions: (0..span as u64).collect(),
+        }
+    }
+
+    pub fn start(&mut self, trial: u64) {
+        self.trial = trial;
+        self.drawn = false;
+    }
+
+    /// A random key for each sample.
+    pub fn random(&mut self) -> &[u64] {
+        if !self.drawn {
+            let mut generator = self.stream.at(self.trial);
+            for key in &mut self.random {
+                *key = generator.next_u64();
+            }
+            self.drawn = true;
+        }
+        &self.random
+    }
+
+    /// Keys in the order of time.
+    pub fn positions(&self) -> &[u64] {
+        &self.positions
+    }
+}

@@ -1,0 +1,115 @@
+//! Statistics that replace W and T.
+
+use super::observation::{Observation, Scratch};
+use crate::detect::{
+    Alternative, Baseline, Clairvoyant, Method, Pooled, block_means, student_t, variance_ratio,
+};
+use crate::scenario::Scenario;
+use crate::signal::During;
+use crate::whiten::{step, whiten};
+
+/// A statistic that replaces W and T, ready for one scenario: large values speak for H₁.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Score {
+    /// Of the whitened samples.
+    StudentT(Alternative),
+    /// Of the whitened samples.
+    VarianceRatio,
+    /// Of the record.
+    BlockMeans(Alternative),
+    /// Of the record, whitened with the filter `ar`.
+    Clairvoyant {
+        /// The sensor's autoregression.
+        ar: Vec<f64>,
+        /// The statistic of its innovations.
+        statistic: Clairvoyant,
+    },
+}
+
+impl Score {
+    /// That of the scenario's method, if it is one.
+    pub fn new(scenario: &Scenario) -> Option<Self> {
+        let detector = &scenario.detector;
+        match detector.method {
+            Method::Baseline(Baseline::StudentT) => Some(Self::StudentT(detector.alternative)),
+            Method::Baseline(Baseline::VarianceRatio) => Some(Self::VarianceRatio),
+            Method::Baseline(Baseline::BlockMeans) => Some(Self::BlockMeans(detector.alternative)),
+            Method::Baseline(Baseline::Clairvoyant) => Some(Self::Clairvoyant {
+                ar: scenario.sensor.ar().to_vec(),
+                statistic: clairvoyant(scenario)?,
+            }),
+            Method::Rule(_) | Method::LikelihoodRatio => None,
+        }
+    }
+
+    /// Its value; negative infinity where it has none, as in a record of one value.
+    #[inline(never)]
+    pub fn of(&self, observation: &mut Observation) -> f64 {
+        let Pooled {
+            reference,
+            shift,
+            scale,
+        } = observation.pooled;
+        let value = match self {
+            Self::StudentT(alternative) => {
+                alternative.directed(student_t(shift, [reference, scale]))
+            }
+            Self::VarianceRatio => variance_ratio(reference, scale),
+            Self::BlockMeans(alternative) => {
+                let (samples, rest) = (observation.samples, observation.rest);
+                let (shifted, from) = (samples.shift_range(), samples.reference());
+                let shifted = &observation.motion[shifted.start - from..shifted.end - from];
+                alternative.directed(block_means(rest, shifted))
+            }
+            Self::Clairvoyant { ar, statistic } => {
+                let Scratch {
+                    innovations,
+                    forward,
+                } = &mut *observation.scratch;
+                innovate(ar, observation.rest, observation.motion, innovations);
+                statistic.log_likelihood_ratio(innovations, forward)
+            }
+        };
+        // The sign of a NaN is the machine's own, so it must not be sorted.
+        if value.is_nan() {
+            f64::NEG_INFINITY
+        } else {
+            value
+        }
+    }
+}
+
+/// The clairvoyant of the scenario's stated motion.
+fn clairvoyant(scenario: &Scenario) -> Option<Clairvoyant> {
+    let (motion, impulses) = scenario.detector.stated?;
+    let stated = Scenario {
+        motion,
+        impulses,
+        ..scenario.clone()
+    };
+    let ar = scenario.sensor.ar();
+    let shape = stated.shape();
+    let mut shift = vec![0.0; shape.len()];
+    whiten(ar, &shape, 0, &mut shift);
+    let delta = stated.record_delta();
+    shift.iter_mut().for_each(|d| *d *= delta);
+    let samples = &scenario.samples;
+    let first_impulse = match impulses.during() {
+        During::Motion => 0,
+        During::Inertial => samples.scale_range().start - samples.reference(),
+    };
+    let (nu, theta) = (impulses.nu(), impulses.theta());
+    Some(Clairvoyant::new(shift, first_impulse, nu, theta, ar))
+}
+
+/// Whitens `motion`, which follows `rest`, with the filter `ar`.
+fn innovate(ar: &[f64], rest: &[f64], motion: &[f64], innovations: &mut Vec<f64>) {
+    let past = &rest[rest.len() - ar.len()..];
+    innovations.clear();
+    for i in 0..motion.len() {
+        // The first few look back into the rest.
+        let (near, far) = ar.split_at(i.min(ar.len()));
+        let near = step(near, &motion[..i], motion[i]);
+        innovations.push(step(far, past, near));
+    }
+}

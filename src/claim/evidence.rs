@@ -1,0 +1,59 @@
+//! The results that claims are judged by.
+
+use super::comparison::Comparison;
+use super::quantity::Quantity;
+use super::scope::Scope;
+use crate::stats::tally::Tally;
+
+/// The results that claims are judged by.
+#[derive(Clone, Debug, Default)]
+pub struct Evidence {
+    /// Of the sweep, if it is one.
+    pub scope: Scope,
+    /// Of `points.csv`.
+    pub outcomes: Vec<Outcome>,
+    /// `comparisons.csv`, claim by claim.
+    pub comparisons: Vec<Comparison>,
+    /// `quantities.csv`
+    pub quantities: Vec<Quantity>,
+}
+
+/// A rate, where it stands, and what its rule promises.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs, reason = "the columns of points.csv")]
+pub struct Outcome {
+    pub label: String,
+    /// Its value on the axis, as the axis prints it.
+    pub value: String,
+    pub is_at_rest: bool,
+    pub tally: Tally,
+    pub low: f64,
+    pub high: f64,
+    pub alpha: f64,
+    pub size: Option<f64>,
+    pub reachable: Option<f64>,
+}
+
+impl Evidence {
+    /// The outcomes of a curve, in motion or at rest, each with its value on the axis.
+    ///
+    /// A curve with one for each value is placed by the values themselves, which a row need not repeat; at
+    /// rest equal points are simulated once, and what their rows say must do.
+    pub fn along(&self, label: &str, is_at_rest: bool) -> Vec<(&str, &Outcome)> {
+        let is_wanted = |o: &&Outcome| o.label == label && o.is_at_rest == is_at_rest;
+        let outcomes: Vec<&Outcome> = self.outcomes.iter().filter(is_wanted).collect();
+        let values = &self.scope.axis.values;
+        let has_all = outcomes.len() == values.len();
+        let value = |index: usize, own| if has_all { &values[index].0 } else { own };
+        (outcomes.into_iter().enumerate())
+            .map(|(index, outcome)| (value(index, &outcome.value).as_str(), outcome))
+            .collect()
+    }
+
+    /// The comparisons of a claim, from 1.
+    pub(super) fn compared(&self, claim: usize) -> &[Comparison] {
+        let of_claim = self.comparisons.chunk_by(|a, b| a.claim == b.claim);
+        let mut of_claim = of_claim.filter(|chunk| chunk[0].claim == claim);
+        of_claim.next().unwrap_or_default()
+    }
+}

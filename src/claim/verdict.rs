@@ -1,0 +1,50 @@
+//! What may be concluded of a claim.
+
+/// The verdict on a claim.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judgement {
+    /// The conclusion.
+    pub verdict: Verdict,
+    /// The numbers behind it, in words.
+    pub evidence: String,
+    /// The rule, in words.
+    pub how: String,
+}
+
+/// What may be concluded.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Shown everywhere.
+    Holds,
+    /// Refuted, but shown in these ranges of the axis.
+    HoldsWhere(String),
+    /// Refuted.
+    DoesNotHold,
+    /// The trials were too few to tell.
+    Undecided,
+}
+
+impl Verdict {
+    /// On a claim that is refuted somewhere: it holds where it is shown, if there is such a place for each of
+    /// its curves.
+    pub(super) fn where_shown(places: impl Iterator<Item = Option<String>>) -> Self {
+        match places.collect::<Option<Vec<String>>>() {
+            Some(places) => Self::HoldsWhere(places.join("; ")),
+            None => Self::DoesNotHold,
+        }
+    }
+}
+
+/// Why a claim cannot be judged by these results.
+#[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the messages say it")]
+pub enum ClaimError {
+    #[error("quantity `{name}`: not among the results, which have {known} (correct the name)")]
+    NoQuantity { name: String, known: String },
+    #[error("curve {0}: its points have not been compared for this claim (simulate again)")]
+    NotCompared(String),
+    #[error("curve {0}: no row at rest of its own (name the first curve that shares its rest)")]
+    NoRest(String),
+    #[error("curve {0}: no row for each value of the axis (let something move in it)")]
+    NoRows(String),
+}

@@ -1,0 +1,18 @@
+//! A name that a user may not give.
+
+/// A name that stands for nothing here.
+#[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
+#[error("must be {known}, got \"{got}\"")]
+pub struct UnknownName {
+    known: &'static str,
+    got: String,
+}
+
+impl UnknownName {
+    pub(super) fn new(known: &'static str, got: &str) -> Self {
+        Self {
+            known,
+            got: got.to_owned(),
+        }
+    }
+}
