@@ -1,17 +1,16 @@
 //! A sweep: an axis, curves, and the scenario of each value on each curve: file ⊕ curve ⊕ axis.
 
-use super::{ConfigError, Experiment, Header, Keys, Overlay, SECTIONS};
+use super::file::{Experiment, SECTIONS, SWEEP};
+use super::header::Header;
+use super::overlay::{Keys, Overlay};
 use crate::claim::{self, Curve, Narrative, Scope};
-use crate::config::{Axis, AxisValue, Conflict, Unfit};
+use crate::config::{Axis, AxisValue, ConfigError, Conflict, Unfit};
 use crate::scenario::{PARAMETERS, Parameter, Scenario, parameter};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::error::Error;
 use std::path::Path;
-
-/// The table that makes a config a sweep.
-pub const SWEEP: &str = "axis";
 
 /// Keys of the sections of which one replaces the others.
 const CHOICES: &[&[&str]] = &[&["sensor.model", "sensor.ar", "sensor.transfer"]];
@@ -71,8 +70,8 @@ impl SweepConfig {
     /// # Errors
     /// Where it is none, or a curve or a claim is not what it must be.
     pub fn new(experiment: Experiment) -> Result<Self, ConfigError> {
-        if experiment.study != SWEEP {
-            return Err(experiment.refuse(NoSweep(experiment.study)));
+        if experiment.study() != SWEEP {
+            return Err(experiment.refuse(NoSweep(experiment.study())));
         }
         let swept: Vec<_> = (PARAMETERS.iter().filter(|parameter| parameter.is_swept()))
             .map(|parameter| (parameter.name, parameter.paths.to_vec()))

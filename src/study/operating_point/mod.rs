@@ -10,157 +10,29 @@
 //! limit reaches the power at its start the interval is open below, where the lower limit has not reached it
 //! at its end it is open above.
 
+mod grids;
 pub(super) mod picture;
 mod row;
+mod search;
 mod trials;
 
+pub use grids::OperatingPoint;
 pub use row::Row;
 
-use crate::chain::{RecordTooLong, Scenario};
-use crate::config::{Conflict, Unfit};
-use crate::counts::{Counts, Key, Shape};
-use crate::detect::{Method, NullLaws, Region, RegionError, Samples};
+use crate::counts::Counts;
 use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
-use crate::results::{self, Quantity, eight_digits};
-use crate::run::{Identity, StudyError, Target, Trials};
-use crate::scenario::ScenarioError;
-use crate::schedule::Schedule;
-use crate::signal::Motion;
-use crate::stats::tally::Tally;
-use crate::study::kind::{Context, Study, counted};
-use crate::study::rules::{distinct, each};
+use crate::results::Quantity;
+use crate::run::{Identity, StudyError, Trials};
+use crate::study::kind::{Context, Study};
+use grids::{Grids, NAME};
 use schemars::{JsonSchema, SchemaGenerator};
-use serde::Deserialize;
+use search::{DeltaRange, STEPS, Search};
 use serde_json::Value;
-use std::collections::{BTreeMap, BTreeSet};
-
-/// The powers looked for, and where: `[operating_point]`.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct Search {
-    /// N = M₁ = M₂.
-    sizes: Vec<usize>,
-    /// The powers looked for.
-    power: Vec<f64>,
-    /// Where they are looked for, Δ/σ_ξ.
-    delta: DeltaRange,
-}
-
-/// `operating_point.delta`
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct DeltaRange {
-    from: f64,
-    to: f64,
-}
-
-/// Each size has a thousand levels.
-const MOST_SIZES: usize = 100;
-const MOST_POWERS: usize = 100;
-
-impl Search {
-    fn check(&self) -> Result<(), Conflict> {
-        const SIZES: &str = "operating_point.sizes";
-        const POWER: &str = "operating_point.power";
-        let Self {
-            sizes,
-            power,
-            delta,
-        } = self;
-        distinct(
-            SIZES,
-            ["size", "sizes"],
-            MOST_SIZES,
-            sizes,
-            usize::to_string,
-        )?;
-        distinct(
-            POWER,
-            ["power", "powers"],
-            MOST_POWERS,
-            power,
-            f64::to_string,
-        )?;
-        each(SIZES, sizes, "be at least 1", |size| *size > 0)?;
-        each(POWER, power, "lie strictly between 0 and 1", |power| {
-            (f64::EPSILON..1.0).contains(power)
-        })?;
-        if delta.from >= delta.to {
-            let got = format!("{} to {}", delta.from, delta.to);
-            let unfit = Unfit::new("operating_point.delta", "rise from `from` to `to`", got);
-            return Err(unfit.into());
-        }
-        Ok(())
-    }
-}
-
-/// The operating points of a scenario at every size.
-pub(super) struct OperatingPoint {
-    context: Context,
-    scenario: Scenario,
-    search: Search,
-    sized: Vec<Sized>,
-    targets: Vec<Target>,
-    /// The place among the targets of each size's Δ, coarse or fine, by its bits.
-    places: Vec<BTreeMap<u64, usize>>,
-}
-
-/// A scenario at one size.
-struct Sized {
-    size: usize,
-    scenario: Scenario,
-    region: Region,
-    /// Δ at every step of the coarse grid.
-    coarse: Vec<f64>,
-    /// Without Δ.
-    identity: Identity,
-}
-
-impl OperatingPoint {
-    /// # Errors
-    /// Where a size has no region, a motion that does not fit, or a record that does not fit in memory.
-    fn new(context: Context, scenario: &Scenario, search: Search) -> Result<Self, StudyError> {
-        let DeltaRange { from, to } = search.delta;
-        let coarse = grid(from, to);
-        let sized = search.sizes.iter();
-        let sized = sized.map(|&size| Sized::new(scenario, size, coarse.clone()));
-        let mut study = Self {
-            sized: sized.collect::<Result<_, _>>()?,
-            scenario: scenario.clone(),
-            context,
-            search,
-            targets: Vec::new(),
-            places: Vec::new(),
-        };
-        let mut known: BTreeMap<Key, usize> = BTreeMap::new();
-        for sized in &study.sized {
-            sized.schedule(&sized.coarse, context)?;
-            let mut places = BTreeMap::new();
-            for delta in sized.deltas() {
-                let key = sized.identity(delta).key(Self::NAME, context.seed, true);
-                let next = study.targets.len();
-                let place = *known.entry(key.clone()).or_insert(next);
-                if place == next {
-                    let shape = Shape::events(1);
-                    study.targets.push(Target { key, shape });
-                }
-                places.insert(delta.to_bits(), place);
-            }
-            study.places.push(places);
-        }
-        Ok(study)
-    }
-
-    /// The counter of a size, by its place, at a Δ of its grids.
-    fn target(&self, size: usize, delta: f64) -> usize {
-        self.places[size][&delta.to_bits()]
-    }
-}
 
 impl Study for OperatingPoint {
-    const NAME: &'static str = "operating_point";
+    const NAME: &'static str = NAME;
     const USES: &'static [&'static str] = &[
         "sensor",
         "noise",
@@ -245,200 +117,6 @@ impl Study for OperatingPoint {
     }
 }
 
-/// Steps of each grid.
-const STEPS: usize = 32;
-
-/// `from`, `to` and the steps between them.
-fn grid(from: f64, to: f64) -> Vec<f64> {
-    let delta = |step| from + (to - from) * step as f64 / STEPS as f64;
-    (0..=STEPS).map(delta).collect()
-}
-
-impl Sized {
-    fn new(scenario: &Scenario, size: usize, coarse: Vec<f64>) -> Result<Self, StudyError> {
-        let (gap, decimation) = (scenario.samples.gap(), scenario.samples.decimation());
-        let samples = Samples::new(size, size, size, gap, decimation)?;
-        let detector = &scenario.detector;
-        let Method::Rule(rule) = &detector.method else {
-            let name = detector.method.name();
-            let rule = "have an exact region (name wilcoxon, product, disjunction or conjunction)";
-            return Err(Unfit::new("detector.rule", rule, name).into());
-        };
-        let laws = NullLaws::new(detector.alternative, &samples).map_err(RegionError::from)?;
-        let region = laws.region(rule, detector.alpha)?;
-        // As long as Y₁ lasts, wherever it starts: the duration follows the size.
-        let motion = Motion {
-            duration: samples
-                .acceleration()
-                .saturating_sub(scenario.motion.offset),
-            ..scenario.motion
-        };
-        let scenario = Scenario {
-            samples,
-            motion: motion.checked().map_err(ScenarioError::from)?,
-            ..scenario.clone()
-        };
-        let parameters = results::parameters(&scenario).into_iter();
-        Ok(Self {
-            identity: Identity {
-                parameters: parameters.filter(|(name, _)| name != "delta").collect(),
-                place: String::new(),
-            },
-            size,
-            scenario,
-            region,
-            coarse,
-        })
-    }
-
-    /// Δ at every step of the fine grid that ends at coarse step `above`.
-    fn fine(&self, above: usize) -> Vec<f64> {
-        grid(self.coarse[above - 1], self.coarse[above])
-    }
-
-    /// Δ at every step of every grid.
-    fn deltas(&self) -> impl Iterator<Item = f64> {
-        let fine = (1..=STEPS).flat_map(|above| self.fine(above));
-        self.coarse.iter().copied().chain(fine)
-    }
-
-    fn at(&self, delta: f64) -> Scenario {
-        let mut scenario = self.scenario.clone();
-        scenario.motion.delta = delta;
-        scenario
-    }
-
-    fn identity(&self, delta: f64) -> Identity {
-        let mut identity = self.identity.clone();
-        let delta = ("delta".to_owned(), delta.to_string());
-        identity.parameters.push(delta);
-        identity
-    }
-
-    /// The same scenario at several Δ, all on the same noise.
-    fn schedule(&self, deltas: &[f64], context: Context) -> Result<Schedule, RecordTooLong> {
-        let scenarios: Vec<Scenario> = deltas.iter().map(|&delta| self.at(delta)).collect();
-        trials::schedule(&scenarios, context).map_err(|(_, refusal)| refusal)
-    }
-}
-
-/// A rate and its interval at one Δ.
-#[derive(Clone, Copy)]
-struct Level {
-    delta: f64,
-    rate: f64,
-    low: f64,
-    high: f64,
-}
-
-/// The grids of one size, and which of the fine ones have been asked for, by the coarse step that they end at.
-struct Grids<'a> {
-    study: &'a OperatingPoint,
-    counts: &'a Counts,
-    size: usize,
-    coarse: Vec<Level>,
-    asked: BTreeSet<usize>,
-}
-
-impl<'a> Grids<'a> {
-    fn new(study: &'a OperatingPoint, counts: &'a Counts, size: usize) -> Self {
-        let mut grids = Self {
-            study,
-            counts,
-            size,
-            coarse: Vec::new(),
-            asked: BTreeSet::new(),
-        };
-        grids.coarse = grids.levels(study.sized[size].coarse.clone());
-        grids
-    }
-
-    fn levels(&self, deltas: Vec<f64>) -> Vec<Level> {
-        let level = |delta: f64| {
-            let target = &self.study.targets[self.study.target(self.size, delta)];
-            let (trials, sums) = counted(self.counts, &target.key, &target.shape);
-            let tally = Tally {
-                hits: sums.counts[0],
-                trials,
-            };
-            let (low, high) = tally.interval(self.study.context.confidence);
-            Level {
-                delta,
-                rate: tally.rate(),
-                low,
-                high,
-            }
-        };
-        deltas.into_iter().map(level).collect()
-    }
-
-    /// The fine grid from coarse step `above` − 1 to `above`.
-    fn fine(&mut self, above: usize) -> Vec<Level> {
-        self.asked.insert(above);
-        self.levels(self.study.sized[self.size].fine(above))
-    }
-
-    /// The neighbours on the fine grid between which `is_reached` first holds; twice the start of the
-    /// grid where it holds there, none where it never does.
-    fn first(&mut self, is_reached: impl Fn(&Level) -> bool) -> Option<[f64; 2]> {
-        let above = self.coarse.iter().position(&is_reached)?;
-        if above == 0 {
-            return Some([self.coarse[0].delta; 2]);
-        }
-        let fine = self.fine(above);
-        let above = fine.iter().position(is_reached).unwrap_or(STEPS).max(1);
-        Some([fine[above - 1].delta, fine[above].delta])
-    }
-
-    /// The same for the place after which `is_reached` holds to the end.
-    fn last(&mut self, is_reached: impl Fn(&Level) -> bool) -> Option<[f64; 2]> {
-        let fails = |at: &Level| !is_reached(at);
-        let Some(below) = self.coarse.iter().rposition(fails) else {
-            return Some([self.coarse[0].delta; 2]);
-        };
-        if below == STEPS {
-            return None;
-        }
-        let fine = self.fine(below + 1);
-        let below = fine.iter().rposition(fails).unwrap_or(0).min(STEPS - 1);
-        Some([fine[below].delta, fine[below + 1].delta])
-    }
-
-    fn row(&mut self, power: f64) -> Row {
-        let delta = self.first(|level| level.rate >= power);
-        let low = self.first(|level| level.high >= power);
-        let high = self.last(|level| level.low >= power);
-        let OperatingPoint {
-            context,
-            sized,
-            search,
-            ..
-        } = self.study;
-        let low = match low {
-            Some([start, above]) if start == above => None,
-            Some([below, _]) => Some(below),
-            None => Some(search.delta.to),
-        };
-        let Sized {
-            size,
-            scenario,
-            region,
-            ..
-        } = &sized[self.size];
-        Row {
-            all_samples: *size,
-            alpha: scenario.detector.alpha,
-            size: region.size(),
-            power,
-            delta: delta.map(|[_, above]| eight_digits(above)),
-            low: low.map(eight_digits),
-            high: high.map(|[_, above]| eight_digits(above)),
-            trials: context.trials,
-            confidence: context.confidence,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -446,6 +124,7 @@ mod tests {
     use crate::pilot::Pilots;
     use crate::plan::Plan;
     use crate::run;
+    use crate::stats::tally::Tally;
     use crate::study::tests::{read, rows};
 
     const SEARCH: &str = "question = \"?\"\nseed = 5\ntrials = 4000\n[impulses]\nnu = 0.2\n\

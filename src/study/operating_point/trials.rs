@@ -1,12 +1,12 @@
 //! The trials behind operating points: Δ by Δ on one noise for each size.
 
-use super::{Grids, OperatingPoint, Sized};
-use crate::chain::{Observation, Purpose, RecordTooLong, Scenario, View};
+use super::grids::{Grids, OperatingPoint};
+use super::search::Sized;
+use crate::chain::{Observation, View};
 use crate::counts::{Counts, Sums};
 use crate::detect::{Region, Ties};
 use crate::run::{Group, Simulation, Target, Trials};
 use crate::schedule::{BLOCK, Gather, Schedule};
-use crate::study::kind::Context;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -73,15 +73,6 @@ impl Trials for Levels<'_> {
         }
         Box::new(Curves { parts, groups })
     }
-}
-
-/// Scenarios on the same noise.
-pub(super) fn schedule(
-    scenarios: &[Scenario],
-    context: Context,
-) -> Result<Schedule, (usize, RecordTooLong)> {
-    let Context { seed, trials, .. } = context;
-    Schedule::new(scenarios, trials, seed, Purpose::Results, true)
 }
 
 /// Some Δ of some sizes.

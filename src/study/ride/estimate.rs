@@ -1,7 +1,7 @@
 //! From what came of each trial to rates and quantiles with exact intervals.
 
+use super::measure::Measure;
 use super::sums::RideSums;
-use super::table::Measure;
 use crate::counts::Values;
 use crate::stats::poisson;
 use crate::stats::quantile::Quantile;

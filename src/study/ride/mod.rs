@@ -24,6 +24,7 @@
 mod account;
 mod estimate;
 mod keys;
+mod measure;
 pub(super) mod picture;
 mod point;
 mod problem;

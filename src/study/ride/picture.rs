@@ -1,8 +1,8 @@
 //! Rides before the monitor: outcomes against the axis, one panel under the other; of a trade-off, the time
 //! between false motions against the delay.
 
+use super::measure::Measure;
 use super::row::Row;
-use super::table::Measure;
 use crate::figure::rates::{Curve, add_bands};
 use crate::format::thousands;
 use crate::plot::{

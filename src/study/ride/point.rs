@@ -1,8 +1,8 @@
 //! One point of a study: a drive, a cage with a sensor in it, and a monitor.
 
 use super::keys::{RideKeys, STRENGTH};
+use super::measure::Measure;
 use super::problem::RideProblem;
-use super::table::Measure;
 use crate::monitor::Settings;
 use crate::rule::{OutOfRange, Rule};
 use crate::run::Identity;

@@ -1,6 +1,6 @@
 //! Why rides were refused.
 
-use super::table::Measure;
+use super::measure::Measure;
 use crate::config::Refusal;
 use crate::monitor::SettingsError;
 use crate::rule::OutOfRange;

@@ -6,6 +6,7 @@
 //! drive's acceleration in units of sigma. Vibration, θ, quantum and jolt are in units of sigma.
 
 use super::keys::{self, RideKeys, STRENGTH};
+use super::measure::Measure;
 use super::point::RidePoint;
 use super::problem::RideProblem;
 use crate::config::{AxisValue, Conflict, Node};
@@ -13,27 +14,10 @@ use crate::experiment::schema::{self, properties};
 use crate::experiment::{ConfigError, Experiment, Keys, Overlay};
 use crate::monitor::Settings;
 use schemars::{JsonSchema, SchemaGenerator};
+use serde::Deserialize;
 use serde::de::IgnoredAny;
-use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::ops::Range;
-
-/// What is asked of each trial.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Measure {
-    /// A ride: are its trips found, and how late?
-    Rides,
-    /// A rest: how often does it look like motion?
-    Rest,
-    /// A ride and a rest: what does finding soon cost?
-    Tradeoff,
-    /// A ride whose last trip jams: does it alarm, and how late?
-    Jam,
-    /// A ride that the monitor sees from somewhere in its first uniform motion on: does it take that for
-    /// rest, and when does it know better?
-    SwitchedOn,
-}
 
 /// Rides along an axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,64 +37,6 @@ pub struct RideCurve {
     pub label: String,
     /// Each value of the axis and what it comes to here.
     pub points: Vec<(f64, RidePoint)>,
-}
-
-impl Measure {
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rides => "rides",
-            Self::Rest => "rest",
-            Self::Tradeoff => "tradeoff",
-            Self::Jam => "jam",
-            Self::SwitchedOn => "switched_on",
-        }
-    }
-
-    /// Whether it makes trips.
-    pub fn rides(self) -> bool {
-        self != Self::Rest
-    }
-
-    /// Whether it rests for a given time.
-    pub fn rests(self) -> bool {
-        matches!(self, Self::Rest | Self::Tradeoff)
-    }
-
-    /// The keys that change nothing in it.
-    fn unused(self) -> &'static [&'static str] {
-        match self {
-            Self::Rides | Self::SwitchedOn => &["length", "jam_within"],
-            Self::Rest => &[
-                "distance",
-                "speed",
-                "jerk",
-                "trips",
-                "rest",
-                "jam_within",
-                "tolerance",
-                "vibration",
-                "nu",
-                "theta",
-            ],
-            Self::Tradeoff => &["jam_within"],
-            Self::Jam => &["length"],
-        }
-    }
-
-    fn refuse(self, key: &str, place: &Range<usize>) -> Conflict {
-        let key = key.to_owned();
-        Conflict::at(place, RideProblem::Unused { key, measure: self })
-    }
-
-    /// Refuses the first key that means nothing to it.
-    fn check_used(self, values: &Node) -> Result<(), Conflict> {
-        let mut entries = values.table().into_iter().flatten();
-        match entries.find(|(key, _)| self.unused().contains(&&key[..])) {
-            Some((key, (_, node))) => Err(self.refuse(key, &node.span)),
-            None => Ok(()),
-        }
-    }
 }
 
 /// What must be there; everything else is laid over.
@@ -148,7 +74,7 @@ impl RideTable {
         )?;
         let axis = &overlay.axis;
         if measure.unused().contains(&axis.name.as_str()) {
-            return Err(measure.refuse(&axis.name, &axis.key_span));
+            return Err(refuse(measure, &axis.name, &axis.key_span));
         }
         let mut curves = Vec::new();
         for (index, laid) in overlay.curves.iter().enumerate() {
@@ -165,6 +91,20 @@ impl RideTable {
             axis: axis.name.clone(),
             curves,
         })
+    }
+}
+
+fn refuse(measure: Measure, key: &str, place: &Range<usize>) -> Conflict {
+    let key = key.to_owned();
+    Conflict::at(place, RideProblem::Unused { key, measure })
+}
+
+/// Refuses the first key that means nothing to the measure.
+fn check_used(measure: Measure, values: &Node) -> Result<(), Conflict> {
+    let mut entries = values.table().into_iter().flatten();
+    match entries.find(|(key, _)| measure.unused().contains(&&key[..])) {
+        Some((key, (_, node))) => Err(refuse(measure, key, &node.span)),
+        None => Ok(()),
     }
 }
 
@@ -192,7 +132,7 @@ fn point(
     let axis = &overlay.axis.name;
     let no_number = || Conflict::at(&value.0.span, RideProblem::NoNumber(axis.clone()));
     let number = value.number().ok_or_else(no_number)?;
-    measure.check_used(overlay.curves[curve].values())?;
+    check_used(measure, overlay.curves[curve].values())?;
     let values = overlay.at(curve, value);
     let (keys, settings) = keys::read(&values)?;
     let point = RidePoint::new(measure, keys, settings).map_err(|problem| {

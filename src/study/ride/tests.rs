@@ -2,8 +2,8 @@
 
 use super::account::{Account, Truth};
 use super::estimate::of;
+use super::measure::Measure;
 use super::sums::RideSums;
-use super::table::Measure;
 use super::{Rides, Row};
 use crate::monitor::{Alarm, Direction, Event, Kind, State};
 use crate::signal::{Journey, Phase};

@@ -1,8 +1,8 @@
 //! One trial: a ride and what a monitor said of it.
 
 use super::account::{Account, Truth};
+use super::measure::Measure;
 use super::point::RidePoint;
-use super::table::Measure;
 use crate::monitor::{Design, Event, Knowledge, Monitor};
 use crate::rng::Stream;
 use crate::signal::Ride;

@@ -1,0 +1,274 @@
+//! A config's text, its tree, and what every experiment says.
+
+use super::header::Header;
+use crate::claim::{Narrative, Scope};
+use crate::config::{ConfigError, Conflict, Node, Source};
+use crate::scenario::{Scenario, Sections};
+use crate::suggest::among;
+use serde::de::DeserializeOwned;
+use std::error::Error;
+use std::ops::Range;
+use std::path::Path;
+
+/// A config's text, its tree, and what every experiment says.
+#[derive(Clone, Debug)]
+pub struct Experiment {
+    /// What it says of itself.
+    pub header: Header,
+    pub(super) source: Source,
+    pub(super) root: Node,
+    study: &'static str,
+}
+
+/// The table that makes a config a sweep.
+pub const SWEEP: &str = "axis";
+
+/// The names of the sections.
+pub const SECTIONS: [&str; 8] = [
+    "sensor",
+    "noise",
+    "rest",
+    "motion",
+    "impulses",
+    "whitening",
+    "samples",
+    "detector",
+];
+
+/// The keys of what the report says and of the claims.
+const NARRATIVE: [&str; 4] = ["title", "text", "order", "claim"];
+
+/// Why a config describes no experiment.
+#[derive(Debug, thiserror::Error)]
+enum ExperimentError {
+    #[error("unknown key {0}")]
+    Unknown(String),
+    #[error(
+        "required key `axis` is missing (add what is swept, for instance [axis] delta = [0.0, 1.0], \
+         or one table that says what to draw: {0})"
+    )]
+    NothingToDo(String),
+    #[error(
+        "[{second}] cannot stand beside [{first}]: a config does one thing (take one of them out)"
+    )]
+    TwoThingsToDo {
+        first: &'static str,
+        second: &'static str,
+    },
+    #[error("{key} means nothing to [{study}] (take it out)")]
+    Unused { key: String, study: &'static str },
+}
+
+impl Experiment {
+    /// Reads a file that describes one of the `studies`, named by their tables.
+    ///
+    /// # Errors
+    /// Where it cannot be read, is no TOML, has an unknown key, lacks a required one, or names no study or two.
+    pub fn load(path: &Path, studies: &[&'static str]) -> Result<Self, ConfigError> {
+        Self::new(Source::load(path)?, studies)
+    }
+
+    /// Reads a file's text; `name` is what messages call it.
+    ///
+    /// # Errors
+    /// As [`Experiment::load`].
+    pub fn parse(name: &str, text: &str, studies: &[&'static str]) -> Result<Self, ConfigError> {
+        Self::new(Source::new(name, text), studies)
+    }
+
+    fn new(source: Source, studies: &[&'static str]) -> Result<Self, ConfigError> {
+        let root = source.parse()?;
+        check_known(&source, &root, studies)?;
+        let mut header: Header = source.read(&root.only(|key| Header::KEYS.contains(&key)), "")?;
+        (header.settle()).map_err(|conflict| source.conflict(&root, conflict, &root.span))?;
+        let study = study(&source, &root, studies)?;
+        Ok(Self {
+            header,
+            source,
+            root,
+            study,
+        })
+    }
+
+    /// The name of the study's table.
+    pub fn study(&self) -> &'static str {
+        self.study
+    }
+
+    /// The study's table.
+    pub fn table(&self) -> &Node {
+        self.root.get(self.study).expect("it names the study")
+    }
+
+    /// The study's table as its own type.
+    ///
+    /// # Errors
+    /// Where a key is unknown or missing, or a value does not fit.
+    pub fn read<T: DeserializeOwned>(&self) -> Result<T, ConfigError> {
+        self.read_part(self.table())
+    }
+
+    /// The same of some keys of it.
+    ///
+    /// # Errors
+    /// As [`Experiment::read`].
+    pub fn read_part<T: DeserializeOwned>(&self, part: &Node) -> Result<T, ConfigError> {
+        self.source.read(part, self.study)
+    }
+
+    /// What the sections of the file say.
+    pub fn sections(&self) -> Node {
+        self.root.only(|key| SECTIONS.contains(&key))
+    }
+
+    /// The scenario of the file's sections.
+    ///
+    /// # Errors
+    /// Where a section is not what it must be, or does not fit the others.
+    pub fn scenario(&self) -> Result<Scenario, ConfigError> {
+        self.scenario_of(&self.sections())
+    }
+
+    /// The scenario of other sections, at the study's table where they stand nowhere.
+    ///
+    /// # Errors
+    /// As [`Experiment::scenario`].
+    pub fn scenario_of(&self, sections: &Node) -> Result<Scenario, ConfigError> {
+        self.laid_scenario(sections, &self.table().span)
+    }
+
+    /// The scenario that laid sections make; `otherwise` is the place of what stands in no section.
+    pub fn laid_scenario(
+        &self,
+        laid: &Node,
+        otherwise: &Range<usize>,
+    ) -> Result<Scenario, ConfigError> {
+        let sections: Sections = self.source.read(laid, "")?;
+        sections.scenario(self.header.pilot).map_err(|error| {
+            let conflict = Conflict::of(error.keys().iter().copied(), error);
+            self.source.conflict(laid, conflict, otherwise)
+        })
+    }
+
+    /// Refuses what means nothing to a study that is no sweep: sections, or keys of them, that `uses` does not
+    /// name, and the number of trials where it counts none.
+    ///
+    /// # Errors
+    /// At the first such key.
+    pub fn check_used(&self, uses: &[&str], counts_trials: bool) -> Result<(), ConfigError> {
+        if self.study == SWEEP {
+            return Ok(());
+        }
+        let sections = self.sections();
+        // An unknown key is called unknown before it is called useless.
+        self.source.read::<Sections>(&sections, "")?;
+        let is_used = |path: &str| {
+            let section = path.split_once('.').map_or(path, |(section, _)| section);
+            uses.contains(&path) || uses.contains(&section)
+        };
+        let unused = sections
+            .written()
+            .into_iter()
+            .filter(|(path, _)| !is_used(path));
+        let of_sweeps = ["curve", "common_random_numbers", "at_rest", "pilot"];
+        let of_trials = ["trials", "half_width", "confidence"]
+            .iter()
+            .filter(|_| !counts_trials);
+        let keys = of_sweeps.iter().chain(of_trials);
+        let mut unused = keys.filter_map(|key| self.place(key)).chain(unused);
+        match unused.next() {
+            Some((key, span)) => {
+                let study = self.study;
+                Err(self
+                    .source
+                    .at(Some(span), ExperimentError::Unused { key, study }))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// A top-level key and its place; that of `[[curve]]` is the word itself.
+    fn place(&self, key: &str) -> Option<(String, Range<usize>)> {
+        let (key_span, node) = self.root.table()?.get(key)?;
+        let span = if key == "curve" { key_span } else { &node.span };
+        Some((key.to_owned(), span.clone()))
+    }
+
+    /// What it says for the report and claims, checked against what the claims may refer to.
+    ///
+    /// # Errors
+    /// Where a claim does not fit `scope`.
+    pub fn narrative(&self, scope: &Scope) -> Result<Narrative, ConfigError> {
+        let words = self.root.only(|key| NARRATIVE.contains(&key));
+        let narrative: Narrative = self.source.read(&words, "")?;
+        narrative.check(scope).map_err(|(path, problem)| {
+            let conflict = Conflict::of([path.clone()], format!("{path}: {problem}"));
+            self.source.conflict(&self.root, conflict, &self.root.span)
+        })?;
+        Ok(narrative)
+    }
+
+    /// A conflict of values, at the study's table where nothing to blame is written.
+    pub fn conflict(&self, conflict: Conflict) -> ConfigError {
+        self.source
+            .conflict(&self.root, conflict, &self.table().span)
+    }
+
+    /// A problem of the study as a whole.
+    pub fn refuse(&self, error: impl Into<Box<dyn Error + Send + Sync>>) -> ConfigError {
+        self.source.at(Some(self.table().span.clone()), error)
+    }
+
+    /// The file's text.
+    pub fn text(&self) -> &str {
+        self.source.text()
+    }
+
+    /// What messages call the file.
+    pub fn name(&self) -> &str {
+        self.source.name()
+    }
+}
+
+fn check_known(source: &Source, root: &Node, studies: &[&'static str]) -> Result<(), ConfigError> {
+    let known = (Header::KEYS
+        .iter()
+        .chain(&NARRATIVE)
+        .chain(&["axis", "curve"]))
+    .chain(studies.iter().filter(|name| **name != SWEEP))
+    .chain(&SECTIONS)
+    .copied();
+    let mut written = root.table().into_iter().flatten();
+    match written.find(|(key, _)| !known.clone().any(|known| known == *key)) {
+        Some((key, (span, _))) => {
+            let among = among(&crate::format::shorten(key), known);
+            Err(source.at(Some(span.clone()), ExperimentError::Unknown(among)))
+        }
+        None => Ok(()),
+    }
+}
+
+/// The one study whose table is there.
+fn study(
+    source: &Source,
+    root: &Node,
+    studies: &[&'static str],
+) -> Result<&'static str, ConfigError> {
+    let there = |name: &&'static str| Some((*name, root.get(name)?.span.clone()));
+    let mut asked: Vec<_> = studies.iter().filter_map(there).collect();
+    // [axis] is the first, wherever it stands.
+    asked.sort_by_key(|(name, span)| (*name != SWEEP, span.start));
+    match &asked[..] {
+        [] => {
+            let others = studies.iter().filter(|name| **name != SWEEP);
+            let tables: Vec<String> = others.map(|name| format!("[{name}]")).collect();
+            let error = ExperimentError::NothingToDo(tables.join(", "));
+            Err(source.at(Some(0..1), error))
+        }
+        [(name, _)] => Ok(name),
+        [(first, _), (second, span), ..] => Err(source.at(
+            Some(span.clone()),
+            ExperimentError::TwoThingsToDo { first, second },
+        )),
+    }
+}

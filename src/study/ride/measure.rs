@@ -1,0 +1,65 @@
+//! What is asked of rides.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What is asked of each trial.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Measure {
+    /// A ride: are its trips found, and how late?
+    Rides,
+    /// A rest: how often does it look like motion?
+    Rest,
+    /// A ride and a rest: what does finding soon cost?
+    Tradeoff,
+    /// A ride whose last trip jams: does it alarm, and how late?
+    Jam,
+    /// A ride that the monitor sees from somewhere in its first uniform motion on: does it take that for
+    /// rest, and when does it know better?
+    SwitchedOn,
+}
+
+impl Measure {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rides => "rides",
+            Self::Rest => "rest",
+            Self::Tradeoff => "tradeoff",
+            Self::Jam => "jam",
+            Self::SwitchedOn => "switched_on",
+        }
+    }
+
+    /// Whether it makes trips.
+    pub fn rides(self) -> bool {
+        self != Self::Rest
+    }
+
+    /// Whether it rests for a given time.
+    pub fn rests(self) -> bool {
+        matches!(self, Self::Rest | Self::Tradeoff)
+    }
+
+    /// The keys that change nothing in it.
+    pub fn unused(self) -> &'static [&'static str] {
+        match self {
+            Self::Rides | Self::SwitchedOn => &["length", "jam_within"],
+            Self::Rest => &[
+                "distance",
+                "speed",
+                "jerk",
+                "trips",
+                "rest",
+                "jam_within",
+                "tolerance",
+                "vibration",
+                "nu",
+                "theta",
+            ],
+            Self::Tradeoff => &["jam_within"],
+            Self::Jam => &["length"],
+        }
+    }
+}
