@@ -47,6 +47,10 @@ enum AxisError {
     Step { name: String, step: f64 },
     #[error("axis.{name}: from = {from} lies above to = {to} (exchange them)")]
     Reversed { name: String, from: f64, to: f64 },
+    #[error(
+        "axis.{name}: step = {step} is lost in the twelve digits of from = {from} (raise step)"
+    )]
+    Lost { name: String, step: f64, from: f64 },
     #[error("axis.{name}: {points:.0} points, more than {MOST_POINTS} (raise step)")]
     TooMany { name: String, points: f64 },
     #[error("axis.{name}: {refusal}")]
@@ -174,7 +178,11 @@ fn range(name: &str, &Steps { from, to, step }: &Steps) -> Result<Vec<Value>, Ax
             Value::Float(value)
         }
     };
-    Ok((0..points as usize).map(value).collect())
+    let values: Vec<Value> = (0..points as usize).map(value).collect();
+    if values.windows(2).any(|pair| pair[0] == pair[1]) {
+        return Err(AxisError::Lost { name, step, from });
+    }
+    Ok(values)
 }
 
 /// The nearest number of twelve significant digits: 0.1 + 2 · 0.1 is meant to be 0.3.
@@ -204,5 +212,19 @@ mod tests {
         assert_eq!(numbers("{ from = 2, to = 9, step = 3 }"), [2.0, 5.0, 8.0]);
         assert_eq!(numbers("{ from = 1.0, to = 1.0, step = 0.5 }"), [1.0]);
         assert_eq!(numbers("[1, 2.5]"), [1.0, 2.5]);
+    }
+
+    /// Points that would fall on each other are refused, those that would not are all there.
+    #[test]
+    fn a_step_is_not_lost() {
+        for (from, step, is_lost) in [(1e11, 1.0, false), (1e12, 1.0, true), (1e15, 1e5, false)] {
+            let to = from + 5.0 * step;
+            let text = format!("x = {{ from = {from:?}, to = {to:?}, step = {step:?} }}");
+            let axis = Axis::read(&Node::parse(&text).unwrap(), ["x"]);
+            assert_eq!(axis.is_err(), is_lost, "{text}");
+            if let Err(Conflict { error, .. }) = axis {
+                assert!(error.to_string().contains("is lost"), "{error}");
+            }
+        }
     }
 }

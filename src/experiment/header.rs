@@ -22,7 +22,7 @@ pub struct Header {
     /// Half of the widest interval; fixes the number of trials before the run.
     #[serde(default)]
     half_width: Option<HalfWidth>,
-    /// Of the intervals.
+    /// Confidence of the intervals.
     #[serde(default = "usual_confidence")]
     pub confidence: Level,
     /// Whether one noise realisation serves every point that can share it.

@@ -15,20 +15,23 @@ pub fn properties<T: JsonSchema>(generator: &mut SchemaGenerator) -> Map<String,
 /// An axis of one of these keys, each with the schema of its values.
 pub fn axis<'a>(keys: impl Iterator<Item = (&'a str, Value)>) -> Value {
     let values = |value: Value| {
-        json!({ "anyOf": [
-        { "type": "array", "minItems": 1, "items": value },
-        {
-            "type": "object",
-            "properties": {
-                "from": { "type": "number" },
-                "to": { "type": "number" },
-                "step": { "type": "number", "exclusiveMinimum": 0 },
-            },
-            "required": ["from", "to", "step"],
-            "additionalProperties": false,
-        },
-        value,
-    ] })
+        json!({
+            "description": value["description"],
+            "anyOf": [
+                { "type": "array", "minItems": 1, "items": value },
+                {
+                    "type": "object",
+                    "properties": {
+                        "from": { "type": "number" },
+                        "to": { "type": "number" },
+                        "step": { "type": "number", "exclusiveMinimum": 0 },
+                    },
+                    "required": ["from", "to", "step"],
+                    "additionalProperties": false,
+                },
+                value,
+            ],
+        })
     };
     let keys: Map<String, Value> = keys
         .map(|(name, value)| (name.to_owned(), values(value)))

@@ -76,31 +76,46 @@ pub fn markdown() -> String {
     let schema = schema();
     let empty = Map::new();
     let all = schema["properties"].as_object().unwrap_or(&empty);
-    let is_table =
-        |schema: &Value| schema["type"] == "object" || schema["items"]["type"] == "object";
     let mut text = HEAD.to_owned();
     let plain: Vec<_> = all.iter().filter(|(_, schema)| !is_table(schema)).collect();
     text += &keys("the top of the file", "", plain.into_iter());
     for (name, schema) in all.iter().filter(|(_, schema)| is_table(schema)) {
-        let table = if schema["items"]["type"] == "object" {
-            &schema["items"]
+        let is_list = schema["items"].is_object();
+        let (table, title) = if is_list {
+            (&schema["items"], format!("[[{name}]]"))
         } else {
-            schema
-        };
-        let title = if std::ptr::eq(table, schema) {
-            format!("[{name}]")
-        } else {
-            format!("[[{name}]]")
+            (schema, format!("[{name}]"))
         };
         let description = schema["description"].as_str().unwrap_or_default();
-        let own = table["properties"].as_object().unwrap_or(&empty);
         // A curve's sections are those of the file.
-        let entries = own
-            .iter()
-            .filter(|(key, _)| name != "curve" || !all.contains_key(*key));
+        let own = own_keys(table);
+        let is_own = |key: &String| name != "curve" || !all.contains_key(key);
+        let entries = own.iter().filter(|(key, _)| is_own(key));
         text += &keys(&title, description, entries);
     }
     text + &monitor_options()
+}
+
+/// A table, a list of them, or a choice between tables.
+fn is_table(schema: &Value) -> bool {
+    let choices = schema["oneOf"].as_array();
+    schema["type"] == "object"
+        || schema["items"]["type"] == "object"
+        || choices.is_some_and(|choices| choices.iter().all(|choice| choice["type"] == "object"))
+}
+
+/// The keys of a table, or those of all that it may be; each of a choice means what the choice means.
+fn own_keys(table: &Value) -> Map<String, Value> {
+    let own = table["properties"].as_object().cloned().unwrap_or_default();
+    let choices = table["oneOf"].as_array().into_iter().flatten();
+    let of_choices = choices.flat_map(|choice| {
+        let keys = own_keys(choice).into_iter();
+        keys.map(|(key, mut schema)| {
+            schema["description"] = choice["description"].clone();
+            (key, schema)
+        })
+    });
+    own.into_iter().chain(of_choices).collect()
 }
 
 /// The file of `detect --config` and `monitor --config`.
@@ -188,6 +203,10 @@ fn choices(schema: &Value) -> String {
 
 /// What a value looks like, in words.
 fn kind(schema: &Value) -> String {
+    // An axis takes a value or several; its table says so once.
+    if let Some(items) = schema["anyOf"][0].get("items") {
+        return kind(items);
+    }
     for key in ["anyOf", "oneOf"] {
         if let Some(choices) = schema[key].as_array() {
             let choices: Vec<String> = choices

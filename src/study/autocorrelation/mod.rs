@@ -49,7 +49,7 @@ const PRINTED_NUMERATOR: f64 = 9.404e-6;
 /// A record takes a tenth of a millisecond.
 const BLOCK: u64 = 16;
 
-/// `[autocorrelation]`
+/// The autocorrelation of the sensor's noise: theory and simulation.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 struct Keys {

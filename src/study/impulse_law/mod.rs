@@ -32,7 +32,7 @@ use schemars::{JsonSchema, SchemaGenerator};
 use serde::Deserialize;
 use serde_json::Value;
 
-/// `[impulse_law]`
+/// The laws of an impulse and of the sum of impulses, against simulation.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Keys {

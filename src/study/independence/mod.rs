@@ -27,7 +27,7 @@ use serde::Deserialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// Every cell of every set of sizes.
+/// Whether W and T are independent at rest, by enumeration.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Independence {

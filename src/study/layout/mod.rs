@@ -21,7 +21,7 @@ use schemars::{JsonSchema, SchemaGenerator};
 use serde::Deserialize;
 use serde_json::Value;
 
-/// `[layout]`
+/// Where X, Y₁ and Y₂ lie; a table without keys.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Keys {}

@@ -13,7 +13,7 @@ use crate::study::rules::{distinct, each};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// The powers looked for, and where: `[operating_point]`.
+/// The Δ/σ_ξ at which the power reaches a value, for samples of several sizes.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Search {

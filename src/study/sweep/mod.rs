@@ -39,7 +39,11 @@ impl Study for Sweep {
         schema::axis(swept.map(|parameter| {
             let path = parameter.paths[0].split_once('.');
             let (section, key) = path.expect("a parameter is a key of a section");
-            (parameter.name, sections[section]["properties"][key].clone())
+            let mut value = sections[section]["properties"][key].clone();
+            if parameter.paths.len() > 1 {
+                value["description"] = parameter.axis_label.into();
+            }
+            (parameter.name, value)
         }))
     }
 
