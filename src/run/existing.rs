@@ -1,10 +1,21 @@
 //! What a directory has, as counts; and whether they may be gone on with.
 
 use super::identity::origins_difference;
-use super::{Experiment, Identity, Overwrite, Trials};
+use super::{Experiment, Identity, StudyError, Target, Trials};
 use crate::counts::Counts;
 use crate::results::{Checkpoint, Directory, Manifest, RESULTS, ResultsError};
 use std::collections::BTreeSet;
+
+/// What becomes of what a directory holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overwrite {
+    /// It is gone on with; what is of another experiment is refused.
+    Continue,
+    /// Of it is kept what is wanted here: the directory belongs to the experiment by its name.
+    Adopt,
+    /// It is replaced.
+    Fresh,
+}
 
 /// The counts of a directory.
 #[derive(Debug)]
@@ -136,4 +147,13 @@ impl Existing {
             self.made_by = None;
         }
     }
+}
+
+/// Whether the counts of a run, or of its share of one, can be what they say.
+pub(super) fn check(trials: &dyn Trials, state: &Checkpoint) -> Result<(), StudyError> {
+    for Target { key, shape } in trials.targets() {
+        let share = state.wanted();
+        (state.counts).check(key, shape, share, state.origin.trials)?;
+    }
+    trials.check(&state.counts)
 }

@@ -51,7 +51,7 @@ impl<'a> Saver<'a> {
         error.map_or(Ok(()), Err)
     }
 
-    fn save(&self) -> Result<(), ResultsError> {
+    fn save(&self) -> Result<bool, ResultsError> {
         let counts = self.counts.lock().expect(NO_PANIC).clone();
         self.directory.save(&Checkpoint {
             counts,
@@ -74,7 +74,7 @@ impl Progress for Saver<'_> {
         let saved = self.save();
         *last = Instant::now();
         match saved {
-            Ok(()) => self.progress.saved(),
+            Ok(_) => self.progress.saved(),
             Err(error) => {
                 *self.error.lock().expect(NO_PANIC) = Some(error);
                 self.failed.store(true, Ordering::Relaxed);

@@ -1,23 +1,12 @@
 //! An experiment in its directory, worked off.
 
-use super::existing::Existing;
+use super::existing::{Existing, Overwrite, check};
 use super::missing::Work;
 use super::save::Saver;
 use super::{Experiment, Missing, Progress, StudyError, Trials};
 use crate::counts::Counts;
 use crate::results::{Checkpoint, Directory, Lock, Manifest, ResultsError, Shard};
 use std::time::{Duration, Instant};
-
-/// What becomes of what a directory holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Overwrite {
-    /// It is gone on with; what is of another experiment is refused.
-    Continue,
-    /// Of it is kept what is wanted here: the directory belongs to the experiment by its name.
-    Adopt,
-    /// It is replaced.
-    Fresh,
-}
 
 /// An experiment in its directory, which nobody else writes into as long as this lives.
 pub struct Session<'a> {
@@ -29,6 +18,8 @@ pub struct Session<'a> {
     pub(super) made_by: Option<Manifest>,
     /// Whether the results are here, down to the words of the config.
     pub(super) is_complete: bool,
+    /// Whether the saved counts are others than before.
+    is_new: bool,
     lock: Lock,
 }
 
@@ -70,6 +61,7 @@ impl<'a> Session<'a> {
             state,
             made_by,
             is_complete,
+            is_new: false,
             lock,
         };
         session.check()?;
@@ -180,6 +172,7 @@ impl<'a> Session<'a> {
             self.state.counts = counts.into_inner().expect("nobody panics with the counts");
             self.state.seconds += start.elapsed().as_secs_f64();
             saved?;
+            self.is_new = true;
         }
         self.expect();
         self.save()?;
@@ -196,12 +189,14 @@ impl<'a> Session<'a> {
         })
     }
 
-    /// Saves the counts, be they none.
+    /// Saves the counts, be they none. Says whether they, or the words of the config, are others than when the
+    /// session was opened.
     ///
     /// # Errors
     /// Where they cannot be written.
-    pub fn save(&self) -> Result<(), ResultsError> {
-        self.directory.save(&self.state)
+    pub fn save(&mut self) -> Result<bool, ResultsError> {
+        self.is_new |= self.directory.save(&self.state)?;
+        Ok(self.is_new)
     }
 
     /// The lock under which results can be written.
@@ -226,12 +221,6 @@ impl<'a> Session<'a> {
         let Some(trials) = &self.trials else {
             return Ok(());
         };
-        let (counts, number) = (&self.state.counts, self.state.origin.trials);
-        let mut each = trials.targets().iter();
-        let checked: Result<(), StudyError> = each
-            .try_for_each(|target| counts.check(&target.key, &target.shape, number))
-            .map_err(StudyError::from)
-            .and_then(|()| trials.check(counts));
-        checked.map_err(|error| self.directory.impossible(&error))
+        check(&**trials, &self.state).map_err(|error| self.directory.impossible(&error))
     }
 }

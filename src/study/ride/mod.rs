@@ -33,7 +33,7 @@ mod watch;
 pub use row::Row;
 
 use super::{Context, Counters, Study, TooMany, counted};
-use crate::counts::{Counts, Sums};
+use crate::counts::{Counter, Counts, Sums};
 use crate::experiment::{RidePoint, RideStudy};
 use crate::figure::FigureError;
 use crate::plot::Plot;
@@ -61,12 +61,13 @@ impl Rides {
     pub fn new(context: Context, study: RideStudy) -> Result<Self, TooMany> {
         let points = study.curves.iter().map(|curve| curve.points.len()).sum();
         TooMany::check("points", points, MOST_POINTS, "take fewer curves or values")?;
+        let shape = RideSums::shape(&study);
         let mut rides = Self {
             context,
             study,
             counters: Counters::default(),
         };
-        rides.counters = Counters::new(&rides, context.seed, &RideSums::shape());
+        rides.counters = Counters::new(&rides, context.seed, &shape);
         Ok(rides)
     }
 
@@ -112,9 +113,10 @@ impl Study for Rides {
     /// All outcomes of every point, in the order of curves and values.
     fn rows(&self, counts: &Counts) -> Vec<Row> {
         let Self { context, study, .. } = self;
+        let shape = RideSums::shape(study);
         let mut rows = Vec::new();
         for ((curve, x, point), key) in self.points().zip(&self.counters.keys) {
-            let (trials, sums) = counted(counts, key, &RideSums::shape());
+            let (trials, sums) = counted(counts, key, &shape);
             let size = Watch::new(point, context.seed).size();
             let estimates = estimate::of(study.measure, &sums.into(), trials, context.confidence);
             for estimate in estimates {
@@ -162,6 +164,15 @@ impl Trials for Watching<'_> {
 
     fn block(&self) -> u64 {
         BLOCK
+    }
+
+    fn check(&self, counts: &Counts) -> Result<(), StudyError> {
+        for ((.., point), key) in self.0.points().zip(&self.0.counters.keys) {
+            if let Some(Counter { trials, sums }) = counts.get(key) {
+                RideSums::from(sums.clone()).check(point, trials.len())?;
+            }
+        }
+        Ok(())
     }
 
     fn simulation<'a>(&'a self, targets: &[usize]) -> Box<dyn Simulation + 'a> {
