@@ -157,7 +157,7 @@ fn shards_that_cannot_be_are_refused() {
         refused(&change, &["1-of-2/counts.json: damaged", words]);
     };
     damaged("block", json!(512), "block: must be 1024, got 512");
-    damaged("points", json!(7), "points: must be 6, got 7");
+    damaged("points", json!(7), "points: must be 9, got 7");
     damaged(
         "shard",
         json!("2/2"),
