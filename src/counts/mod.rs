@@ -122,9 +122,8 @@ impl Counts {
 
     /// Makes sure of a counter, of nothing yet where it is new.
     pub fn expect(&mut self, key: &Key, shape: &Shape) {
-        if !self.counters.contains_key(key) {
-            self.counters.insert(key.clone(), shape.empty());
-        }
+        let counter = self.counters.entry(key.clone());
+        counter.or_insert_with(|| shape.empty());
     }
 
     /// Adds the sums of further trials.
@@ -132,13 +131,8 @@ impl Counts {
     /// # Errors
     /// Where some of them were counted before, or the sums are not of one shape.
     pub fn add(&mut self, key: &Key, trials: Range<u64>, sums: &Sums) -> Result<(), CountsError> {
-        let counter = match self.counters.get_mut(key) {
-            Some(counter) => counter,
-            None => self.counters.entry(key.clone()).or_insert(Counter {
-                trials: Ranges::default(),
-                sums: sums.shape().empty().sums,
-            }),
-        };
+        let counter = self.counters.entry(key.clone());
+        let counter = counter.or_insert_with(|| sums.shape().empty());
         if counter.sums.shape() != sums.shape() {
             return Err(CountsError::Shape(key.clone()));
         }

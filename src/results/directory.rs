@@ -67,11 +67,6 @@ impl Directory {
         self.holds(MANIFEST)
     }
 
-    /// Whether there are the counts of a run that is not over.
-    pub fn has_counts(&self) -> bool {
-        self.holds(COUNTS)
-    }
-
     /// The counts so far of a run that is not over.
     ///
     /// # Errors
@@ -169,8 +164,8 @@ impl Directory {
     /// What made the results of an experiment that are here whole, and none more lately under way.
     pub fn complete(&self, origin: &Origin) -> Option<Manifest> {
         let manifest = self.manifest().ok()?;
-        let is_complete =
-            origin.made(&manifest.origin) && self.is_intact(&manifest) && !self.has_counts();
+        let is_over = !self.holds(COUNTS);
+        let is_complete = is_over && origin.made(&manifest.origin) && self.is_intact(&manifest);
         is_complete.then_some(manifest)
     }
 
@@ -262,7 +257,7 @@ impl Directory {
         Ok(())
     }
 
-    fn unwritable(&self, error: io::Error) -> ResultsError {
+    pub(super) fn unwritable(&self, error: io::Error) -> ResultsError {
         let path = self.path.clone();
         ResultsError::Unwritable { path, error }
     }

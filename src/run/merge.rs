@@ -75,14 +75,15 @@ pub fn merge<'a>(
     shards: &[Directory],
     directory: Directory,
 ) -> Result<(Session<'a>, Absent), MergeError> {
-    let (state, absent) = join(experiment, shards)?;
+    let (sum, absent) = join(experiment, shards)?;
     let mut session = Session::open(experiment, directory, None, Overwrite::Continue)?;
-    if !state.counts.covers(session.counts()) {
+    if !sum.counts.covers(session.counts()) {
         return Err(MergeError::More(session.directory().path().to_owned()));
     }
     session.made_by = None;
     session.is_complete = false;
-    session.state = state;
+    session.state.counts = sum.counts;
+    session.state.seconds = sum.seconds;
     session.check()?;
     session.expect();
     session.save()?;
@@ -94,9 +95,8 @@ fn join(
     experiment: &dyn Experiment,
     directories: &[Directory],
 ) -> Result<(Checkpoint, Absent), MergeError> {
-    let trials = experiment.trials();
-    let targets = trials.as_ref().map_or(&[][..], |trials| trials.targets());
-    let known: BTreeSet<&Key> = targets.iter().map(|target| &target.key).collect();
+    let trials = experiment.trials().unwrap_or_else(|| Box::new(()));
+    let known: BTreeSet<&Key> = trials.targets().iter().map(|target| &target.key).collect();
     let mut sum: Option<Checkpoint> = None;
     let mut absent = Absent::default();
     let mut shards = BTreeSet::new();
@@ -113,10 +113,8 @@ fn join(
             });
         }
         // What cannot be might add up to what can.
-        if let Some(trials) = &trials {
-            let checked = check_part(&**trials, &known, &part);
-            checked.map_err(|error| directory.impossible(&error))?;
-        }
+        let checked = check_part(&*trials, &known, &part);
+        checked.map_err(|error| directory.impossible(&error))?;
         let lacking = part.lacking();
         if lacking > 0 {
             absent.unfinished.push((path(), lacking));
@@ -130,10 +128,8 @@ fn join(
             .map_err(|error| overlap(&directories[..index], directory, &part.counts, error))?;
         sum.seconds += part.seconds;
     }
-    let mut state = sum.expect("there is at least one directory");
-    state.shard = None;
     absent.shards = without_directory(&shards);
-    Ok((state, absent))
+    Ok((sum.expect("there is at least one directory"), absent))
 }
 
 /// Whether a shard can be what it says: cut as the experiment is, of its counters, of its own trials.

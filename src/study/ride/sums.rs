@@ -4,6 +4,7 @@ use super::account::{Account, Trip};
 use crate::counts::{Fixed, Shape, Sums, Values};
 use crate::experiment::{Measure, RidePoint, RideStudy};
 use crate::rule::{OutOfRange, Rule};
+use std::ops::RangeInclusive;
 
 /// What came of the trials of a point.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -69,56 +70,71 @@ impl RideSums {
     /// # Errors
     /// Where not.
     pub fn check(&self, point: &RidePoint, trials: u64) -> Result<(), OutOfRange> {
-        let measure = point.measure;
-        let trips = if measure.rides() { point.trips } else { 0 };
-        let all_trips = trials.saturating_mul(trips as u64);
-        let jams = if measure == Measure::Jam { trials } else { 0 };
+        for (name, got, bounds) in self.bounds(point, trials) {
+            if !bounds.contains(&got) {
+                let rule = format_args!("lie in [{}, {}]", bounds.start(), bounds.end());
+                return Err(OutOfRange::new(name, rule, got));
+            }
+        }
+        let mut rest = 0.0;
+        if point.measure.rides() {
+            rest += (point.trips + 1) as f64 * point.rest[1];
+        }
+        if point.measure.rests() {
+            rest += point.length;
+        }
+        // Times are rounded; a part in 10⁹ is more than that ever comes to.
+        let longest = trials as f64 * rest * (1.0 + 1e-9);
+        Rule::Within(0.0, longest, "s").check("at_rest", &self.at_rest.value())
+    }
+
+    /// Each number that the trials or another one bound, and its bounds.
+    fn bounds(
+        &self,
+        point: &RidePoint,
+        trials: u64,
+    ) -> [(&'static str, u64, RangeInclusive<u64>); 9] {
+        let trips = if point.measure.rides() {
+            point.trips as u64
+        } else {
+            0
+        };
+        let all = trials.saturating_mul(trips);
+        // The last trip of each ride.
+        let jams = if point.measure == Measure::Jam {
+            trials
+        } else {
+            0
+        };
         let delays = [&self.start_delays, &self.stop_delays, &self.alarm_delays];
         let [starts, stops, alarms] = delays.map(|delays| delays.count(|_| true));
         let [start, stop, alarm] = delays.map(|delays| delays.count(f64::is_finite));
-        let no_delay = |delay: f64| delay.is_nan() || delay == f64::NEG_INFINITY;
-        let no_delays = delays
-            .map(|delays| delays.count(no_delay))
-            .into_iter()
-            .max();
-        // Of a trial in which every trip was found, every start and stop was told; without trips all were found.
-        let found = start
-            .min(stop)
-            .checked_div(trips as u64)
-            .map_or(trials..=trials, |told| 0..=told);
+        let is_none = |delay: f64| delay.is_nan() || delay == f64::NEG_INFINITY;
+        let none = delays.iter().map(|delays| delays.count(is_none)).max();
+        // A ride of which every trip is found has every start and stop told; without trips, all are found.
+        let told = start.min(stop).checked_div(trips);
         // The rest after the first trip is the last where there is no second.
-        let knew_soon = if trips < 2 {
+        let soon = if trips < 2 {
             self.knew..=self.knew
         } else {
             0..=trials
         };
         let is_any = u64::from(self.false_motions > 0);
-        for (name, got, range) in [
-            ("start_delays", starts, all_trips..=all_trips),
-            ("stop_delays", stops, all_trips..=all_trips),
+        [
+            ("start_delays", starts, all..=all),
+            ("stop_delays", stops, all..=all),
             ("alarm_delays", alarms, jams..=jams),
-            ("delays that are none", no_delays.unwrap_or_default(), 0..=0),
-            ("found", self.found, found),
+            ("delays that are none", none.unwrap_or_default(), 0..=0),
+            (
+                "found",
+                self.found,
+                told.map_or(trials..=trials, |told| 0..=told),
+            ),
             ("alarmed", self.alarmed, alarm..=alarm),
             ("disturbed", self.disturbed, is_any..=self.false_motions),
-            ("misled", self.misled, 0..=all_trips),
-            ("knew_soon", self.knew_soon, knew_soon),
-        ] {
-            if !range.contains(&got) {
-                let (least, most) = (range.start(), range.end());
-                let rule = format_args!("lie in [{least}, {most}]");
-                return Err(OutOfRange::new(name, rule, got));
-            }
-        }
-        let of_rides = if measure.rides() {
-            (trips + 1) as f64 * point.rest[1]
-        } else {
-            0.0
-        };
-        let of_rests = if measure.rests() { point.length } else { 0.0 };
-        // Times are rounded; a part in 10⁹ is more than that ever comes to.
-        let longest = trials as f64 * (of_rides + of_rests) * (1.0 + 1e-9);
-        Rule::Within(0.0, longest, "s").check("at_rest", &self.at_rest.value())
+            ("misled", self.misled, 0..=all),
+            ("knew_soon", self.knew_soon, soon),
+        ]
     }
 }
 
@@ -173,6 +189,8 @@ mod tests {
     use crate::signal::Phase;
     use crate::study::tests::config;
     use proptest::prelude::*;
+
+    type Change = fn(&mut RideSums);
 
     fn point(measure: &str, trips: usize) -> RidePoint {
         let trips = match measure {
@@ -253,7 +271,7 @@ mod tests {
             said.iter().for_each(|said| sums.add(&account(&point, said)));
             let checked = sums.check(&point, trials);
             prop_assert!(checked.is_ok(), "{checked:?} {sums:?}");
-            let changes: [(&str, fn(&mut RideSums)); 12] = [
+            let changes: [(&str, Change); 12] = [
                 ("start_delays", |sums| sums.start_delays.push(1.0)),
                 ("stop_delays", |sums| sums.stop_delays.push(f64::INFINITY)),
                 ("alarm_delays", |sums| sums.alarm_delays.push(1.0)),
