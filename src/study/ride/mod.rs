@@ -169,7 +169,8 @@ impl Trials for Watching<'_> {
     fn check(&self, counts: &Counts) -> Result<(), StudyError> {
         for ((.., point), key) in self.0.points().zip(&self.0.counters.keys) {
             if let Some(Counter { trials, sums }) = counts.get(key) {
-                RideSums::from(sums.clone()).check(point, trials.len())?;
+                let checked = RideSums::from(sums.clone()).check(point, trials.len());
+                checked.map_err(|error| format!("counter {key}: {error}"))?;
             }
         }
         Ok(())
