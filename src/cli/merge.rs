@@ -28,14 +28,12 @@ impl Merge {
     pub fn run(self) -> Outcome {
         let directories: Vec<Directory> =
             self.directories.into_iter().map(Directory::new).collect();
-        let joined = run::join(&directories).map_err(Failure::input)?;
-        let origin = joined.state.origin.clone();
+        let origin = run::part(&directories[0]).map_err(Failure::input)?.origin;
         let name = Path::new(&origin.config_name);
         let out = self.out.unwrap_or_else(|| sweep::default_directory(name));
         let study = Loaded::again(&origin).map_err(Failure::study)?;
-        let absent = joined.absent.clone();
-        let settled = joined.settle(&study, Directory::new(&out));
-        let session = settled.map_err(failure)?;
+        let merged = run::merge(&study, &directories, Directory::new(&out));
+        let (session, absent) = merged.map_err(failure)?;
         if session.missing().is_none() {
             print(&sweep::finish(&study, session, None)?)?;
             return Ok(ExitCode::SUCCESS);

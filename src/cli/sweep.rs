@@ -84,7 +84,7 @@ pub(super) fn default_directory(config: &Path) -> PathBuf {
 /// Writes what a run came to, and says so. A shard has written all it has.
 pub(super) fn finish(
     study: &Loaded,
-    session: Session,
+    mut session: Session,
     shard: Option<Shard>,
 ) -> Result<String, Failure> {
     let directory = session.directory().clone();
@@ -94,8 +94,7 @@ pub(super) fn finish(
     };
     if let Some(shard) = shard {
         // A share of no trials is one, too; and whoever joins it compares the words of the config.
-        let is_new = !directory.has_counts();
-        session.save().map_err(Failure::run)?;
+        let is_new = session.save().map_err(Failure::run)?;
         let counts = line(&directory, "counts.json", is_new);
         return Ok(format!("shard {shard}: {what}\n{counts}"));
     }
@@ -115,7 +114,7 @@ pub(super) fn finish(
 }
 
 /// Writes counts, then pictures, then the manifest that vouches for both.
-pub(super) fn write(study: &Loaded, session: Session) -> Result<(Output, Written), Failure> {
+pub(super) fn write(study: &Loaded, mut session: Session) -> Result<(Output, Written), Failure> {
     let start = Instant::now();
     let output = study.output(session.counts()).map_err(Failure::study)?;
     let mut seconds = session.seconds();

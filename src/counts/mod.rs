@@ -64,6 +64,20 @@ pub struct DecisionSummary {
     pub reachable: Option<f64>,
 }
 
+impl DecisionSummary {
+    /// The first thing in which another differs.
+    fn difference(&self, other: &Self) -> Option<String> {
+        let word = |value: Option<f64>| value.map_or("none".to_owned(), |value| value.to_string());
+        let each = [
+            ("size", self.size, other.size),
+            ("threshold", self.threshold, other.threshold),
+            ("reachable", self.reachable, other.reachable),
+        ];
+        let (name, here, there) = each.into_iter().find(|(_, here, there)| here != there)?;
+        Some(format!("{name} is {} and {}", word(here), word(there)))
+    }
+}
+
 /// Counters by what they count.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counts {
@@ -89,6 +103,10 @@ pub enum CountsError {
     },
     #[error("counter {key}: trial {trial} of {wanted}")]
     Beyond { key: Key, trial: u64, wanted: u64 },
+    #[error("counter {key}: trials {} to {} are of another shard", trials.start, trials.end - 1)]
+    Elsewhere { key: Key, trials: Range<u64> },
+    #[error("counter {key}: it decides differently: {difference}")]
+    Decision { key: Key, difference: String },
 }
 
 impl Counts {
@@ -104,9 +122,8 @@ impl Counts {
 
     /// Makes sure of a counter, of nothing yet where it is new.
     pub fn expect(&mut self, key: &Key, shape: &Shape) {
-        if !self.counters.contains_key(key) {
-            self.counters.insert(key.clone(), shape.empty());
-        }
+        let counter = self.counters.entry(key.clone());
+        counter.or_insert_with(|| shape.empty());
     }
 
     /// Adds the sums of further trials.
@@ -114,13 +131,8 @@ impl Counts {
     /// # Errors
     /// Where some of them were counted before, or the sums are not of one shape.
     pub fn add(&mut self, key: &Key, trials: Range<u64>, sums: &Sums) -> Result<(), CountsError> {
-        let counter = match self.counters.get_mut(key) {
-            Some(counter) => counter,
-            None => self.counters.entry(key.clone()).or_insert(Counter {
-                trials: Ranges::default(),
-                sums: sums.shape().empty().sums,
-            }),
-        };
+        let counter = self.counters.entry(key.clone());
+        let counter = counter.or_insert_with(|| sums.shape().empty());
         if counter.sums.shape() != sums.shape() {
             return Err(CountsError::Shape(key.clone()));
         }
@@ -135,7 +147,7 @@ impl Counts {
     /// Adds other counts. Takes time in proportion to those.
     ///
     /// # Errors
-    /// Where a trial is in both; some counters may have been added then.
+    /// Where a trial is in both, or a point decides differently; some counters may have been added then.
     pub fn merge(&mut self, other: &Self) -> Result<(), CountsError> {
         for (key, Counter { trials, sums }) in other.iter() {
             self.expect(key, &sums.shape());
@@ -146,8 +158,13 @@ impl Counts {
                 self.add(key, range, sums)?;
             }
         }
-        let decisions = other.decisions.iter();
-        (self.decisions).extend(decisions.map(|(key, summary)| (key.clone(), *summary)));
+        for (key, there) in &other.decisions {
+            let here = self.decisions.entry(key.clone()).or_insert(*there);
+            if let Some(difference) = here.difference(there) {
+                let key = key.clone();
+                return Err(CountsError::Decision { key, difference });
+            }
+        }
         Ok(())
     }
 
@@ -161,9 +178,10 @@ impl Counts {
 
     /// Whether every trial of every counter of `other` is here too.
     pub fn covers(&self, other: &Self) -> bool {
-        other.iter().all(|(key, counter)| {
-            counter.trials.is_empty()
-                || (self.get(key)).is_some_and(|here| here.trials.covers(&counter.trials))
+        other.iter().all(|(key, there)| {
+            let here = self.get(key).map(|here| &here.trials);
+            let none = Ranges::default();
+            there.trials.without(here.unwrap_or(&none)).is_empty()
         })
     }
 
@@ -173,12 +191,18 @@ impl Counts {
         self.decisions.retain(|key, _| is_wanted(key));
     }
 
-    /// Whether a counter can be what it says, of `wanted` trials: as many sums as its shape has, no count above
-    /// what the trials can bring, no trial that is not wanted.
+    /// Whether a counter can be what it says, where a `share` of `wanted` trials is counted: as many sums as its
+    /// shape has, nothing that comes more often than the trials can bring it, no trial that is not wanted here.
     ///
     /// # Errors
     /// Where not.
-    pub fn check(&self, key: &Key, shape: &Shape, wanted: u64) -> Result<(), CountsError> {
+    pub fn check(
+        &self,
+        key: &Key,
+        shape: &Shape,
+        share: Range<u64>,
+        wanted: u64,
+    ) -> Result<(), CountsError> {
         let Some(Counter { trials, sums }) = self.get(key) else {
             return Ok(());
         };
@@ -193,6 +217,10 @@ impl Counts {
                 trial,
                 wanted,
             });
+        }
+        if let Some(trials) = trials.without(&share.into()).iter().next() {
+            let key = key();
+            return Err(CountsError::Elsewhere { key, trials });
         }
         let trials = trials.len();
         match shape.excess(sums, trials) {
@@ -238,6 +266,33 @@ mod tests {
         }
     }
 
+    /// Nobody's decision wins by coming last.
+    #[test]
+    fn decisions_that_differ_do_not_add() {
+        let key = Key::of("a");
+        let part = |size, threshold| Counts {
+            decisions: BTreeMap::from([(
+                key.clone(),
+                DecisionSummary {
+                    size,
+                    threshold,
+                    reachable: None,
+                },
+            )]),
+            ..Counts::default()
+        };
+        let known = part(Some(0.05), None);
+        for (other, words) in [
+            (part(Some(0.04), None), "size is 0.05 and 0.04"),
+            (part(Some(0.05), Some(2.5)), "threshold is none and 2.5"),
+        ] {
+            let mut sum = known.clone();
+            sum.merge(&known).unwrap();
+            let error = sum.merge(&other).unwrap_err().to_string();
+            assert!(error.contains(words), "{error}");
+        }
+    }
+
     #[test]
     fn what_cannot_be_counted_is_refused() {
         let key = Key::of("a");
@@ -248,7 +303,7 @@ mod tests {
                 most: most.to_vec(),
                 ..Shape::default()
             };
-            counts.check(&key, &shape, wanted)
+            counts.check(&key, &shape, 0..wanted, wanted)
         };
         assert_eq!(check(&[Some(1), None], 10), Ok(()));
         assert!(matches!(check(&[Some(1)], 10), Err(CountsError::Shape(_))));
@@ -256,6 +311,12 @@ mod tests {
             check(&[None, None], 9),
             Err(CountsError::Beyond { trial: 9, .. })
         ));
+        let shape = Shape::events(2);
+        for (share, trials) in [(0..8, 8..10), (2..20, 0..2), (0..0, 0..10), (4..6, 0..4)] {
+            let key = key.clone();
+            let checked = counts.check(&key, &shape, share, 20);
+            assert_eq!(checked, Err(CountsError::Elsewhere { key, trials }));
+        }
         let too_many = check(&[Some(1), Some(0)], 10);
         assert!(matches!(
             too_many,

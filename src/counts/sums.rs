@@ -26,8 +26,8 @@ pub struct Shape {
     pub most: Vec<Option<u64>>,
     /// Sums of real numbers.
     pub lengths: usize,
-    /// Collections of real numbers.
-    pub values: usize,
+    /// The most real numbers of each collection that one trial can bring.
+    pub values: Vec<u64>,
 }
 
 impl Sums {
@@ -55,7 +55,7 @@ impl Sums {
         Shape {
             most: vec![None; self.counts.len()],
             lengths: self.lengths.len(),
-            values: self.values.len(),
+            values: vec![u64::MAX; self.values.len()],
         }
     }
 }
@@ -76,23 +76,26 @@ impl Shape {
             sums: Sums {
                 counts: vec![0; self.most.len()],
                 lengths: vec![Fixed::default(); self.lengths],
-                values: vec![Values::default(); self.values],
+                values: vec![Values::default(); self.values.len()],
             },
         }
     }
 
     pub(super) fn fits(&self, sums: &Sums) -> bool {
-        let shape = sums.shape();
-        self.most.len() == shape.most.len()
-            && [self.lengths, self.values] == [shape.lengths, shape.values]
+        [self.most.len(), self.lengths, self.values.len()]
+            == [sums.counts.len(), sums.lengths.len(), sums.values.len()]
     }
 
-    /// A count that so many trials cannot bring, and what they can.
+    /// A count, or a number of values, that so many trials cannot bring, and what they can.
     pub(super) fn excess(&self, sums: &Sums, trials: u64) -> Option<[u64; 2]> {
         let counts = sums.counts.iter().zip(&self.most);
-        let most = counts
-            .filter_map(|(count, most)| Some([*count, most.as_ref()?.saturating_mul(trials)]));
-        most.into_iter().find(|[count, most]| count > most)
+        let counts = counts.filter_map(|(count, most)| Some((*count, (*most)?)));
+        let values = sums.values.iter().zip(&self.values);
+        let values = values.map(|(values, most)| (values.count(|_| true), *most));
+        counts
+            .chain(values)
+            .map(|(count, most)| [count, most.saturating_mul(trials)])
+            .find(|[count, most]| count > most)
     }
 }
 
@@ -158,15 +161,27 @@ impl Values {
         }
     }
 
-    /// All of them, the smallest first.
-    pub fn ascending(&self) -> Vec<f64> {
-        let each = self.times.iter();
-        let each = each.map(|(bits, times)| (f64::from_bits(*bits), *times as usize));
-        let mut values: Vec<f64> = each
-            .flat_map(|(value, times)| std::iter::repeat_n(value, times))
-            .collect();
-        values.sort_by(f64::total_cmp);
+    /// How many of them are of a kind.
+    pub fn count(&self, is_one: impl Fn(f64) -> bool) -> u64 {
+        let each = self.each().filter(|(value, _)| is_one(*value));
+        each.fold(0, |sum, (_, times)| sum.saturating_add(times))
+    }
+
+    /// Every different one of them, the smallest first, and how many are at most that.
+    pub fn ascending(&self) -> Vec<(f64, u64)> {
+        let mut values: Vec<(f64, u64)> = self.each().collect();
+        values.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        let mut sum = 0u64;
+        for (_, times) in &mut values {
+            sum = sum.saturating_add(*times);
+            *times = sum;
+        }
         values
+    }
+
+    fn each(&self) -> impl Iterator<Item = (f64, u64)> {
+        let each = self.times.iter();
+        each.map(|(bits, times)| (f64::from_bits(*bits), *times))
     }
 }
 
@@ -183,13 +198,40 @@ mod tests {
         assert_eq!(shape.excess(&sum, 3000), Some([u64::MAX, 3000]));
     }
 
+    /// A file may say that a value came as often as it likes: it is counted, not written out.
+    #[test]
+    fn values_are_bounded_by_the_trials() {
+        let file = format!("[{{\"{}\":1000000000000000000,\"0\":3}}]", 1f64.to_bits());
+        let mut sums = Sums {
+            values: serde_json::from_str(&file).unwrap(),
+            ..Sums::default()
+        };
+        let shape = Shape {
+            values: vec![2],
+            ..Shape::default()
+        };
+        let number = 1_000_000_000_000_000_003;
+        assert_eq!(sums.values[0].ascending(), [(0.0, 3), (1.0, number)]);
+        assert_eq!(shape.excess(&sums, 3000), Some([number, 6000]));
+        for _ in 0..10 {
+            let more = sums.clone();
+            sums.add(&more);
+        }
+        assert_eq!(sums.values[0].ascending()[1], (1.0, u64::MAX));
+        assert_eq!(shape.excess(&sums, 3000), Some([u64::MAX, 6000]));
+        sums.values = vec![Values::default()];
+        (0..6000).for_each(|i| sums.values[0].push(f64::from(i % 7)));
+        assert_eq!(shape.excess(&sums, 3000), None);
+    }
+
     #[test]
     fn a_file_loses_nothing() {
         let mut values = Values::default();
         for value in [f64::INFINITY, 0.1, -0.0, 0.1, -3.5e-7] {
             values.push(value);
         }
-        assert_eq!(values.ascending(), [-3.5e-7, -0.0, 0.1, 0.1, f64::INFINITY]);
+        let ascending = [(-3.5e-7, 1), (-0.0, 2), (0.1, 4), (f64::INFINITY, 5)];
+        assert_eq!(values.ascending(), ascending);
         let sums = Sums {
             counts: vec![u64::MAX],
             lengths: vec![Fixed::new(-1e12 / 3.0), Fixed::new(1e-17)],

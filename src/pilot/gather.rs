@@ -5,19 +5,11 @@ use crate::detect::{Histogram, Region, Ties};
 use crate::schedule::Gather;
 use std::sync::Arc;
 
-/// What a pilot looks at.
+/// What a pilot looks at, and what it has seen.
 #[derive(Clone, Debug)]
 pub(super) enum Gauge {
-    Statistics(Ties),
-    /// A score, and how many of its largest values matter.
-    Score(Arc<Score>, usize),
-}
-
-/// What it has seen.
-#[derive(Clone, Debug)]
-pub(super) enum Gathered {
-    Statistics(Histogram),
-    Scores(Largest),
+    Statistics(Ties, Histogram),
+    Score(Arc<Score>, Largest),
 }
 
 /// The largest so many of the values that have come by.
@@ -28,25 +20,16 @@ pub(super) struct Largest {
 }
 
 impl Gauge {
-    pub fn nothing(&self) -> Gathered {
-        match self {
-            Self::Statistics(_) => Gathered::Statistics(Histogram::default()),
-            Self::Score(_, keep) => Gathered::Scores(Largest {
-                keep: *keep,
-                values: Vec::new(),
-            }),
-        }
-    }
-}
-
-impl Gathered {
     /// False alarms of a region.
     pub fn count(&self, region: &Region) -> u64 {
+        self.histogram()
+            .count(|statistics| region.contains(statistics))
+    }
+
+    pub fn histogram(&self) -> &Histogram {
         match self {
-            Self::Statistics(histogram) => {
-                histogram.count(|statistics| region.contains(statistics))
-            }
-            Self::Scores(_) => unreachable!("a region of W and T"),
+            Self::Statistics(_, histogram) => histogram,
+            Self::Score(..) => unreachable!("regions and likelihood ratios are of W and T"),
         }
     }
 
@@ -54,13 +37,19 @@ impl Gathered {
     /// some are equal.
     pub fn threshold(&self) -> f64 {
         match self {
-            Self::Statistics(_) => unreachable!("a threshold of a score"),
-            Self::Scores(largest) => largest.smallest(),
+            Self::Statistics(..) => unreachable!("a threshold is of a score"),
+            Self::Score(_, largest) => largest.smallest(),
         }
     }
 }
 
 impl Largest {
+    /// Of no values yet.
+    pub fn new(keep: usize) -> Self {
+        let values = Vec::new();
+        Self { keep, values }
+    }
+
     fn add(&mut self, value: f64) {
         self.values.push(value);
         // Sorted out now and then, so that the cost of a value stays small and so does the memory.
@@ -81,35 +70,27 @@ impl Largest {
     }
 }
 
-/// Gathers what the gauges show.
-pub(super) struct Gatherer<'a> {
-    pub gauges: &'a [Gauge],
-    pub gathered: Vec<Gathered>,
-}
+/// The gauge of each place.
+pub(super) struct Gauges(pub Vec<Gauge>);
 
-impl View for Gatherer<'_> {
+impl View for Gauges {
     fn look(&mut self, place: usize, observation: &mut Observation) {
-        match (&self.gauges[place], &mut self.gathered[place]) {
-            (Gauge::Statistics(ties), Gathered::Statistics(histogram)) => {
-                histogram.add(observation.statistics(*ties));
-            }
-            (Gauge::Score(score, _), Gathered::Scores(largest)) => {
-                largest.add(score.of(observation))
-            }
-            _ => unreachable!("what is gathered is what the gauge shows"),
+        match &mut self.0[place] {
+            Gauge::Statistics(ties, histogram) => histogram.add(observation.statistics(*ties)),
+            Gauge::Score(score, largest) => largest.add(score.of(observation)),
         }
     }
 }
 
-impl Gather for Gatherer<'_> {
+impl Gather for Gauges {
     fn merge(&mut self, other: Self) {
-        for (sum, more) in self.gathered.iter_mut().zip(other.gathered) {
+        for (sum, more) in self.0.iter_mut().zip(other.0) {
             match (sum, more) {
-                (Gathered::Statistics(sum), Gathered::Statistics(more)) => sum.merge(&more),
-                (Gathered::Scores(sum), Gathered::Scores(more)) => {
+                (Gauge::Statistics(_, sum), Gauge::Statistics(_, more)) => sum.merge(&more),
+                (Gauge::Score(_, sum), Gauge::Score(_, more)) => {
                     more.values.into_iter().for_each(|value| sum.add(value));
                 }
-                _ => unreachable!("both come from the same gauges"),
+                _ => unreachable!("both began as the same gauges"),
             }
         }
     }
@@ -122,10 +103,7 @@ mod tests {
     /// What is kept of many values are the largest, whatever their order.
     #[test]
     fn largest_are_kept() {
-        let mut largest = Largest {
-            keep: 5,
-            values: Vec::new(),
-        };
+        let mut largest = Largest::new(5);
         (0..9000u64).for_each(|i| largest.add((i * 7919 % 9000) as f64));
         assert_eq!(largest.smallest(), 8995.0);
     }

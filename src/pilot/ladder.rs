@@ -1,8 +1,7 @@
 //! The regions of one rule by their nominal level, and how far up a pilot lets one go.
 
-use super::gather::Gathered;
 use crate::chain::Scenario;
-use crate::detect::{LikelihoodOrder, Method, NullLaws, Region};
+use crate::detect::{Histogram, LikelihoodOrder, Method, NullLaws, Region};
 
 /// The rungs of the ladder: nominal levels down to a millionth of α.
 const RUNGS: i32 = 270;
@@ -16,14 +15,11 @@ pub(super) struct Ladder {
 }
 
 impl Ladder {
-    pub fn new(scenario: &Scenario, motion: Option<&Gathered>) -> Self {
+    pub fn new(scenario: &Scenario, motion: Option<&Histogram>) -> Self {
         let detector = &scenario.detector;
         let laws = NullLaws::new(detector.alternative, &scenario.samples)
             .expect("the plan has made these laws before");
-        let order = motion.map(|gathered| match gathered {
-            Gathered::Statistics(histogram) => LikelihoodOrder::new(&laws, histogram),
-            Gathered::Scores(_) => unreachable!("a likelihood ratio of W and T"),
-        });
+        let order = motion.map(|histogram| LikelihoodOrder::new(&laws, histogram));
         Self {
             laws,
             method: detector.method.clone(),

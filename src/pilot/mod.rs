@@ -28,45 +28,17 @@
 mod gather;
 mod ladder;
 mod need;
+mod stage;
 
-use crate::chain::{Decision, Purpose, RecordTooLong, Scenario, Score};
+pub use need::{PROMISE_LEVEL, PROMISED_LAWS, PilotError};
+
+use crate::chain::{Decision, Purpose, Score};
 use crate::detect::Region;
 use crate::plan::{Design, Plan, Point};
-use crate::schedule::Schedule;
-use crate::signal::Law;
-use gather::{Gathered, Gatherer, Gauge};
 use ladder::Ladder;
 use need::{Need, believed};
+use stage::Stage;
 use std::sync::Arc;
-
-/// The laws of noise under which a calibrated design promises its level, and under no other.
-pub const PROMISED_LAWS: [Law; 4] = [Law::Normal, Law::Laplace, Law::Uniform, Law::Cauchy];
-
-/// The probability that a promise is not kept, at most.
-pub const PROMISE_LEVEL: f64 = 1e-3;
-
-/// Why no decision could be found.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum PilotError {
-    /// A pilot's record does not fit in memory.
-    #[error("pilot: {0}")]
-    Record(#[from] RecordTooLong),
-    /// Nothing keeps the level.
-    #[error(
-        "curve {curve}: detector: {pilot} pilot trials show no region or threshold of rule {rule} that keeps \
-         alpha = {alpha} (raise pilot, training or alpha)"
-    )]
-    Nothing {
-        /// The label of the first curve that needs it.
-        curve: String,
-        /// The rule.
-        rule: String,
-        /// Its level.
-        alpha: f64,
-        /// Trials of each pilot.
-        pilot: u64,
-    },
-}
 
 /// The pilots that a plan needs.
 #[derive(Debug)]
@@ -79,14 +51,6 @@ pub struct Pilots<'a> {
     rest: Stage,
 }
 
-/// Pilots that run together.
-#[derive(Debug)]
-struct Stage {
-    scenarios: Vec<Scenario>,
-    gauges: Vec<Gauge>,
-    schedule: Option<Schedule>,
-}
-
 impl<'a> Pilots<'a> {
     /// What has to be run before the plan's points can decide.
     ///
@@ -94,7 +58,7 @@ impl<'a> Pilots<'a> {
     /// Where a pilot's record does not fit in memory, or a pilot is too short to show anything.
     pub fn new(plan: &'a Plan) -> Result<Self, PilotError> {
         let mut needs: Vec<Need> = Vec::new();
-        let (mut motion, mut rest) = (Stage::new(), Stage::new());
+        let (mut motion, mut rest) = (Stage::default(), Stage::default());
         let mut need_of = Vec::new();
         for point in &plan.points {
             need_of.push(match point.design {
@@ -131,9 +95,7 @@ impl<'a> Pilots<'a> {
 
     /// What the progress of [`Pilots::decide`] adds up to.
     pub fn work(&self) -> u64 {
-        let stages = [&self.motion, &self.rest].into_iter();
-        let ensembles = stages.filter_map(|stage| stage.schedule.as_ref());
-        ensembles.map(Schedule::work).sum()
+        self.motion.work() + self.rest.work()
     }
 
     /// Decisions that cost as much time as the real ones and never decide H₁, for timing a run.
@@ -177,39 +139,4 @@ impl<'a> Pilots<'a> {
 fn region_decision(region: Arc<Region>, point: &Point) -> Decision {
     let ties = point.scenario.detector.ties;
     Decision::Region { region, ties }
-}
-
-impl Stage {
-    fn new() -> Self {
-        Self {
-            scenarios: Vec::new(),
-            gauges: Vec::new(),
-            schedule: None,
-        }
-    }
-
-    /// Adds a pilot and returns its place.
-    fn add(&mut self, scenario: Scenario, gauge: Gauge) -> usize {
-        self.scenarios.push(scenario);
-        self.gauges.push(gauge);
-        self.gauges.len() - 1
-    }
-
-    fn arrange(&mut self, plan: &Plan, purpose: Purpose) -> Result<(), RecordTooLong> {
-        if !self.scenarios.is_empty() {
-            let (trials, seed) = (plan.pilot, plan.seed);
-            let schedule = Schedule::new(&self.scenarios, trials, seed, purpose, true);
-            self.schedule = Some(schedule.map_err(|(_, refusal)| refusal)?);
-        }
-        Ok(())
-    }
-
-    fn run(&self, progress: impl Fn(u64) + Sync) -> Vec<Gathered> {
-        let new = || Gatherer {
-            gauges: &self.gauges,
-            gathered: self.gauges.iter().map(Gauge::nothing).collect(),
-        };
-        let schedule = self.schedule.as_ref();
-        schedule.map_or(Vec::new(), |schedule| schedule.run(new, progress).gathered)
-    }
 }

@@ -1,15 +1,44 @@
 //! One decision to be found: which pilots it takes, how many false alarms they may count, and what is decided
 //! in the end.
 
-use super::gather::{Gathered, Gauge};
+use super::gather::{Gauge, Largest};
 use super::ladder::Ladder;
-use super::{PROMISE_LEVEL, PROMISED_LAWS, PilotError, Stage};
-use crate::chain::{Calibration, Decision, Detector, Scenario, Score};
-use crate::detect::{Method, Region};
+use super::stage::Stage;
+use crate::chain::{Calibration, Decision, Detector, RecordTooLong, Scenario, Score};
+use crate::detect::{Histogram, Method, Region};
 use crate::plan::Point;
 use crate::signal::{Law, Noise};
 use crate::stats::binomial;
 use std::sync::Arc;
+
+/// The laws of noise under which a calibrated design promises its level, and under no other.
+pub const PROMISED_LAWS: [Law; 4] = [Law::Normal, Law::Laplace, Law::Uniform, Law::Cauchy];
+
+/// The probability that a promise is not kept, at most.
+pub const PROMISE_LEVEL: f64 = 1e-3;
+
+/// Why no decision could be found.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PilotError {
+    /// A pilot's record does not fit in memory.
+    #[error("pilot: {0}")]
+    Record(#[from] RecordTooLong),
+    /// Nothing keeps the level.
+    #[error(
+        "curve {curve}: detector: {pilot} pilot trials show no region or threshold of rule {rule} that keeps \
+         alpha = {alpha} (raise pilot, training or alpha)"
+    )]
+    Nothing {
+        /// The label of the first curve that needs it.
+        curve: String,
+        /// The rule.
+        rule: String,
+        /// Its level.
+        alpha: f64,
+        /// Trials of each pilot.
+        pilot: u64,
+    },
+}
 
 /// A rate measured by fewer false alarms is none.
 const FEWEST_FALSE_ALARMS: u64 = 20;
@@ -54,8 +83,8 @@ impl Need {
         };
         let score = Score::new(&scenario).map(Arc::new);
         let gauge = match &score {
-            Some(score) => Gauge::Score(score.clone(), allowed as usize + 1),
-            None => Gauge::Statistics(detector.ties),
+            Some(score) => Gauge::Score(score.clone(), Largest::new(allowed as usize + 1)),
+            None => Gauge::Statistics(detector.ties, Histogram::default()),
         };
         let stated = detector
             .stated
@@ -79,20 +108,21 @@ impl Need {
         })
     }
 
-    /// By what the pilots in motion and at rest have gathered.
-    pub fn decide(&self, motion: &[Gathered], rest: &[Gathered]) -> Result<Decision, PilotError> {
+    /// By the gauges of the pilots in motion and at rest.
+    pub fn decide(&self, motion: &[Gauge], rest: &[Gauge]) -> Result<Decision, PilotError> {
         let detector = &self.scenario.detector;
-        let rest: Vec<&Gathered> = self.rest.iter().map(|&place| &rest[place]).collect();
+        let rest: Vec<&Gauge> = self.rest.iter().map(|&place| &rest[place]).collect();
         if let Some(score) = &self.score {
-            let thresholds = rest.iter().map(|gathered| gathered.threshold());
+            let thresholds = rest.iter().map(|gauge| gauge.threshold());
             return Ok(Decision::Threshold {
                 score: score.clone(),
                 threshold: thresholds.fold(f64::NEG_INFINITY, f64::max),
             });
         }
-        let ladder = Ladder::new(&self.scenario, self.motion.map(|place| &motion[place]));
+        let motion = self.motion.map(|place| motion[place].histogram());
+        let ladder = Ladder::new(&self.scenario, motion);
         let keeps = |region: &Region| {
-            let mut counts = rest.iter().map(|gathered| gathered.count(region));
+            let mut counts = rest.iter().map(|gauge| gauge.count(region));
             counts.all(|count| count <= self.allowed)
         };
         let region = match detector.calibration {

@@ -67,11 +67,6 @@ impl Directory {
         self.holds(MANIFEST)
     }
 
-    /// Whether there are the counts of a run that is not over.
-    pub fn has_counts(&self) -> bool {
-        self.holds(COUNTS)
-    }
-
     /// The counts so far of a run that is not over.
     ///
     /// # Errors
@@ -87,13 +82,17 @@ impl Directory {
             .map_err(|error| ResultsError::Checkpoint { path, error })
     }
 
-    /// Saves the counts so far. Whatever happens, what was saved before or these are there.
+    /// Saves the counts so far. Whatever happens, what was saved before or these are there. Says whether these are
+    /// others.
     ///
     /// # Errors
     /// Where they cannot be written.
-    pub fn save(&self, checkpoint: &Checkpoint) -> Result<(), ResultsError> {
-        let saved = self.replace(COUNTS, &checkpoint.to_json());
-        saved.map_err(|error| ResultsError::Unsaved {
+    pub fn save(&self, checkpoint: &Checkpoint) -> Result<bool, ResultsError> {
+        let json = checkpoint.to_json();
+        let is_new = !self.has(COUNTS, &json);
+        // Even the same bytes are written: a place that takes none is found out before anything is counted.
+        let saved = self.replace(COUNTS, &json);
+        (saved.map(|()| is_new)).map_err(|error| ResultsError::Unsaved {
             path: self.path.join(COUNTS),
             error,
         })
@@ -165,8 +164,8 @@ impl Directory {
     /// What made the results of an experiment that are here whole, and none more lately under way.
     pub fn complete(&self, origin: &Origin) -> Option<Manifest> {
         let manifest = self.manifest().ok()?;
-        let is_complete =
-            origin.made(&manifest.origin) && self.is_intact(&manifest) && !self.has_counts();
+        let is_over = !self.holds(COUNTS);
+        let is_complete = is_over && origin.made(&manifest.origin) && self.is_intact(&manifest);
         is_complete.then_some(manifest)
     }
 
@@ -223,13 +222,17 @@ impl Directory {
     /// # Errors
     /// Where it cannot be written.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<bool, ResultsError> {
-        if std::fs::read(self.path.join(name)).is_ok_and(|held| held == bytes) {
+        if self.has(name, bytes) {
             return Ok(false);
         }
         let replaced = self.replace(name, bytes);
         replaced
             .map(|()| true)
             .map_err(|error| self.unwritable(error))
+    }
+
+    fn has(&self, name: &str, bytes: &[u8]) -> bool {
+        std::fs::read(self.path.join(name)).is_ok_and(|held| held == bytes)
     }
 
     fn replace(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
@@ -254,7 +257,7 @@ impl Directory {
         Ok(())
     }
 
-    fn unwritable(&self, error: io::Error) -> ResultsError {
+    pub(super) fn unwritable(&self, error: io::Error) -> ResultsError {
         let path = self.path.clone();
         ResultsError::Unwritable { path, error }
     }

@@ -33,10 +33,7 @@ impl Directory {
     /// # Errors
     /// Where another run holds it, or it cannot be made.
     pub fn lock(&self) -> Result<Lock, ResultsError> {
-        let unwritable = |error| ResultsError::Unwritable {
-            path: self.path().to_owned(),
-            error,
-        };
+        let unwritable = |error| self.unwritable(error);
         let paths = self.path().ancestors();
         let is_new = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
         let made = paths.take_while(is_new).map(Path::to_owned).collect();

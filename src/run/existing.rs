@@ -1,10 +1,20 @@
 //! What a directory has, as counts; and whether they may be gone on with.
 
-use super::identity::origins_difference;
-use super::{Experiment, Identity, Overwrite, Trials};
+use super::{Experiment, Identity, StudyError, Target, Trials};
 use crate::counts::Counts;
 use crate::results::{Checkpoint, Directory, Manifest, RESULTS, ResultsError};
 use std::collections::BTreeSet;
+
+/// What becomes of what a directory holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overwrite {
+    /// It is gone on with; what is of another experiment is refused.
+    Continue,
+    /// Of it is kept what is wanted here: the directory belongs to the experiment by its name.
+    Adopt,
+    /// It is replaced.
+    Fresh,
+}
 
 /// The counts of a directory.
 #[derive(Debug)]
@@ -98,7 +108,9 @@ impl Existing {
             None => "all of a run".to_owned(),
         };
         let trials = self.state.shard.map(|_| there.trials);
-        origins_difference(there, origin)
+        let shared = [there, origin].map(|origin| origin.common_random_numbers);
+        differs("seed", &there.seed, &origin.seed)
+            .or_else(|| differs("common_random_numbers", &shared[0], &shared[1]))
             .or_else(|| differs("it", &shard(&self.state), &shard(here)))
             .or_else(|| differs("trials of a shard", &trials?, &origin.trials))
             .or_else(|| self.points_difference(experiment))
@@ -126,9 +138,9 @@ impl Existing {
     }
 
     /// Keeps the counts that are wanted.
-    pub fn keep(&mut self, trials: Option<&dyn Trials>) {
-        let targets = trials.map_or(&[][..], |trials| trials.targets());
-        let wanted: BTreeSet<_> = targets.iter().map(|target| &target.key).collect();
+    pub fn keep(&mut self, trials: &dyn Trials) {
+        let targets = trials.targets().iter();
+        let wanted: BTreeSet<_> = targets.map(|target| &target.key).collect();
         let counts: &mut Counts = &mut self.state.counts;
         counts.retain(|key| wanted.contains(key));
         if counts.iter().next().is_none() {
@@ -136,4 +148,13 @@ impl Existing {
             self.made_by = None;
         }
     }
+}
+
+/// Whether the counts of a run, or of its share of one, can be what they say.
+pub(super) fn check(trials: &dyn Trials, state: &Checkpoint) -> Result<(), StudyError> {
+    for Target { key, shape } in trials.targets() {
+        let share = state.wanted();
+        (state.counts).check(key, shape, share, state.origin.trials)?;
+    }
+    trials.check(&state.counts)
 }

@@ -1,7 +1,7 @@
 //! What tells a point of one study from another.
 
 use crate::counts::Key;
-use crate::results::{Origin, RESULTS};
+use crate::results::RESULTS;
 use std::collections::BTreeSet;
 
 /// The parameters that the outcome at one point depends on, seed and trials apart.
@@ -58,18 +58,4 @@ impl Identity {
             None => "it has points that are not here".to_owned(),
         })
     }
-}
-
-/// The first thing apart from points that keeps results of one experiment from being gone on with in another.
-pub(super) fn origins_difference(there: &Origin, here: &Origin) -> Option<String> {
-    if there.seed != here.seed {
-        return Some(format!("seed is {} there, {} here", there.seed, here.seed));
-    }
-    let shared = [there, here].map(|origin| origin.common_random_numbers);
-    (shared[0] != shared[1]).then(|| {
-        format!(
-            "common_random_numbers is {} there, {} here",
-            shared[0], shared[1]
-        )
-    })
 }

@@ -1,8 +1,10 @@
 //! Shards of one experiment, joined.
 
-use super::{Experiment, Overwrite, Session};
-use crate::counts::{Counts, CountsError};
-use crate::results::{Checkpoint, Directory, ResultsError, Shard};
+use super::existing::check;
+use super::{Experiment, Overwrite, Session, StudyError, Trials};
+use crate::counts::{Counts, CountsError, Key};
+use crate::results::{Checkpoint, Directory, RESULTS, ResultsError, Shard};
+use crate::rule::OutOfRange;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
@@ -44,15 +46,6 @@ pub enum MergeError {
     More(PathBuf),
 }
 
-/// Shards added up.
-#[derive(Debug)]
-pub struct Joined {
-    /// The counts of all.
-    pub state: Checkpoint,
-    /// What the whole run has and these shards have not.
-    pub absent: Absent,
-}
-
 /// What a whole run has and these shards have not.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Absent {
@@ -62,18 +55,66 @@ pub struct Absent {
     pub unfinished: Vec<(PathBuf, u64)>,
 }
 
-/// Adds the counts of all `directories`, in time linear in their size.
+/// The counts of a shard.
 ///
 /// # Errors
-/// Where one has none, two are of different experiments, or two hold the same trials.
-pub fn join(directories: &[Directory]) -> Result<Joined, MergeError> {
+/// Where there are none.
+pub fn part(directory: &Directory) -> Result<Checkpoint, MergeError> {
+    let path = || directory.path().to_owned();
+    (directory.checkpoint()?).ok_or_else(|| MergeError::Nothing(path()))
+}
+
+/// Adds the counts of all `shards`, in time linear in their size, as those of the experiment in `directory`, ready
+/// to be written or gone on with.
+///
+/// # Errors
+/// Where a shard has none or none that it can have, two are of different experiments or hold the same trials, or
+/// the directory holds another experiment or trials that the shards have not.
+pub fn merge<'a>(
+    experiment: &'a dyn Experiment,
+    shards: &[Directory],
+    directory: Directory,
+) -> Result<(Session<'a>, Absent), MergeError> {
+    let (sum, absent) = join(experiment, shards)?;
+    let mut session = Session::open(experiment, directory, None, Overwrite::Continue)?;
+    if !sum.counts.covers(session.counts()) {
+        return Err(MergeError::More(session.directory().path().to_owned()));
+    }
+    session.made_by = None;
+    session.is_complete = false;
+    session.state.counts = sum.counts;
+    session.state.seconds = sum.seconds;
+    session.check()?;
+    session.expect();
+    session.save()?;
+    Ok((session, absent))
+}
+
+/// The counts of all, and what is not among them.
+fn join(
+    experiment: &dyn Experiment,
+    directories: &[Directory],
+) -> Result<(Checkpoint, Absent), MergeError> {
+    let trials = experiment.trials().unwrap_or_else(|| Box::new(()));
+    let known: BTreeSet<&Key> = trials.targets().iter().map(|target| &target.key).collect();
     let mut sum: Option<Checkpoint> = None;
     let mut absent = Absent::default();
     let mut shards = BTreeSet::new();
     for (index, directory) in directories.iter().enumerate() {
         let path = || directory.path().to_owned();
-        let nothing = || MergeError::Nothing(path());
-        let part = directory.checkpoint()?.ok_or_else(nothing)?;
+        let part = part(directory)?;
+        if let Some(sum) = &sum
+            && let Some(difference) = sum.origin.difference(&part.origin)
+        {
+            return Err(MergeError::Foreign {
+                first: directories[0].path().to_owned(),
+                second: path(),
+                difference,
+            });
+        }
+        // What cannot be might add up to what can.
+        let checked = check_part(&*trials, &known, &part);
+        checked.map_err(|error| directory.impossible(&error))?;
         let lacking = part.lacking();
         if lacking > 0 {
             absent.unfinished.push((path(), lacking));
@@ -83,21 +124,36 @@ pub fn join(directories: &[Directory]) -> Result<Joined, MergeError> {
             sum = Some(part);
             continue;
         };
-        if let Some(difference) = sum.origin.difference(&part.origin) {
-            return Err(MergeError::Foreign {
-                first: directories[0].path().to_owned(),
-                second: path(),
-                difference,
-            });
-        }
         (sum.counts.merge(&part.counts))
             .map_err(|error| overlap(&directories[..index], directory, &part.counts, error))?;
         sum.seconds += part.seconds;
     }
-    let mut state = sum.expect("there is at least one directory");
-    state.shard = None;
     absent.shards = without_directory(&shards);
-    Ok(Joined { state, absent })
+    Ok((sum.expect("there is at least one directory"), absent))
+}
+
+/// Whether a shard can be what it says: cut as the experiment is, of its counters, of its own trials.
+fn check_part(
+    trials: &dyn Trials,
+    known: &BTreeSet<&Key>,
+    part: &Checkpoint,
+) -> Result<(), StudyError> {
+    let numbers = [
+        ("results", part.origin.results.into(), RESULTS.into()),
+        ("block", part.block, trials.block()),
+        ("points", part.points as u64, trials.points() as u64),
+    ];
+    for (name, there, here) in numbers {
+        if there != here {
+            return Err(OutOfRange::new(name, format_args!("be {here}"), there).into());
+        }
+    }
+    let counted = part.counts.iter().map(|(key, _)| key);
+    let mut keys = counted.chain(part.counts.decisions.keys());
+    if let Some(key) = keys.find(|key| !known.contains(key)) {
+        return Err(format!("counter {key}: not of this experiment").into());
+    }
+    check(trials, part)
 }
 
 /// Who of `before` has what `part` has too.
@@ -131,28 +187,4 @@ fn without_directory(shards: &BTreeSet<Shard>) -> Vec<Shard> {
         .map(|number| Shard { number, count })
         .filter(|shard| !shards.contains(shard))
         .collect()
-}
-
-impl Joined {
-    /// The experiment in `directory` as the shards have it, ready to be written or gone on with.
-    ///
-    /// # Errors
-    /// Where the directory holds another experiment, or trials that the shards have not.
-    pub fn settle<'a>(
-        self,
-        experiment: &'a dyn Experiment,
-        directory: Directory,
-    ) -> Result<Session<'a>, MergeError> {
-        let mut session = Session::open(experiment, directory, None, Overwrite::Continue)?;
-        if !self.state.counts.covers(session.counts()) {
-            return Err(MergeError::More(session.directory().path().to_owned()));
-        }
-        session.made_by = None;
-        session.is_complete = false;
-        session.state = self.state;
-        session.check()?;
-        session.expect();
-        session.save()?;
-        Ok(session)
-    }
 }

@@ -36,10 +36,11 @@ mod trials;
 pub use estimate::Estimate;
 #[cfg(test)]
 pub(crate) use estimate::whole;
+pub use existing::Overwrite;
 pub use identity::Identity;
-pub use merge::{Absent, Joined, MergeError, join};
+pub use merge::{Absent, MergeError, merge, part};
 pub use missing::Missing;
-pub use session::{Overwrite, Session};
+pub use session::Session;
 pub use status::{State, Status};
 pub use tally::{Outcome, run};
 pub use trials::{Experiment, Group, Progress, Simulation, StudyError, Target, Trials};

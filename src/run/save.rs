@@ -3,8 +3,7 @@
 use super::Progress;
 use crate::counts::Counts;
 use crate::results::{Checkpoint, Directory, ResultsError};
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 /// Saves a run while it goes on, and passes on its progress.
@@ -16,12 +15,9 @@ pub(super) struct Saver<'a> {
     period: Duration,
     start: Instant,
     last: Mutex<Instant>,
-    failed: AtomicBool,
-    error: Mutex<Option<ResultsError>>,
+    error: OnceLock<ResultsError>,
     progress: &'a dyn Progress,
 }
-
-const NO_PANIC: &str = "nobody panics with the lock";
 
 impl<'a> Saver<'a> {
     pub fn new(
@@ -39,20 +35,22 @@ impl<'a> Saver<'a> {
             period,
             start,
             last: Mutex::new(start),
-            failed: AtomicBool::new(false),
-            error: Mutex::new(None),
+            error: OnceLock::new(),
             progress,
         }
     }
 
     /// What kept the counts from being saved.
     pub fn finish(self) -> Result<(), ResultsError> {
-        let error = self.error.into_inner().expect(NO_PANIC);
-        error.map_or(Ok(()), Err)
+        self.error.into_inner().map_or(Ok(()), Err)
     }
 
-    fn save(&self) -> Result<(), ResultsError> {
-        let counts = self.counts.lock().expect(NO_PANIC).clone();
+    fn save(&self) -> Result<bool, ResultsError> {
+        let counts = self
+            .counts
+            .lock()
+            .expect("nobody panics with the counts")
+            .clone();
         self.directory.save(&Checkpoint {
             counts,
             seconds: self.state.seconds + self.start.elapsed().as_secs_f64(),
@@ -68,21 +66,18 @@ impl Progress for Saver<'_> {
         let Ok(mut last) = self.last.try_lock() else {
             return;
         };
-        if last.elapsed() < self.period || self.failed.load(Ordering::Relaxed) {
+        if last.elapsed() < self.period || self.error.get().is_some() {
             return;
         }
         let saved = self.save();
         *last = Instant::now();
         match saved {
-            Ok(()) => self.progress.saved(),
-            Err(error) => {
-                *self.error.lock().expect(NO_PANIC) = Some(error);
-                self.failed.store(true, Ordering::Relaxed);
-            }
+            Ok(_) => self.progress.saved(),
+            Err(error) => drop(self.error.set(error)),
         }
     }
 
     fn is_stopped(&self) -> bool {
-        self.failed.load(Ordering::Relaxed) || self.progress.is_stopped()
+        self.error.get().is_some() || self.progress.is_stopped()
     }
 }

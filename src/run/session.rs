@@ -1,27 +1,16 @@
 //! An experiment in its directory, worked off.
 
-use super::existing::Existing;
+use super::existing::{Existing, Overwrite, check};
 use super::missing::Work;
 use super::save::Saver;
-use super::{Experiment, Missing, Progress, StudyError, Trials};
+use super::{Experiment, Missing, Progress, StudyError, Target, Trials};
 use crate::counts::Counts;
 use crate::results::{Checkpoint, Directory, Lock, Manifest, ResultsError, Shard};
 use std::time::{Duration, Instant};
 
-/// What becomes of what a directory holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Overwrite {
-    /// It is gone on with; what is of another experiment is refused.
-    Continue,
-    /// Of it is kept what is wanted here: the directory belongs to the experiment by its name.
-    Adopt,
-    /// It is replaced.
-    Fresh,
-}
-
 /// An experiment in its directory, which nobody else writes into as long as this lives.
 pub struct Session<'a> {
-    trials: Option<Box<dyn Trials + 'a>>,
+    trials: Box<dyn Trials + 'a>,
     directory: Directory,
     /// What is saved, and how far it is.
     pub(super) state: Checkpoint,
@@ -29,6 +18,8 @@ pub struct Session<'a> {
     pub(super) made_by: Option<Manifest>,
     /// Whether the results are here, down to the words of the config.
     pub(super) is_complete: bool,
+    /// Whether the saved counts are others than before.
+    is_new: bool,
     lock: Lock,
 }
 
@@ -45,12 +36,12 @@ impl<'a> Session<'a> {
     ) -> Result<Self, ResultsError> {
         let lock = directory.lock()?;
         directory.check_writable()?;
-        let trials = experiment.trials();
+        let trials = experiment.trials().unwrap_or_else(|| Box::new(()));
         let mut state = Checkpoint {
             origin: experiment.origin().clone(),
             shard,
-            block: trials.as_ref().map_or(1, |trials| trials.block()),
-            points: trials.as_ref().map_or(0, |trials| trials.points()),
+            block: trials.block(),
+            points: trials.points(),
             seconds: 0.0,
             counts: Counts::default(),
         };
@@ -59,7 +50,7 @@ impl<'a> Session<'a> {
         let mut made_by = None;
         if let Some(mut existing) = Existing::read(&directory, experiment, overwrite)? {
             existing.admit(&directory, &state, experiment, overwrite)?;
-            existing.keep(trials.as_deref());
+            existing.keep(&*trials);
             state.counts = existing.state.counts;
             state.seconds = existing.state.seconds;
             made_by = existing.made_by;
@@ -70,6 +61,7 @@ impl<'a> Session<'a> {
             state,
             made_by,
             is_complete,
+            is_new: false,
             lock,
         };
         session.check()?;
@@ -115,28 +107,26 @@ impl<'a> Session<'a> {
 
     /// What is wanted and not counted; none where all is done.
     pub fn missing(&self) -> Option<Missing> {
-        let trials = self.trials.as_deref().filter(|_| !self.is_complete)?;
-        let missing = Missing::new(
-            trials,
-            &self.needed(),
-            &self.state.counts,
-            &self.state.wanted(),
-        );
+        let missing = (!self.is_complete).then(|| self.missing_of(&self.needed()))?;
         (!missing.is_empty()).then_some(missing)
+    }
+
+    fn missing_of(&self, targets: &[usize]) -> Missing {
+        let state = &self.state;
+        Missing::new(&*self.trials, targets, &state.counts, &state.wanted())
     }
 
     /// What the progress of [`count`](Self::count) adds up to.
     pub fn work(&self, missing: &Missing) -> u64 {
-        let trials = self.trials.as_deref();
-        trials.map_or(0, |trials| Work::new(trials, missing).size())
+        Work::new(&*self.trials, missing).size()
     }
 
     /// The targets of this run. A share does not know what the others find, so it counts all there may be.
     fn needed(&self) -> Vec<usize> {
-        match &self.trials {
-            Some(trials) if self.state.shard.is_some() => (0..trials.targets().len()).collect(),
-            Some(trials) => trials.needed(&self.state.counts),
-            None => Vec::new(),
+        if self.state.shard.is_some() {
+            (0..self.trials.targets().len()).collect()
+        } else {
+            self.trials.needed(&self.state.counts)
         }
     }
 
@@ -149,10 +139,8 @@ impl<'a> Session<'a> {
         missing: &Missing,
         progress: &dyn Progress,
     ) -> Result<(), StudyError> {
-        if let Some(trials) = &mut self.trials {
-            let decisions = trials.prepare(&missing.targets(), progress)?;
-            self.state.counts.decisions.extend(decisions);
-        }
+        let decisions = self.trials.prepare(&missing.targets(), progress)?;
+        self.state.counts.decisions.extend(decisions);
         Ok(())
     }
 
@@ -171,37 +159,28 @@ impl<'a> Session<'a> {
         self.made_by = None;
         // A place that cannot be written is found out before it costs anything.
         self.save()?;
-        if let Some(trials) = &self.trials {
-            let work = Work::new(trials.as_ref(), missing);
-            let counts = std::mem::take(&mut self.state.counts).into();
-            let saver = Saver::new(&self.directory, &self.state, &counts, period, progress);
-            work.count(&counts, &saver);
-            let saved = saver.finish();
-            self.state.counts = counts.into_inner().expect("nobody panics with the counts");
-            self.state.seconds += start.elapsed().as_secs_f64();
-            saved?;
-        }
+        let counts = std::mem::take(&mut self.state.counts).into();
+        let saver = Saver::new(&self.directory, &self.state, &counts, period, progress);
+        Work::new(&*self.trials, missing).count(&counts, &saver);
+        let saved = saver.finish();
+        self.state.counts = counts.into_inner().expect("nobody panics with the counts");
+        self.state.seconds += start.elapsed().as_secs_f64();
+        saved?;
+        self.is_new = true;
         self.expect();
         self.save()?;
         progress.saved();
-        Ok(!progress.is_stopped() || self.is_there(missing))
+        Ok(!progress.is_stopped() || self.missing_of(&missing.targets()).is_empty())
     }
 
-    /// Whether all of something that was missing is counted.
-    fn is_there(&self, missing: &Missing) -> bool {
-        let wanted = self.state.wanted();
-        let trials = self.trials.as_deref();
-        trials.is_none_or(|trials| {
-            Missing::new(trials, &missing.targets(), &self.state.counts, &wanted).is_empty()
-        })
-    }
-
-    /// Saves the counts, be they none.
+    /// Saves the counts, be they none. Says whether they, or the words of the config, are others than when the
+    /// session was opened.
     ///
     /// # Errors
     /// Where they cannot be written.
-    pub fn save(&self) -> Result<(), ResultsError> {
-        self.directory.save(&self.state)
+    pub fn save(&mut self) -> Result<bool, ResultsError> {
+        self.is_new |= self.directory.save(&self.state)?;
+        Ok(self.is_new)
     }
 
     /// The lock under which results can be written.
@@ -212,26 +191,14 @@ impl<'a> Session<'a> {
     /// Enters every counter, so that the file tells how much there is to do.
     pub(super) fn expect(&mut self) {
         let needed = self.needed();
-        let targets = self
-            .trials
-            .as_ref()
-            .map_or(&[][..], |trials| trials.targets());
-        for target in needed.into_iter().map(|at| &targets[at]) {
-            self.state.counts.expect(&target.key, &target.shape);
+        for Target { key, shape } in needed.into_iter().map(|at| &self.trials.targets()[at]) {
+            self.state.counts.expect(key, shape);
         }
     }
 
     /// Whether the counts can be what they say.
     pub(super) fn check(&self) -> Result<(), ResultsError> {
-        let Some(trials) = &self.trials else {
-            return Ok(());
-        };
-        let (counts, number) = (&self.state.counts, self.state.origin.trials);
-        let mut each = trials.targets().iter();
-        let checked: Result<(), StudyError> = each
-            .try_for_each(|target| counts.check(&target.key, &target.shape, number))
-            .map_err(StudyError::from)
-            .and_then(|()| trials.check(counts));
+        let checked = check(&*self.trials, &self.state);
         checked.map_err(|error| self.directory.impossible(&error))
     }
 }

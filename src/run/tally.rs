@@ -195,14 +195,10 @@ impl Gather for Tallies<'_> {
     }
 
     fn merge(&mut self, other: Self) {
-        let add = |sum: &mut u64, more| *sum += more;
-        self.hits
-            .iter_mut()
-            .zip(other.hits)
-            .for_each(|(sum, more)| add(sum, more));
         let pairs = self.discordant.as_flattened_mut().iter_mut();
-        pairs
-            .zip(other.discordant.into_flattened())
-            .for_each(|(sum, more)| add(sum, more));
+        let pairs = pairs.zip(other.discordant.into_flattened());
+        for (sum, more) in self.hits.iter_mut().zip(other.hits).chain(pairs) {
+            *sum += more;
+        }
     }
 }

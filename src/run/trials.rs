@@ -81,6 +81,21 @@ pub trait Trials: Sync {
     fn simulation<'a>(&'a self, targets: &[usize]) -> Box<dyn Simulation + 'a>;
 }
 
+/// Nothing is counted.
+impl Trials for () {
+    fn targets(&self) -> &[Target] {
+        &[]
+    }
+
+    fn block(&self) -> u64 {
+        1
+    }
+
+    fn simulation<'a>(&'a self, _targets: &[usize]) -> Box<dyn Simulation + 'a> {
+        Box::new(())
+    }
+}
+
 /// The trials of some targets.
 pub trait Simulation: Sync {
     /// Every target of the simulation in one of them.
@@ -88,6 +103,17 @@ pub trait Simulation: Sync {
 
     /// Runs some trials; returns the sums of each counter of the group.
     fn run(&self, group: usize, trials: Range<u64>) -> Vec<Sums>;
+}
+
+/// Nothing is simulated.
+impl Simulation for () {
+    fn groups(&self) -> &[Group] {
+        &[]
+    }
+
+    fn run(&self, _group: usize, _trials: Range<u64>) -> Vec<Sums> {
+        Vec::new()
+    }
 }
 
 /// Who is told how a run gets on, and may stop it.

@@ -21,19 +21,24 @@ pub struct Quantile {
 }
 
 impl Quantile {
-    /// The quantile `p` in (0, 1) of ascending values; from nothing follows nothing.
-    pub fn of(ascending: &[f64], p: f64, confidence: f64) -> Self {
-        let n = ascending.len();
+    /// The quantile `p` in (0, 1) of ascending values, each with how many are at most that; from nothing
+    /// follows nothing.
+    pub fn of(ascending: &[(f64, u64)], p: f64, confidence: f64) -> Self {
+        let n = ascending.last().map_or(0, |(_, number)| *number);
         let tail = (1.0 - confidence) / 2.0;
-        let place = |place: usize| place.checked_sub(1).and_then(|index| ascending.get(index));
+        let place = |place: u64| {
+            let at = ascending.partition_point(|(_, number)| *number < place);
+            let value = ascending.get(at).filter(|_| place > 0);
+            value.map(|(value, _)| *value)
+        };
         // P(K < l) = P(n − K ≥ n + 1 − l), and n − K ~ Binomial(n, 1 − p).
-        let l = n + 1 - critical_count(tail, n as u64, 1.0 - p) as usize;
-        let u = critical_count(tail, n as u64, p) as usize;
-        let middle = (n as f64 * p).ceil().max(1.0) as usize;
+        let l = n + 1 - critical_count(tail, n, 1.0 - p);
+        let u = critical_count(tail, n, p);
+        let middle = (n as f64 * p).ceil().max(1.0) as u64;
         Self {
-            value: place(middle).copied().unwrap_or(f64::INFINITY),
-            low: place(l).copied().unwrap_or(f64::NEG_INFINITY),
-            high: place(u).copied().unwrap_or(f64::INFINITY),
+            value: place(middle).unwrap_or(f64::INFINITY),
+            low: place(l).unwrap_or(f64::NEG_INFINITY),
+            high: place(u).unwrap_or(f64::INFINITY),
         }
     }
 }
@@ -47,7 +52,7 @@ mod tests {
     #[test]
     fn the_narrowest_places_that_cover() {
         for n in [1u64, 5, 6, 20, 59, 200] {
-            let values: Vec<f64> = (1..=n).map(|i| i as f64).collect();
+            let values: Vec<(f64, u64)> = (1..=n).map(|i| (i as f64, i)).collect();
             for p in [0.05, 0.5, 0.95] {
                 let quantile = Quantile::of(&values, p, 0.8);
                 let below = |l: u64| (0..l).map(|k| mass(k, n, p)).sum::<f64>();
@@ -69,12 +74,15 @@ mod tests {
     #[test]
     fn a_textbook_case() {
         let values = [1.0, 2.0, 3.0, 4.0, 5.0, f64::INFINITY];
+        let values: Vec<(f64, u64)> = values.into_iter().zip(1..).collect();
         let quantile = Quantile::of(&values, 0.5, 0.96);
         assert_eq!(
             (quantile.low, quantile.value, quantile.high),
             (1.0, 3.0, f64::INFINITY)
         );
         assert_eq!(Quantile::of(&values, 0.5, 0.97).low, f64::NEG_INFINITY);
+        let equal = Quantile::of(&[(1.0, 2), (3.0, 6)], 0.5, 0.96);
+        assert_eq!((equal.low, equal.value, equal.high), (1.0, 3.0, 3.0));
         let nothing = Quantile::of(&[], 0.5, 0.9);
         assert_eq!(
             (nothing.low, nothing.high),

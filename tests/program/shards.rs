@@ -2,9 +2,12 @@
 
 use super::survival::{Bench, STUDIES, TINY};
 use liftsim::counts::Counts;
-use liftsim::results::{Directory, Shard};
+use liftsim::results::{Checkpoint, Directory, Shard};
 use liftsim::run;
+use liftsim::study::Loaded;
+use serde_json::{Value, json};
 use std::path::PathBuf;
+use std::time::Instant;
 
 fn shard(bench: &Bench, number: u64, count: u64, more: &[&str]) -> String {
     let out = format!("{number}-of-{count}");
@@ -129,6 +132,119 @@ fn shards_that_do_not_go_together_are_named() {
     refused(&[&a, "nowhere"], &["nowhere", "no counts.json"]);
 }
 
+/// Shards are checked one by one: what none of them can have counted might add up to what all of them can.
+#[test]
+fn shards_that_cannot_be_are_refused() {
+    let bench = Bench::new(TINY);
+    let trials = ["--trials", "3000"];
+    let (a, b) = (shard(&bench, 1, 2, &trials), shard(&bench, 2, 2, &trials));
+    let state = Directory::new(bench.path(&a)).checkpoint().unwrap();
+    let whole = serde_json::to_value(state.unwrap()).unwrap();
+    let refused = |change: &dyn Fn(&mut Value), words: &[&str]| {
+        let mut state = whole.clone();
+        change(&mut state);
+        let state: Checkpoint = serde_json::from_value(state).unwrap();
+        std::fs::write(bench.path("1-of-2/counts.json"), state.to_json()).unwrap();
+        for shards in [[&a, &b], [&b, &a]] {
+            let (code, _, err) = bench.run(&["merge", shards[0], shards[1], "--out", "out"]);
+            assert_eq!(code, 2, "{err}");
+            assert!(words.iter().all(|word| err.contains(word)), "{err}");
+            assert!(!bench.path("out").exists());
+        }
+    };
+    let damaged = |member: &'static str, value: Value, words: &str| {
+        let change = |state: &mut Value| state[member] = value.clone();
+        refused(&change, &["1-of-2/counts.json: damaged", words]);
+    };
+    damaged("block", json!(512), "block: must be 1024, got 512");
+    damaged("points", json!(7), "points: must be 9, got 7");
+    damaged(
+        "shard",
+        json!("2/2"),
+        "trials 0 to 1023 are of another shard",
+    );
+    damaged(
+        "shard",
+        json!("2/3"),
+        "trials 0 to 1023 are of another shard",
+    );
+    let each = |state: &mut Value, change: &dyn Fn(&mut Value)| {
+        let counters = state["counts"]["counters"].as_object_mut().unwrap();
+        counters.values_mut().for_each(change);
+    };
+    let elsewhere = |counter: &mut Value| counter["trials"] = json!([[0, 1024], [2048, 2049]]);
+    refused(
+        &|state| each(state, &elsewhere),
+        &[
+            "1-of-2/counts.json: damaged",
+            "trials 2048 to 2048 are of another shard",
+        ],
+    );
+    // Fewer than the trials of both shards, more than those of the one.
+    let many = |counter: &mut Value| {
+        let counts = counter["sums"]["counts"].as_array_mut().unwrap();
+        counts.iter_mut().for_each(|count| *count = json!(1025));
+    };
+    refused(
+        &|state| each(state, &many),
+        &["1-of-2/counts.json: damaged", "1025 of something"],
+    );
+    let stranger = |state: &mut Value| {
+        let counters = &mut state["counts"]["counters"];
+        counters["0123456789abcdef01234567"] = json!({ "trials": [], "sums": { "counts": [0] } });
+    };
+    refused(
+        &stranger,
+        &["1-of-2/counts.json: damaged", "not of this experiment"],
+    );
+    let decision = |state: &mut Value| {
+        let decisions = state["counts"]["decisions"].as_object_mut().unwrap();
+        decisions
+            .values_mut()
+            .for_each(|decision| decision["size"] = json!(0.03125));
+    };
+    refused(
+        &decision,
+        &[
+            "1-of-2",
+            "2-of-2",
+            "decides differently: size is",
+            "0.03125",
+        ],
+    );
+}
+
+/// What a shard says of its file is what has become of it.
+#[test]
+fn a_shard_says_whether_its_counts_are_new() {
+    for text in [TINY, STUDIES[3]] {
+        let bench = Bench::new(text);
+        let says = |trials: &str, shard: &str, words: &str| {
+            let arguments = [
+                "sweep",
+                "tiny.toml",
+                "--trials",
+                trials,
+                "--shard",
+                shard,
+                "--out",
+            ];
+            let (code, out, err) = bench.run(&[&arguments[..], &["out"]].concat());
+            assert_eq!(code, 0, "{err}");
+            assert!(out.ends_with(&format!("counts.json  {words}\n")), "{out}");
+        };
+        says("24", "1/1", "written");
+        says("24", "1/1", "unchanged");
+        bench.write(&text.replace("question = \"", "question = \"Really? "));
+        says("24", "1/1", "written");
+        says("24", "1/1", "unchanged");
+        // A share of no trials has a file all the same.
+        std::fs::remove_file(bench.path("out/counts.json")).unwrap();
+        says("1", "1/3", "written");
+        says("1", "1/3", "unchanged");
+    }
+}
+
 /// A finished shard learns new words; one that lacks a pair is not finished; and few counts are not put in the
 /// place of many.
 #[test]
@@ -166,7 +282,7 @@ fn missing_shards_are_named() {
     assert!(bench.files("out") == bench.files("whole"));
 }
 
-/// Prints how many shards are joined in a second: those of Fig. 6, 156 points and 180 pairs each.
+/// Prints how many shards are checked and joined in a second: those of Fig. 6, 156 points and 180 pairs each.
 #[test]
 fn merge_is_linear() {
     let bench = Bench::new(&std::fs::read_to_string("configs/fig6.toml").unwrap());
@@ -192,10 +308,15 @@ fn merge_is_linear() {
                 Directory::new(path)
             })
             .collect();
-        let joined = run::join(&shards).unwrap();
-        assert!(joined.absent == run::Absent::default());
+        let study = Loaded::again(&shards[0].checkpoint().unwrap().unwrap().origin).unwrap();
+        let out = Directory::new(bench.path(&format!("{count}/all")));
+        let start = Instant::now();
+        let (session, absent) = run::merge(&study, &shards, out).unwrap();
+        let seconds = start.elapsed().as_secs_f64();
+        println!("{count} shards: {:.0}/s", count as f64 / seconds);
+        assert!(absent == run::Absent::default());
         for (key, counter) in all.counts.iter() {
-            let sum = joined.state.counts.get(key).unwrap();
+            let sum = session.counts().get(key).unwrap();
             assert_eq!(sum.trials.len(), 1024 * count);
             assert_eq!(sum.sums.counts[0], count * counter.sums.counts[0]);
         }

@@ -494,6 +494,69 @@ fn impossible_counts_are_refused() {
     refused(&lonely, "at one of them alone");
 }
 
+/// The same of rides, whose numbers must agree with each other; and a file of few bytes that says that there are many
+/// delays takes no more memory than they do.
+#[test]
+fn impossible_rides_are_refused() {
+    let bench = Bench::new(STUDIES[3]);
+    let shard = ["--shard", "1/2", "--out", "out"];
+    assert_eq!(
+        bench.run(&[&["sweep", "tiny.toml"], &shard[..]].concat()).0,
+        0
+    );
+    let whole = Directory::new(bench.path("out")).checkpoint().unwrap();
+    let whole = serde_json::to_value(whole.unwrap()).unwrap();
+    for (name, value, words) in [
+        (
+            "values",
+            json!([{ "0": 1_000_000_000_000_000_000u64 }, {}, {}]),
+            "of something",
+        ),
+        (
+            "values",
+            json!([{ "0": 12 }, { "0": 11 }, {}]),
+            "stop_delays: must lie in [12, 12]",
+        ),
+        (
+            "values",
+            json!([{ "0": 12 }, { "0": 12 }, { "0": 1 }]),
+            "alarm_delays: must",
+        ),
+        (
+            "counts",
+            json!([13, 0, 0, 0, 0, 0, 0, 0]),
+            "13 of something",
+        ),
+        (
+            "counts",
+            json!([0, 0, 5, 0, 0, 0, 0, 0]),
+            "alarmed: must lie in [0, 0]",
+        ),
+        (
+            "counts",
+            json!([0, 0, 0, 0, 0, 0, 3, 0]),
+            "disturbed: must lie in [1, 3]",
+        ),
+        ("lengths", json!(["-5"]), "at_rest: must lie in"),
+    ] {
+        let mut state = whole.clone();
+        let counters = state["counts"]["counters"].as_object_mut().unwrap();
+        for counter in counters.values_mut() {
+            counter["sums"][name] = value.clone();
+        }
+        let state: Checkpoint = serde_json::from_value(state).unwrap();
+        fs::write(bench.path("out/counts.json"), state.to_json()).unwrap();
+        for verb in [
+            &[&["sweep", "tiny.toml"], &shard[..]].concat()[..],
+            &["merge", "out"],
+        ] {
+            let (code, _, err) = bench.run(verb);
+            assert_eq!(code, 2, "{err}");
+            assert!(err.contains("damaged") && err.contains(words), "{err}");
+        }
+    }
+}
+
 /// A row with more detections than trials is refused, though the manifest vouches for it.
 #[test]
 fn impossible_rows_are_refused() {

@@ -130,14 +130,15 @@ impl All<'_> {
 
     /// Quantiles of a delay, counting those that were told.
     fn delays(&self, outcome: &str, delays: &Values) -> Vec<Estimate> {
-        let delays = delays.ascending();
-        let told = delays.iter().filter(|delay| delay.is_finite()).count() as u64;
+        let ascending = delays.ascending();
+        let told = delays.count(f64::is_finite);
+        let all = delays.count(|_| true);
         let quantile = |(name, p)| {
-            let Quantile { value, low, high } = Quantile::of(&delays, p, self.confidence);
+            let Quantile { value, low, high } = Quantile::of(&ascending, p, self.confidence);
             Estimate {
                 outcome: format!("{outcome}_{name}"),
                 count: told,
-                exposure: delays.len() as f64,
+                exposure: all as f64,
                 unit: "trips",
                 value,
                 low,

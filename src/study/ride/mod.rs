@@ -39,7 +39,7 @@ mod watch;
 
 pub use row::Row;
 
-use crate::counts::{Counts, Sums};
+use crate::counts::{Counter, Counts, Sums};
 use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
@@ -80,12 +80,13 @@ impl Study for Rides {
 
     fn read(experiment: &Experiment, context: Context) -> Result<Self, StudyError> {
         let table = RideTable::read(experiment)?;
+        let shape = RideSums::shape(&table);
         let mut rides = Self {
             context,
             table,
             counters: Counters::default(),
         };
-        rides.counters = Counters::new(&rides, context.seed, &RideSums::shape());
+        rides.counters = Counters::new(&rides, context.seed, &shape);
         Ok(rides)
     }
 
@@ -104,9 +105,10 @@ impl Study for Rides {
     /// All outcomes of every point, in the order of curves and values.
     fn rows(&self, counts: &Counts) -> Vec<Row> {
         let Self { context, table, .. } = self;
+        let shape = RideSums::shape(table);
         let mut rows = Vec::new();
         for ((curve, x, point), key) in self.points().zip(&self.counters.keys) {
-            let (trials, sums) = counted(counts, key, &RideSums::shape());
+            let (trials, sums) = counted(counts, key, &shape);
             let size = Watch::new(point, context.seed).size();
             let estimates = estimate::of(table.measure, &sums.into(), trials, context.confidence);
             for estimate in estimates {
@@ -154,6 +156,16 @@ impl Trials for Watching<'_> {
 
     fn block(&self) -> u64 {
         BLOCK
+    }
+
+    fn check(&self, counts: &Counts) -> Result<(), StudyError> {
+        for ((.., point), key) in self.0.points().zip(&self.0.counters.keys) {
+            if let Some(Counter { trials, sums }) = counts.get(key) {
+                let checked = RideSums::from(sums.clone()).check(point, trials.len());
+                checked.map_err(|error| format!("counter {key}: {error}"))?;
+            }
+        }
+        Ok(())
     }
 
     fn simulation<'a>(&'a self, targets: &[usize]) -> Box<dyn Simulation + 'a> {

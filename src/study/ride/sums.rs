@@ -1,7 +1,12 @@
 //! What came of many trials, added up.
 
 use super::account::{Account, Trip};
+use super::measure::Measure;
+use super::point::RidePoint;
+use super::table::RideTable;
 use crate::counts::{Fixed, Shape, Sums, Values};
+use crate::rule::{OutOfRange, Rule};
+use std::ops::RangeInclusive;
 
 /// What came of the trials of a point.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,13 +56,87 @@ impl RideSums {
         }
     }
 
-    /// Six events, two counts without a limit, a time and three kinds of delays.
-    pub fn shape() -> Shape {
+    /// Six events, two counts without a limit, a time and three kinds of delays, of which each trip brings one.
+    pub fn shape(table: &RideTable) -> Shape {
+        let points = table.curves.iter().flat_map(|curve| &curve.points);
+        let trips = points.map(|(_, point)| point.keys.trips).max();
         Shape {
             most: [vec![Some(1); 6], vec![None; 2]].concat(),
             lengths: 1,
-            values: 3,
+            values: vec![trips.unwrap_or_default() as u64; 3],
         }
+    }
+
+    /// Whether so many trials of a point can come to this: what [`add`](Self::add) gives of any accounts.
+    ///
+    /// # Errors
+    /// Where not.
+    pub fn check(&self, point: &RidePoint, trials: u64) -> Result<(), OutOfRange> {
+        for (name, got, bounds) in self.bounds(point, trials) {
+            if !bounds.contains(&got) {
+                let rule = format_args!("lie in [{}, {}]", bounds.start(), bounds.end());
+                return Err(OutOfRange::new(name, rule, got));
+            }
+        }
+        let mut rest = 0.0;
+        if point.measure.rides() {
+            rest += (point.keys.trips + 1) as f64 * point.keys.rest[1];
+        }
+        if point.measure.rests() {
+            rest += point.keys.length;
+        }
+        // Times are rounded; a part in 10⁹ is more than that ever comes to.
+        let longest = trials as f64 * rest * (1.0 + 1e-9);
+        Rule::Within(0.0, longest, "s").check("at_rest", &self.at_rest.value())
+    }
+
+    /// Each number that the trials or another one bound, and its bounds.
+    fn bounds(
+        &self,
+        point: &RidePoint,
+        trials: u64,
+    ) -> [(&'static str, u64, RangeInclusive<u64>); 9] {
+        let trips = if point.measure.rides() {
+            point.keys.trips as u64
+        } else {
+            0
+        };
+        let all = trials.saturating_mul(trips);
+        // The last trip of each ride.
+        let jams = if point.measure == Measure::Jam {
+            trials
+        } else {
+            0
+        };
+        let delays = [&self.start_delays, &self.stop_delays, &self.alarm_delays];
+        let [starts, stops, alarms] = delays.map(|delays| delays.count(|_| true));
+        let [start, stop, alarm] = delays.map(|delays| delays.count(f64::is_finite));
+        let is_none = |delay: f64| delay.is_nan() || delay == f64::NEG_INFINITY;
+        let none = delays.iter().map(|delays| delays.count(is_none)).max();
+        // A ride of which every trip is found has every start and stop told; without trips, all are found.
+        let told = start.min(stop).checked_div(trips);
+        // The rest after the first trip is the last where there is no second.
+        let soon = if trips < 2 {
+            self.knew..=self.knew
+        } else {
+            0..=trials
+        };
+        let is_any = u64::from(self.false_motions > 0);
+        [
+            ("start_delays", starts, all..=all),
+            ("stop_delays", stops, all..=all),
+            ("alarm_delays", alarms, jams..=jams),
+            ("delays that are none", none.unwrap_or_default(), 0..=0),
+            (
+                "found",
+                self.found,
+                told.map_or(trials..=trials, |told| 0..=told),
+            ),
+            ("alarmed", self.alarmed, alarm..=alarm),
+            ("disturbed", self.disturbed, is_any..=self.false_motions),
+            ("misled", self.misled, 0..=all),
+            ("knew_soon", self.knew_soon, soon),
+        ]
     }
 }
 
@@ -99,6 +178,123 @@ impl From<Sums> for RideSums {
             start_delays: next(),
             stop_delays: next(),
             alarm_delays: next(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::account::Truth;
+    use super::*;
+    use crate::experiment::ExhibitKind;
+    use crate::monitor::{Alarm, Direction, Event, Kind, State};
+    use crate::signal::Phase;
+    use crate::study::tests::config;
+    use proptest::prelude::*;
+
+    type Change = fn(&mut RideSums);
+
+    fn point(measure: &str, trips: usize) -> RidePoint {
+        let trips = match measure {
+            "rest" => String::new(),
+            _ => format!("trips = {trips}\nrest = [4, 6]\n"),
+        };
+        let text = format!(
+            "question = \"?\"\nseed = 1\ntrials = 4\n[ride]\nmeasure = \"{measure}\"\n{trips}\
+             [ride.axis]\ndelta_over_sigma = [4]\n"
+        );
+        match config(&text).kind {
+            ExhibitKind::Ride(study) => study.curves[0].points[0].1.clone(),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// What a monitor might say, be it true or not, of a record that ends at `to`, s.
+    fn events(said: &[(u8, f64, f64)], to: f64) -> Vec<Event> {
+        let mut now = 0.0;
+        let mut events = Vec::new();
+        for &(what, gap, lag) in said {
+            now += gap;
+            let change = |state, direction| Kind::Change {
+                state,
+                direction,
+                speed: None,
+                decision: None,
+            };
+            let kind = match what {
+                0 => change(State::Known(Phase::Accelerating), Some(Direction::Up)),
+                1 => change(State::Known(Phase::Accelerating), Some(Direction::Down)),
+                2 | 3 => change(State::REST, None),
+                4 => change(State::Unknown, None),
+                _ => Kind::Alarm(Alarm::Jam),
+            };
+            events.push(Event {
+                time: now - lag,
+                reported: now,
+                kind,
+            });
+        }
+        events.retain(|event| event.reported <= to);
+        events
+    }
+
+    fn account(point: &RidePoint, said: &[(u8, f64, f64)]) -> Account {
+        let of = |ride: crate::signal::Ride| {
+            let truth = Truth {
+                journeys: ride.journeys(),
+                to: ride.duration(),
+            };
+            Account::new(&truth, &events(said, truth.to), point.tolerance)
+        };
+        let mut account = Account::default();
+        if point.measure.rides() {
+            account.add(of(point.ride(|| 0.5).unwrap()));
+        }
+        if point.measure.rests() {
+            account.add(of(point.still().unwrap()));
+        }
+        account
+    }
+
+    proptest! {
+        /// Whatever a monitor says, its sums are accepted; and no longer when any of them is changed so that no
+        /// monitor could have come to it.
+        #[test]
+        fn what_can_be_counted(
+            measure in proptest::sample::select(vec!["rides", "rest", "tradeoff", "jam", "switched_on"]),
+            trips in 1..3usize,
+            said in proptest::collection::vec(
+                proptest::collection::vec((0..6u8, 0.0..6.0f64, 0.0..3.0f64), 0..16), 0..5,
+            ),
+        ) {
+            let point = point(measure, trips);
+            let trials = said.len() as u64;
+            let mut sums = RideSums::default();
+            said.iter().for_each(|said| sums.add(&account(&point, said)));
+            let checked = sums.check(&point, trials);
+            prop_assert!(checked.is_ok(), "{checked:?} {sums:?}");
+            let changes: [(&str, Change); 12] = [
+                ("start_delays", |sums| sums.start_delays.push(1.0)),
+                ("stop_delays", |sums| sums.stop_delays.push(f64::INFINITY)),
+                ("alarm_delays", |sums| sums.alarm_delays.push(1.0)),
+                ("found", |sums| sums.found += 5),
+                ("alarmed", |sums| sums.alarmed += 1),
+                ("disturbed", |sums| sums.disturbed = sums.false_motions + 1),
+                ("disturbed", |sums| (sums.disturbed, sums.false_motions) = (0, 7)),
+                ("misled", |sums| sums.misled += 11),
+                ("knew_soon", |sums| sums.knew_soon += 5),
+                ("at_rest", |sums| sums.at_rest += Fixed::new(1e5)),
+                ("at_rest", |sums| sums.at_rest += Fixed::new(-1e5)),
+                ("delays", |sums| {
+                    sums.start_delays.push(f64::NAN);
+                    sums.stop_delays.push(1.0);
+                }),
+            ];
+            for (name, change) in changes {
+                let mut changed = sums.clone();
+                change(&mut changed);
+                prop_assert!(changed.check(&point, trials).is_err(), "{name} {changed:?}");
+            }
         }
     }
 }

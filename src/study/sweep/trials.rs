@@ -2,7 +2,7 @@
 
 use super::targets::{NOTHING, Subject, Sweep};
 use crate::chain::Decision;
-use crate::counts::{Counts, DecisionSummary, Key, Sums};
+use crate::counts::{Counter, Counts, DecisionSummary, Key, Sums};
 use crate::pilot::Pilots;
 use crate::plan::Plan;
 use crate::results::Row;
@@ -68,15 +68,8 @@ impl Trials for Sampling<'_> {
                 continue;
             };
             let each = points.map(|point| counts.get(&keys[point]));
-            let (Some(pair), [Some(first), Some(second)]) = (counts.get(&target.key), each) else {
-                continue;
-            };
-            let alone = [pair.sums.counts[0], pair.sums.counts[1]];
-            let hits = [first.sums.counts[0], second.sums.counts[0]];
-            let both = [0, 1].map(|at: usize| hits[at].checked_sub(alone[at]));
-            let is_of_same = pair.trials == first.trials && pair.trials == second.trials;
-            if is_of_same && (both[0].is_none() || both[0] != both[1]) {
-                return Err(Contradiction { hits, alone }.into());
+            if let (Some(pair), [Some(first), Some(second)]) = (counts.get(&target.key), each) {
+                check_pair(pair, [first, second])?;
             }
         }
         Ok(())
@@ -121,6 +114,26 @@ impl Trials for Sampling<'_> {
 struct Contradiction {
     hits: [u64; 2],
     alone: [u64; 2],
+}
+
+/// Whether some trials can have been decided for H₁ at both points, as many as either of them has beside those that
+/// it alone decided so: exactly, where all are of the same trials. In what a point counted and the pair did not, any
+/// number may have been; and so in what the pair counted and the point did not.
+fn check_pair(pair: &Counter, points: [&Counter; 2]) -> Result<(), Contradiction> {
+    let alone = [pair.sums.counts[0], pair.sums.counts[1]];
+    let hits = points.map(|point| point.sums.counts[0]);
+    let number = |number| i128::from(number);
+    let others = number(pair.trials.len()) - number(alone[0]) - number(alone[1]);
+    let (mut least, mut most) = (0, others);
+    for (point, alone) in points.into_iter().zip(alone) {
+        let both = number(point.sums.counts[0]) - number(alone);
+        least = least.max(both - number(point.trials.without(&pair.trials).len()));
+        most = most.min(both + number(pair.trials.without(&point.trials).len()));
+    }
+    if least > most {
+        return Err(Contradiction { hits, alone });
+    }
+    Ok(())
 }
 
 /// Some of the points, arranged by the noise they share.
@@ -202,5 +215,49 @@ impl Simulation for Job {
                 Counted::Pair(pair) => Sums::of(&tallies.discordant[pair]),
             })
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::counts::Shape;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Whatever trials each of a pair and its points counted, what came of them is accepted; and what is further
+        /// from it than the trials that they do not share is not.
+        #[test]
+        fn a_pair_and_its_points(
+            trials in proptest::collection::vec(any::<[bool; 5]>(), 1..40),
+            shared in any::<bool>(),
+        ) {
+            // Of each trial what the two points decide, and who counts it: they and their pair.
+            let count = |who: usize, shape: &Shape, events: &dyn Fn([bool; 2]) -> Vec<bool>| {
+                let mut counter = shape.empty();
+                for (trial, &[first, second, ref counted @ ..]) in (0..).zip(&trials) {
+                    if shared || counted[who] {
+                        counter.trials.add(trial..trial + 1).unwrap();
+                        let events = events([first, second]).into_iter().map(u64::from);
+                        counter.sums.add(&Sums::of(&events.collect::<Vec<_>>()));
+                    }
+                }
+                counter
+            };
+            let first = count(0, &Shape::events(1), &|[first, _]| vec![first]);
+            let second = count(1, &Shape::events(1), &|[_, second]| vec![second]);
+            let alone = |[first, second]: [bool; 2]| vec![first && !second, second && !first];
+            let pair = count(2, &Shape::events(2), &alone);
+            prop_assert!(check_pair(&pair, [&first, &second]).is_ok());
+            let apart = |point: &Counter| {
+                point.trials.without(&pair.trials).len() + pair.trials.without(&point.trials).len()
+            };
+            let unshared = apart(&first) + apart(&second);
+            for at in [0, 1] {
+                let mut other = pair.clone();
+                other.sums.counts[at] += unshared + 1;
+                prop_assert!(check_pair(&other, [&first, &second]).is_err());
+            }
+        }
     }
 }
