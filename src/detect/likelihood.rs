@@ -15,6 +15,7 @@ use super::design::NullLaws;
 use super::law::NullLaw;
 use super::region::{NEVER, Region};
 use super::statistics::Statistics;
+use crate::stats::bisect::largest_below_one;
 use std::collections::BTreeMap;
 
 /// How often each (W, T) occurred.
@@ -155,16 +156,9 @@ impl LikelihoodOrder {
             let columns = region.iter().zip(&self.exceedances);
             columns.map(|(&score, mass)| tail(score) * mass).sum()
         };
-        // Positive floats are ordered like their bits.
-        let (mut low, mut high) = (0, 1f64.to_bits());
-        while low + 1 < high {
-            let middle = low + (high - low) / 2;
-            match size(&filled(f64::from_bits(middle))) <= alpha * (1.0 - 1e-9) {
-                true => low = middle,
-                false => high = middle,
-            }
-        }
-        filled(f64::from_bits(low))
+        filled(largest_below_one(|k| {
+            size(&filled(k)) <= alpha * (1.0 - 1e-9)
+        }))
     }
 }
 

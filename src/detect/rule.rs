@@ -295,20 +295,12 @@ impl fmt::Display for Method {
 
 impl fmt::Display for Ties {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Random => "random",
-            Self::ByPosition => "by-position",
-            Self::Strict => "strict",
-        })
+        self.serialize(f)
     }
 }
 
 impl fmt::Display for Alternative {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Greater => "greater",
-            Self::Less => "less",
-            Self::TwoSided => "two-sided",
-        })
+        self.serialize(f)
     }
 }

@@ -284,12 +284,6 @@ pub fn whiten(coefficients: &[f64], record: &[f64], start: usize, whitened: &mut
 
 impl fmt::Display for Fit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::LeastSquares => "least-squares",
-            Self::YuleWalker => "yule-walker",
-            Self::Burg => "burg",
-            Self::Known => "known",
-            Self::None => "none",
-        })
+        self.serialize(f)
     }
 }

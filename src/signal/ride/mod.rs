@@ -181,14 +181,15 @@ impl Ride {
     fn of_some_length(self) -> Result<Self, RideError> {
         let (seconds, rate) = (self.duration(), self.rate);
         let samples = (seconds * rate).round();
-        match (1.0..=MOST_SAMPLES as f64).contains(&samples) {
-            true => Ok(self),
-            false => Err(RideError::Length {
+        if (1.0..=MOST_SAMPLES as f64).contains(&samples) {
+            Ok(self)
+        } else {
+            Err(RideError::Length {
                 most: MOST_SAMPLES,
                 samples,
                 seconds,
                 rate,
-            }),
+            })
         }
     }
 
