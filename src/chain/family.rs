@@ -183,10 +183,11 @@ impl Course {
     fn new(scenario: &Scenario) -> Self {
         let shape = scenario.shape();
         let decimation = scenario.samples.decimation();
-        let mean = |block: &[f64]| block.iter().sum::<f64>() / decimation as f64;
         Self {
             impulses: scenario.impulses,
-            observed_shape: shape.chunks_exact(decimation).map(mean).collect(),
+            observed_shape: (shape.chunks_exact(decimation))
+                .map(|block| block.iter().sum::<f64>() / decimation as f64)
+                .collect(),
             shape,
             stages: Vec::new(),
             needs_samples: false,
@@ -214,12 +215,15 @@ impl Course {
 
     /// The first raw observation after X that may carry an impulse.
     pub fn first_impulse(&self, samples: &Samples) -> usize {
-        match self.impulses.during() {
-            During::Motion => 0,
-            During::Inertial => {
-                (samples.scale_range().start - samples.reference()) * samples.decimation()
-            }
-        }
+        first_impulse(&self.impulses, samples) * samples.decimation()
+    }
+}
+
+/// The first observation after X that may carry an impulse.
+pub(super) fn first_impulse(impulses: &Impulses, samples: &Samples) -> usize {
+    match impulses.during() {
+        During::Motion => 0,
+        During::Inertial => samples.scale_range().start - samples.reference(),
     }
 }
 

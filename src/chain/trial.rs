@@ -110,29 +110,19 @@ impl<'a> Trial<'a> {
                 }
                 for stage in &course.stages {
                     if is_linear {
-                        motion.add_step(stage.delta)
+                        motion.add_step(stage.delta);
                     } else {
                         record.write(branch, course, stage.delta, source, &motion.pattern);
                         let whitened = &mut motion.whitened;
                         whiten(coefficients, &record.observed, source.rest(), whitened);
                     }
+                    let mut observation = Observation::new(&source.samples, keys, scratch);
+                    observation.pooled = pool(&source.samples, rest, &motion.whitened);
                     if course.needs_record {
                         record.keep(is_linear, course, stage.delta, source, &motion.observed);
+                        observation.rest = &record.observed[..source.rest()];
+                        observation.motion = &record.motion;
                     }
-                    let mut observation = Observation {
-                        pooled: pool(&source.samples, rest, &motion.whitened),
-                        rest: if course.needs_record {
-                            &record.observed[..source.rest()]
-                        } else {
-                            &[]
-                        },
-                        motion: if course.needs_record {
-                            &record.motion
-                        } else {
-                            &[]
-                        },
-                        ..Observation::new(&source.samples, keys, scratch)
-                    };
                     for &place in &stage.places {
                         view.look(place, &mut observation);
                     }
@@ -152,11 +142,16 @@ impl Curve {
         }
         let deltas = course.stages.iter().map(|stage| stage.delta).collect();
         let stages = (0..).zip(&course.stages);
-        let short = |place: usize| u32::try_from(place).expect("fewer points than 2^32");
         Some(Self {
             crossings: Crossings::new(Vectors::widest(), deltas),
             places: stages
-                .flat_map(|(number, stage)| stage.places.iter().map(move |&at| [number, short(at)]))
+                .flat_map(|(number, stage)| stage.places.iter().map(move |&place| (number, place)))
+                .map(|(number, place)| {
+                    [
+                        number,
+                        u32::try_from(place).expect("fewer points than 2^32"),
+                    ]
+                })
                 .collect(),
         })
     }

@@ -102,8 +102,9 @@ impl<'a> Compared<'a> {
     }
 
     fn count(&self, side: Side) -> usize {
-        let of_side = self.comparisons.iter().filter(|c| self.side(c) == side);
-        of_side.count()
+        (self.comparisons.iter())
+            .filter(|comparison| self.side(comparison) == side)
+            .count()
     }
 
     fn is_of(&self, contrast: &Contrast, comparison: &Comparison) -> bool {

@@ -199,12 +199,8 @@ impl NullLaws {
     }
 
     fn twice_mean(&self) -> u64 {
-        let (n, m1, m2) = (
-            self.samples.reference(),
-            self.samples.shift(),
-            self.samples.scale(),
-        );
-        (m1 * (n + m1 + m2 + 1)) as u64
+        let (samples, m1) = (&self.samples, self.samples.shift());
+        (m1 * (samples.reference() + m1 + samples.scale() + 1)) as u64
     }
 
     fn sizes(&self) -> String {

@@ -59,10 +59,7 @@ impl NullLaw {
     /// # Errors
     /// Where its counts would not fit in memory.
     pub fn rank_sum(samples: &Samples) -> Result<Self, NullLawError> {
-        let (m1, others) = (
-            samples.shift(),
-            samples.reference().saturating_add(samples.scale()),
-        );
+        let (m1, others) = shift_and_others(samples);
         check_memory(samples, Self::rank_sum_bytes(samples))?;
         Ok(Self::from_counts(
             smallest_rank_sum(m1),
@@ -96,10 +93,7 @@ impl NullLaw {
 
     /// Memory for the counts of W.
     pub(super) fn rank_sum_bytes(samples: &Samples) -> f64 {
-        let (m1, others) = (
-            samples.shift(),
-            samples.reference().saturating_add(samples.scale()),
-        );
+        let (m1, others) = shift_and_others(samples);
         bytes(m1 as f64 * others as f64 + 1.0, m1, others)
     }
 
@@ -178,6 +172,12 @@ impl NullLaw {
     fn counts(&self) -> impl Iterator<Item = BigUint> {
         (self.first..=self.last()).map(|value| self.count(value))
     }
+}
+
+/// M₁, and N + M₂.
+fn shift_and_others(samples: &Samples) -> (usize, usize) {
+    let others = samples.reference().saturating_add(samples.scale());
+    (samples.shift(), others)
 }
 
 /// `numerator`/`denominator` as the nearest f64.

@@ -145,11 +145,12 @@ impl LikelihoodOrder {
         let (scores, exceedances) = (tails(&self.scores), tails(&self.exceedances));
         let first = laws.score.first();
         let filled = |k: f64| -> Vec<u64> {
-            let column = |t: usize| {
-                let reached = scores.partition_point(|tail| tail * exceedances[t] > k);
-                critical[t].min(first + reached as u64)
-            };
-            (0..critical.len()).map(column).collect()
+            (critical.iter().zip(&exceedances))
+                .map(|(critical, exceedance)| {
+                    let reached = scores.partition_point(|tail| tail * exceedance > k);
+                    *critical.min(&(first + reached as u64))
+                })
+                .collect()
         };
         let tail = |score: u64| scores.get((score - first) as usize).copied().unwrap_or(0.0);
         let size = |region: &[u64]| -> f64 {
