@@ -84,21 +84,13 @@ impl<const N: usize> Wide<N> {
     /// The smaller number of each lane; that of `other` where one is NaN.
     #[inline(always)]
     pub fn least(self, other: Self) -> Self {
-        self.zip(
-            other,
-            #[inline(always)]
-            |a, b| if a < b { a } else { b },
-        )
+        self.zip(other, least)
     }
 
     /// The larger number of each lane; that of `other` where one is NaN.
     #[inline(always)]
     pub fn greatest(self, other: Self) -> Self {
-        self.zip(
-            other,
-            #[inline(always)]
-            |a, b| if a > b { a } else { b },
-        )
+        self.zip(other, greatest)
     }
 
     /// Without the signs.
@@ -122,56 +114,41 @@ impl<const N: usize> Wide<N> {
     }
 }
 
-impl<const N: usize> Add for Wide<N> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        self.zip(
-            other,
-            #[inline(always)]
-            |a, b| a + b,
-        )
-    }
+/// The smaller of two numbers, in one instruction; the second where one is NaN.
+#[inline(always)]
+pub fn least(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
 }
 
-impl<const N: usize> Sub for Wide<N> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        self.zip(
-            other,
-            #[inline(always)]
-            |a, b| a - b,
-        )
-    }
+/// The larger of two numbers, in one instruction; the second where one is NaN.
+#[inline(always)]
+pub fn greatest(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
-impl<const N: usize> Mul for Wide<N> {
-    type Output = Self;
+/// Operators that act in each lane by itself.
+macro_rules! lane_by_lane {
+    ($($operator:ident, $method:ident: $symbol:tt;)*) => {$(
+        impl<const N: usize> $operator for Wide<N> {
+            type Output = Self;
 
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        self.zip(
-            other,
             #[inline(always)]
-            |a, b| a * b,
-        )
-    }
+            fn $method(self, other: Self) -> Self {
+                self.zip(
+                    other,
+                    #[inline(always)]
+                    |a, b| a $symbol b,
+                )
+            }
+        }
+    )*};
 }
 
-impl<const N: usize> Div for Wide<N> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        self.zip(
-            other,
-            #[inline(always)]
-            |a, b| a / b,
-        )
-    }
+lane_by_lane! {
+    Add, add: +;
+    Sub, sub: -;
+    Mul, mul: *;
+    Div, div: /;
 }
 
 impl<const N: usize> Mul<f64> for Wide<N> {
@@ -197,20 +174,26 @@ pub enum Vectors {
 impl Vectors {
     /// Those that this processor has.
     pub fn available() -> Vec<Self> {
-        let mut all = vec![Self::Baseline];
-        #[cfg(target_arch = "x86_64")]
-        {
-            if std::is_x86_feature_detected!("avx2") {
-                all.push(Self::Avx2);
-                if std::is_x86_feature_detected!("avx512f")
+        let all = [Self::Baseline, Self::Avx2, Self::Avx512].into_iter();
+        all.filter(|vectors| vectors.is_available()).collect()
+    }
+
+    #[inline]
+    fn is_available(self) -> bool {
+        match self {
+            Self::Baseline => true,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => std::is_x86_feature_detected!("avx2"),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => {
+                Self::Avx2.is_available()
+                    && std::is_x86_feature_detected!("avx512f")
                     && std::is_x86_feature_detected!("avx512dq")
                     && std::is_x86_feature_detected!("avx512vl")
-                {
-                    all.push(Self::Avx512);
-                }
             }
+            #[cfg(not(target_arch = "x86_64"))]
+            Self::Avx2 | Self::Avx512 => false,
         }
-        all
     }
 
     /// The widest available, no wider than the environment asks for.
@@ -252,15 +235,11 @@ mod x86 {
     )]
     #[inline]
     pub fn run<R>(vectors: Vectors, kernel: impl FnOnce() -> R) -> R {
-        if vectors == Vectors::Avx512
-            && std::is_x86_feature_detected!("avx512f")
-            && std::is_x86_feature_detected!("avx512dq")
-            && std::is_x86_feature_detected!("avx512vl")
-        {
+        if vectors == Vectors::Avx512 && vectors.is_available() {
             // SAFETY: the instructions have just been detected.
             return unsafe { with_avx512(kernel) };
         }
-        if std::is_x86_feature_detected!("avx2") {
+        if Vectors::Avx2.is_available() {
             // SAFETY: the instructions have just been detected.
             return unsafe { with_avx2(kernel) };
         }

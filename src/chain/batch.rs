@@ -3,7 +3,8 @@
 //! Trials whose indices have the same quotient by [`LANES`] are drawn together, from one stream. Which of
 //! them are asked for, in which order, makes no difference.
 
-use super::family::{Branch, Family, Source};
+use super::family::{Branch, Family};
+use super::source::Source;
 use crate::rng::Generator;
 use crate::signal::Digitiser;
 use crate::simd::{LANES, Value, Vectors, Wide};
@@ -37,9 +38,10 @@ impl<'a> Batch<'a> {
     pub fn new(family: &'a Family) -> Self {
         let source = &family.source;
         let span = source.samples.span();
-        let impulses = match family.has_impulses() {
-            true => source.motion_observations() * source.samples.decimation(),
-            false => 0,
+        let impulses = if family.has_impulses() {
+            source.motion_observations() * source.samples.decimation()
+        } else {
+            0
         };
         let branches = family.branches.iter();
         Self {
@@ -139,16 +141,16 @@ fn see(
     rest: &mut Rest,
 ) {
     let decimation = source.samples.decimation();
-    let observed = match decimation == 1 && branch.digitiser.is_transparent() {
-        true => record,
-        false => {
-            observe(&branch.digitiser, decimation, record, observed);
-            &*observed
-        }
+    let observed = if decimation == 1 && branch.digitiser.is_transparent() {
+        record
+    } else {
+        observe(&branch.digitiser, decimation, record, observed);
+        &*observed
     };
-    let end = match branch.whitening.includes_reference() {
-        true => source.rest(),
-        false => source.lead,
+    let end = if branch.whitening.includes_reference() {
+        source.rest()
+    } else {
+        source.lead
     };
     let training = &observed[end - branch.whitening.training()..end];
     let coefficients = rest.fitter.fit(training);

@@ -2,11 +2,11 @@
 //! branches (digitiser, filter) → courses (impulses, shape of the acceleration) → stages (Δ) →
 //! places (points that decide on the same samples).
 
+use super::source::{RecordTooLong, Source};
 use crate::detect::{Samples, Ties};
 use crate::rng::Stream;
 use crate::scenario::Scenario;
-use crate::signal::{Digitiser, Disturbance, During, Impulses, Noise, Sensor};
-use crate::simd::LANES;
+use crate::signal::{Digitiser, During, Impulses};
 use crate::whiten::Whitening;
 
 /// All points that share their noise.
@@ -20,17 +20,6 @@ pub struct Family {
     pub(super) ties: Stream,
     pub(super) footfalls: Stream,
     pub(super) branches: Vec<Branch>,
-}
-
-/// What the noise of a trial depends on, and how much of it there is.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Source {
-    pub sensor: Sensor,
-    pub noise: Noise,
-    pub disturbance: Disturbance,
-    pub samples: Samples,
-    /// Observations before X.
-    pub lead: usize,
 }
 
 /// One way of recording and whitening it.
@@ -80,24 +69,6 @@ pub enum Purpose {
     Calibration,
 }
 
-/// A record that does not fit in memory.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "one trial of {samples:.3e} raw samples needs {gigabytes:.1} GB, more than the {limit:.1} GB allowed \
-     (lower training, order, the sample sizes, gap or decimation)"
-)]
-pub struct RecordTooLong {
-    /// Raw samples in one trial.
-    pub samples: f64,
-    /// Its memory.
-    pub gigabytes: f64,
-    /// What is allowed.
-    pub limit: f64,
-}
-
-/// The most memory the buffers of one trial may take, in GB; every thread has its own.
-const MEMORY_LIMIT: f64 = 0.5;
-
 impl Family {
     /// Arranges `scenarios` into families; a scenario's place is its place in this list. With
     /// `common_random_numbers` points share noise wherever sensor, law, sizes and training length
@@ -118,9 +89,10 @@ impl Family {
             let gigabytes = source
                 .check_memory(scenario)
                 .map_err(|refusal| (place, refusal))?;
-            let subject = match common_random_numbers {
-                true => source.subject(),
-                false => source.subject_of_all(scenario),
+            let subject = if common_random_numbers {
+                source.subject()
+            } else {
+                source.subject_of_all(scenario)
             };
             let disturbance = source.disturbance;
             let family = find_or_push(
@@ -157,9 +129,7 @@ impl Family {
 
     /// How many (W, T) are computed in one trial.
     pub fn points_per_trial(&self) -> usize {
-        let stages = |course: &Course| course.stages.len();
-        let courses = self.branches.iter().flat_map(|branch| &branch.courses);
-        courses.map(stages).sum()
+        self.courses().map(|(_, course)| course.stages.len()).sum()
     }
 
     /// Memory of the buffers of its trials, in GB; every thread has its own.
@@ -169,15 +139,20 @@ impl Family {
 
     /// Whether anything in it vibrates.
     pub(super) fn has_impulses(&self) -> bool {
-        let mut courses = self.branches.iter().flat_map(|branch| &branch.courses);
-        courses.any(|course| !course.impulses.are_absent())
+        (self.courses()).any(|(_, course)| !course.impulses.are_absent())
     }
 
     /// The places of its points.
     pub fn places(&self) -> impl Iterator<Item = usize> {
-        let courses = self.branches.iter().flat_map(|branch| &branch.courses);
-        let stages = courses.flat_map(|course| &course.stages);
-        stages.flat_map(|stage| stage.places.iter().copied())
+        self.courses()
+            .flat_map(|(_, course)| &course.stages)
+            .flat_map(|stage| stage.places.iter().copied())
+    }
+
+    /// Every course, after its branch.
+    pub(super) fn courses(&self) -> impl Iterator<Item = (&Branch, &Course)> {
+        let branches = self.branches.iter();
+        branches.flat_map(|branch| branch.courses.iter().map(move |course| (branch, course)))
     }
 
     fn insert(&mut self, scenario: &Scenario, place: usize) {
@@ -204,117 +179,15 @@ impl Family {
     }
 }
 
-impl Source {
-    pub fn new(scenario: &Scenario) -> Self {
-        Self {
-            sensor: scenario.sensor.clone(),
-            noise: scenario.noise,
-            disturbance: scenario.disturbance,
-            samples: scenario.samples,
-            lead: scenario.whitening.lead(),
-        }
-    }
-
-    /// What tells the noise of one source from another's, in the words of the results: a disturbed rest
-    /// is the same rest disturbed. Part of every draw's coordinates: changing it changes results.
-    fn subject(&self) -> String {
-        let Self {
-            sensor,
-            noise,
-            samples,
-            lead,
-            disturbance: _,
-        } = self;
-        let (gap, decimation) = (samples.gap(), samples.decimation());
-        format!("{sensor} {noise} lead {lead} samples {samples} gap {gap} decimation {decimation}")
-    }
-
-    /// The same with everything else a scenario simulates, decisions apart: the subject of noise that
-    /// nothing shares.
-    fn subject_of_all(&self, scenario: &Scenario) -> String {
-        let (motion, impulses) = (&scenario.motion, &scenario.impulses);
-        let (whitening, digitiser) = (&scenario.whitening, &scenario.digitiser);
-        format!(
-            "{} whitening {} {} {} {} digitiser {:?} {:?} motion {} {} {} {} impulses {} {} {}",
-            self.subject(),
-            whitening.fit(),
-            whitening.order(),
-            whitening.training(),
-            whitening.includes_reference(),
-            digitiser.quantum(),
-            digitiser.range(),
-            scenario.record_delta(),
-            motion.profile,
-            motion.duration,
-            motion.offset,
-            impulses.nu(),
-            impulses.theta(),
-            impulses.during(),
-        )
-    }
-
-    /// Raw samples before the record proper: none where the noise starts out stationary.
-    pub fn burn_in(&self) -> usize {
-        match self.noise.is_normal() {
-            true => 0,
-            false => self.sensor.burn_in(),
-        }
-    }
-
-    /// Observations of a trial.
-    pub fn observations(&self) -> usize {
-        self.lead + self.samples.span()
-    }
-
-    /// Observations up to the last of X.
-    pub fn rest(&self) -> usize {
-        self.lead + self.samples.reference()
-    }
-
-    /// Raw samples of a trial without the burn-in.
-    pub fn raw_length(&self) -> usize {
-        self.observations() * self.samples.decimation()
-    }
-
-    /// Observations after X.
-    pub fn motion_observations(&self) -> usize {
-        self.samples.span() - self.samples.reference()
-    }
-
-    /// Refuses a trial whose buffers would not fit in memory: raw noise, what is observed and whitened
-    /// of it, the same again for the motion, and the fit.
-    fn check_memory(&self, scenario: &Scenario) -> Result<f64, RecordTooLong> {
-        let decimation = self.samples.decimation() as f64;
-        let span = self.samples.span() as f64;
-        let after = span - self.samples.reference() as f64;
-        let observations = self.lead as f64 + span;
-        let samples = observations * decimation + self.burn_in() as f64;
-        let whitening = &scenario.whitening;
-        let fit =
-            2.0 * whitening.training() as f64 + (whitening.highest_order() as f64 + 3.0).powi(2);
-        let wide = samples + 2.0 * observations + 3.0 * span + whitening.training() as f64;
-        let values =
-            LANES as f64 * wide + samples + after * (LANES as f64 * decimation + 10.0) + fit;
-        let gigabytes = 8.0 * values / 1e9;
-        match gigabytes > MEMORY_LIMIT {
-            true => Err(RecordTooLong {
-                samples,
-                gigabytes,
-                limit: MEMORY_LIMIT,
-            }),
-            false => Ok(gigabytes),
-        }
-    }
-}
-
 impl Course {
     fn new(scenario: &Scenario) -> Self {
         let shape = scenario.shape();
         let decimation = scenario.samples.decimation();
-        let mean = |block: &[f64]| block.iter().sum::<f64>() / decimation as f64;
         Self {
             impulses: scenario.impulses,
-            observed_shape: shape.chunks_exact(decimation).map(mean).collect(),
+            observed_shape: (shape.chunks_exact(decimation))
+                .map(|block| block.iter().sum::<f64>() / decimation as f64)
+                .collect(),
             shape,
             stages: Vec::new(),
             needs_samples: false,
@@ -342,12 +215,15 @@ impl Course {
 
     /// The first raw observation after X that may carry an impulse.
     pub fn first_impulse(&self, samples: &Samples) -> usize {
-        match self.impulses.during() {
-            During::Motion => 0,
-            During::Inertial => {
-                (samples.scale_range().start - samples.reference()) * samples.decimation()
-            }
-        }
+        first_impulse(&self.impulses, samples) * samples.decimation()
+    }
+}
+
+/// The first observation after X that may carry an impulse.
+pub(super) fn first_impulse(impulses: &Impulses, samples: &Samples) -> usize {
+    match impulses.during() {
+        During::Motion => 0,
+        During::Inertial => samples.scale_range().start - samples.reference(),
     }
 }
 

@@ -16,17 +16,20 @@ mod batch;
 mod decision;
 mod family;
 mod keys;
+mod motion;
 mod observation;
 mod replay;
 mod score;
+mod source;
 #[cfg(test)]
 mod tests;
 mod trial;
 
 pub use crate::scenario::{Calibration, Detector, Scenario};
 pub use decision::Decision;
-pub use family::{Family, Purpose, RecordTooLong};
+pub use family::{Family, Purpose};
 pub use observation::{Observation, View};
 pub use replay::Replay;
 pub use score::Score;
+pub use source::RecordTooLong;
 pub use trial::Trial;

@@ -59,7 +59,7 @@ impl<'a, 'k> Observation<'a, 'k> {
         scratch: &'a mut Scratch,
     ) -> Self {
         Self {
-            pooled: Pooled::none(),
+            pooled: Pooled::default(),
             samples,
             rest: &[],
             motion: &[],

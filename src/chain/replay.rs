@@ -2,8 +2,9 @@
 
 use super::batch::observe;
 use super::decision::Decision;
-use super::family::{Family, Purpose, RecordTooLong};
+use super::family::{Family, Purpose};
 use super::observation::Observation;
+use super::source::RecordTooLong;
 use super::trial::Trial;
 use crate::detect::{Samples, Statistics, Ties};
 use crate::scenario::Scenario;

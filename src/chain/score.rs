@@ -1,11 +1,11 @@
 //! Statistics that replace W and T.
 
+use super::family::first_impulse;
 use super::observation::{Observation, Scratch};
 use crate::detect::{
     Alternative, Baseline, Clairvoyant, Method, Pooled, block_means, student_t, variance_ratio,
 };
 use crate::scenario::Scenario;
-use crate::signal::During;
 use crate::whiten::{step, whiten};
 
 /// A statistic that replaces W and T, ready for one scenario: large values speak for H₁.
@@ -93,11 +93,7 @@ fn clairvoyant(scenario: &Scenario) -> Option<Clairvoyant> {
     whiten(ar, &shape, 0, &mut shift);
     let delta = stated.record_delta();
     shift.iter_mut().for_each(|d| *d *= delta);
-    let samples = &scenario.samples;
-    let first_impulse = match impulses.during() {
-        During::Motion => 0,
-        During::Inertial => samples.scale_range().start - samples.reference(),
-    };
+    let first_impulse = first_impulse(&impulses, &scenario.samples);
     let (nu, theta) = (impulses.nu(), impulses.theta());
     Some(Clairvoyant::new(shift, first_impulse, nu, theta, ar))
 }

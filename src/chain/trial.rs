@@ -2,11 +2,12 @@
 //! allocated once.
 
 use super::batch::{Batch, observe};
-use super::family::{Branch, Course, Family, Source};
+use super::family::{Branch, Course, Family};
 use super::keys::Keys;
+use super::motion::{Motion, pool};
 use super::observation::{Observation, Scratch, View};
-use crate::detect::{Crossings, Lines, Pooled, Samples, Statistics};
-use crate::signal::Digitiser;
+use super::source::Source;
+use crate::detect::Crossings;
 use crate::simd::Vectors;
 use crate::whiten::whiten;
 
@@ -35,19 +36,6 @@ struct Record {
     motion: Vec<f64>,
 }
 
-/// What a motion adds.
-pub(super) struct Motion {
-    /// λ/θ for each raw observation.
-    pub pattern: Vec<f64>,
-    /// Block means of the pattern.
-    observed: Vec<f64>,
-    /// Whitened step and impulses; noise and impulses; all three.
-    step: Vec<f64>,
-    impulse: Vec<f64>,
-    without_step: Vec<f64>,
-    pub whitened: Vec<f64>,
-}
-
 /// What counts W and T along Δ, and who is to see them.
 struct Curve {
     crossings: Crossings,
@@ -65,8 +53,6 @@ impl<'a> Trial<'a> {
         let source = &family.source;
         let after = source.motion_observations();
         let raw_after = after * source.samples.decimation();
-        let courses = family.branches.iter();
-        let courses = courses.flat_map(|branch| branch.courses.iter().map(move |c| (branch, c)));
         let looks = family.branches.iter().any(|branch| branch.needs_record);
         let recorded = |length: usize| vec![0.0; if looks { length } else { 0 }];
         Self {
@@ -78,15 +64,8 @@ impl<'a> Trial<'a> {
                 raw_motion: recorded(raw_after),
                 motion: recorded(after),
             },
-            motion: Motion {
-                pattern: vec![0.0; raw_after],
-                observed: vec![0.0; after],
-                step: vec![0.0; after],
-                impulse: vec![0.0; after],
-                without_step: vec![0.0; after],
-                whitened: vec![0.0; after],
-            },
-            curves: courses
+            motion: Motion::new(raw_after, after),
+            curves: (family.courses())
                 .map(|(branch, course)| Curve::new(branch, course))
                 .collect(),
             keys: Keys::new(&family.ties, source.samples.span()),
@@ -130,31 +109,20 @@ impl<'a> Trial<'a> {
                     continue;
                 }
                 for stage in &course.stages {
-                    match is_linear {
-                        true => motion.add_step(stage.delta),
-                        false => {
-                            record.write(branch, course, stage.delta, source, &motion.pattern);
-                            let whitened = &mut motion.whitened;
-                            whiten(coefficients, &record.observed, source.rest(), whitened);
-                        }
+                    if is_linear {
+                        motion.add_step(stage.delta);
+                    } else {
+                        record.write(branch, course, stage.delta, source, &motion.pattern);
+                        let whitened = &mut motion.whitened;
+                        whiten(coefficients, &record.observed, source.rest(), whitened);
                     }
+                    let mut observation = Observation::new(&source.samples, keys, scratch);
+                    observation.pooled = pool(&source.samples, rest, &motion.whitened);
                     if course.needs_record {
                         record.keep(is_linear, course, stage.delta, source, &motion.observed);
+                        observation.rest = &record.observed[..source.rest()];
+                        observation.motion = &record.motion;
                     }
-                    let mut observation = Observation {
-                        pooled: pool(&source.samples, rest, &motion.whitened),
-                        rest: if course.needs_record {
-                            &record.observed[..source.rest()]
-                        } else {
-                            &[]
-                        },
-                        motion: if course.needs_record {
-                            &record.motion
-                        } else {
-                            &[]
-                        },
-                        ..Observation::new(&source.samples, keys, scratch)
-                    };
                     for &place in &stage.places {
                         view.look(place, &mut observation);
                     }
@@ -174,11 +142,16 @@ impl Curve {
         }
         let deltas = course.stages.iter().map(|stage| stage.delta).collect();
         let stages = (0..).zip(&course.stages);
-        let short = |place: usize| u32::try_from(place).expect("fewer points than 2^32");
         Some(Self {
             crossings: Crossings::new(Vectors::widest(), deltas),
             places: stages
-                .flat_map(|(number, stage)| stage.places.iter().map(move |&at| [number, short(at)]))
+                .flat_map(|(number, stage)| stage.places.iter().map(move |&place| (number, place)))
+                .map(|(number, place)| {
+                    [
+                        number,
+                        u32::try_from(place).expect("fewer points than 2^32"),
+                    ]
+                })
                 .collect(),
         })
     }
@@ -230,77 +203,5 @@ impl Record {
         for ((r, x), (shape, impulse)) in self.motion.iter_mut().zip(observed).zip(motion) {
             *r = x + delta * shape + theta * impulse;
         }
-    }
-}
-
-impl Motion {
-    /// The pattern of this course from the trial's draws.
-    fn draw_impulses(&mut self, course: &Course, draws: &[[u8; 8]], source: &Source) {
-        let first = course.first_impulse(&source.samples);
-        let (silent, acting) = self.pattern.split_at_mut(first);
-        silent.fill(0.0);
-        match course.impulses.are_absent() {
-            true => acting.fill(0.0),
-            false => course.impulses.pattern(&draws[first..], acting),
-        }
-    }
-
-    /// Whitened responses to a unit step and to the impulses, and the whitened record without step.
-    fn respond(&mut self, course: &Course, coefficients: &[f64], source: &Source, rest: &[f64]) {
-        whiten(coefficients, &course.observed_shape, 0, &mut self.step);
-        let decimation = source.samples.decimation();
-        observe(
-            &Digitiser::default(),
-            decimation,
-            &self.pattern,
-            &mut self.observed,
-        );
-        whiten(coefficients, &self.observed, 0, &mut self.impulse);
-        let theta = course.impulses.theta();
-        let noise = &rest[source.samples.reference()..];
-        for ((sum, xi), impulse) in self.without_step.iter_mut().zip(noise).zip(&self.impulse) {
-            *sum = xi + theta * impulse;
-        }
-    }
-
-    /// Adds Δ times the step response.
-    fn add_step(&mut self, delta: f64) {
-        for ((y, rest), step) in self
-            .whitened
-            .iter_mut()
-            .zip(&self.without_step)
-            .zip(&self.step)
-        {
-            *y = rest + delta * step;
-        }
-    }
-
-    /// W and T at every Δ of the course, unless a near tie leaves them in doubt.
-    fn count<'c>(
-        &self,
-        crossings: &'c mut Crossings,
-        samples: &Samples,
-        rest: &[f64],
-    ) -> Option<&'c [Statistics]> {
-        let base = pool(samples, rest, &self.without_step);
-        let slope = pool(samples, rest, &self.step);
-        let lines = |base, slope| Lines { base, slope };
-        crossings.count(
-            base.reference,
-            lines(base.shift, slope.shift),
-            lines(base.scale, slope.scale),
-        )
-    }
-}
-
-/// X from the whitened rest, Y₁ and Y₂ from what follows it.
-fn pool<'a>(samples: &Samples, rest: &'a [f64], motion: &'a [f64]) -> Pooled<'a> {
-    let after = |range: std::ops::Range<usize>| {
-        &motion[range.start - samples.reference()..range.end - samples.reference()]
-    };
-    Pooled {
-        reference: &rest[samples.reference_range()],
-        shift: after(samples.shift_range()),
-        scale: after(samples.scale_range()),
     }
 }

@@ -102,8 +102,9 @@ impl<'a> Compared<'a> {
     }
 
     fn count(&self, side: Side) -> usize {
-        let of_side = self.comparisons.iter().filter(|c| self.side(c) == side);
-        of_side.count()
+        (self.comparisons.iter())
+            .filter(|comparison| self.side(comparison) == side)
+            .count()
     }
 
     fn is_of(&self, contrast: &Contrast, comparison: &Comparison) -> bool {
@@ -140,23 +141,14 @@ impl<'a> Compared<'a> {
 
     /// The smallest and the largest difference.
     fn extremes(&self) -> String {
-        let order = |a: &&Comparison, b: &&Comparison| a.difference.total_cmp(&b.difference);
-        let smallest = self
-            .comparisons
-            .iter()
-            .min_by(order)
-            .map(|c| self.difference(c));
-        let largest = self
-            .comparisons
-            .iter()
-            .max_by(order)
-            .map(|c| self.difference(c));
-        let (smallest, largest) = smallest.zip(largest).expect("there is a comparison");
-        if self.comparisons.len() > 1 {
-            format!("differences from {smallest} to {largest}")
-        } else {
-            format!("difference {smallest}")
+        let mut ascending: Vec<&Comparison> = self.comparisons.iter().collect();
+        ascending.sort_by(|a, b| a.difference.total_cmp(&b.difference));
+        let smallest = self.difference(ascending[0]);
+        if ascending.len() == 1 {
+            return format!("difference {smallest}");
         }
+        let largest = self.difference(ascending[ascending.len() - 1]);
+        format!("differences from {smallest} to {largest}")
     }
 
     fn difference(&self, comparison: &Comparison) -> String {

@@ -40,8 +40,9 @@ impl Evidence {
     /// A curve with one for each value is placed by the values themselves, which a row need not repeat; at
     /// rest equal points are simulated once, and what their rows say must do.
     pub fn along(&self, label: &str, is_at_rest: bool) -> Vec<(&str, &Outcome)> {
-        let is_wanted = |o: &&Outcome| o.label == label && o.is_at_rest == is_at_rest;
-        let outcomes: Vec<&Outcome> = self.outcomes.iter().filter(is_wanted).collect();
+        let outcomes: Vec<&Outcome> = (self.outcomes.iter())
+            .filter(|outcome| outcome.label == label && outcome.is_at_rest == is_at_rest)
+            .collect();
         let values = &self.scope.axis.values;
         let has_all = outcomes.len() == values.len();
         let value = |index: usize, own| if has_all { &values[index].0 } else { own };

@@ -125,9 +125,10 @@ fn lowest_of(climbs: &[Climb], axis: &Axis) -> String {
 
 /// The one that decides: with the lowest limit, but of a sure fall before one that is only wide.
 fn lowest<'a>(comparisons: impl Iterator<Item = &'a Comparison>) -> &'a Comparison {
-    let order = |a: &&Comparison, b: &&Comparison| {
-        let fall = a.high.min(0.0).total_cmp(&b.high.min(0.0));
-        fall.then(a.low.total_cmp(&b.low))
-    };
-    comparisons.min_by(order).expect("a claim names a curve")
+    comparisons
+        .min_by(|a, b| {
+            let fall = a.high.min(0.0).total_cmp(&b.high.min(0.0));
+            fall.then(a.low.total_cmp(&b.low))
+        })
+        .expect("a claim names a curve")
 }

@@ -56,18 +56,13 @@ pub fn number_of_pairs(claims: &[Claim], scope: &Scope) -> usize {
 fn compared(test: &Test, scope: &Scope) -> Vec<[(usize, usize); 2]> {
     let values = scope.axis.values.len();
     match test {
-        Test::Grows { curves } => {
-            let climb = |curve| {
+        Test::Grows { curves } => (scope.named(curves.as_deref()).into_iter())
+            .flat_map(|curve| {
                 let steps = (1..values).map(move |value| [(curve, value), (curve, value - 1)]);
                 let overall = (values > 2).then_some([(curve, values - 1), (curve, 0)]);
                 steps.chain(overall)
-            };
-            scope
-                .named(curves.as_deref())
-                .into_iter()
-                .flat_map(climb)
-                .collect()
-        }
+            })
+            .collect(),
         Test::Exceeds(contrasts) | Test::Equals(contrasts) => {
             let contrasts = scope.contrasts(contrasts).into_iter();
             contrasts

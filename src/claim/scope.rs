@@ -192,31 +192,34 @@ impl Scope {
         if !shared.is_empty() {
             return shared;
         }
-        let pair = self
-            .index(&contrasts.first)
-            .zip(self.index(&contrasts.second));
         let place = "";
-        let two_curves = pair.map(|(first, second)| Contrast {
-            first,
-            second,
-            place,
-        });
-        two_curves.into_iter().collect()
+        match [&contrasts.first, &contrasts.second].map(|label| self.index(label)) {
+            [Some(first), Some(second)] => vec![Contrast {
+                first,
+                second,
+                place,
+            }],
+            _ => Vec::new(),
+        }
     }
 
     /// The contrasts of two series or two panels.
-    fn shared<'a>(&'a self, Contrasts { first, second }: &Contrasts) -> Vec<Contrast<'a>> {
+    fn shared<'a>(&'a self, names: &Contrasts) -> Vec<Contrast<'a>> {
+        let (first, second) = (names.first.as_str(), names.second.as_str());
         let mut contrasts = Vec::new();
         let of_series: NamesOf = |curve| (curve.series.as_deref(), curve.panel.as_deref());
         let of_panel: NamesOf = |curve| (curve.panel.as_deref(), curve.series.as_deref());
-        for names in [of_series, of_panel] {
+        for names_of in [of_series, of_panel] {
+            let index_of = |names| {
+                self.curves
+                    .iter()
+                    .position(|curve| names_of(curve) == names)
+            };
             for (one, curve) in self.curves.iter().enumerate() {
-                let (name, Some(place)) = names(curve) else {
-                    continue;
-                };
-                let wanted = (Some(second.as_str()), Some(place));
-                let other = self.curves.iter().position(|other| names(other) == wanted);
-                if let (true, Some(second)) = (name == Some(first), other) {
+                if let (Some(name), Some(place)) = names_of(curve)
+                    && name == first
+                    && let Some(second) = index_of((Some(second), Some(place)))
+                {
                     let first = one;
                     contrasts.push(Contrast {
                         first,

@@ -107,11 +107,12 @@ impl Clairvoyant {
 fn states(order: usize) -> Vec<Vec<i8>> {
     let mut paths: Vec<Vec<i8>> = vec![vec![0], vec![1], vec![-1]];
     for _ in 0..order {
-        let longer = |path: &Vec<i8>| {
-            let sums = next_sums(path[path.len() - 1], 0.5).into_iter();
-            sums.map(|(sum, _)| extended(path, sum)).collect::<Vec<_>>()
-        };
-        paths = paths.iter().flat_map(longer).collect();
+        paths = (paths.iter())
+            .flat_map(|path| {
+                let sums = next_sums(path[path.len() - 1], 0.5).into_iter();
+                sums.map(|(sum, _)| extended(path, sum))
+            })
+            .collect();
     }
     paths
 }

@@ -15,6 +15,7 @@ use super::design::NullLaws;
 use super::law::NullLaw;
 use super::region::{NEVER, Region};
 use super::statistics::Statistics;
+use crate::stats::bisect::largest_below_one;
 use std::collections::BTreeMap;
 
 /// How often each (W, T) occurred.
@@ -144,27 +145,21 @@ impl LikelihoodOrder {
         let (scores, exceedances) = (tails(&self.scores), tails(&self.exceedances));
         let first = laws.score.first();
         let filled = |k: f64| -> Vec<u64> {
-            let column = |t: usize| {
-                let reached = scores.partition_point(|tail| tail * exceedances[t] > k);
-                critical[t].min(first + reached as u64)
-            };
-            (0..critical.len()).map(column).collect()
+            (critical.iter().zip(&exceedances))
+                .map(|(critical, exceedance)| {
+                    let reached = scores.partition_point(|tail| tail * exceedance > k);
+                    *critical.min(&(first + reached as u64))
+                })
+                .collect()
         };
         let tail = |score: u64| scores.get((score - first) as usize).copied().unwrap_or(0.0);
         let size = |region: &[u64]| -> f64 {
             let columns = region.iter().zip(&self.exceedances);
             columns.map(|(&score, mass)| tail(score) * mass).sum()
         };
-        // Positive floats are ordered like their bits.
-        let (mut low, mut high) = (0, 1f64.to_bits());
-        while low + 1 < high {
-            let middle = low + (high - low) / 2;
-            match size(&filled(f64::from_bits(middle))) <= alpha * (1.0 - 1e-9) {
-                true => low = middle,
-                false => high = middle,
-            }
-        }
-        filled(f64::from_bits(low))
+        filled(largest_below_one(|k| {
+            size(&filled(k)) <= alpha * (1.0 - 1e-9)
+        }))
     }
 }
 

@@ -4,6 +4,7 @@
 //! not tell them apart. So the order of the cells near the boundary is decided in whole numbers.
 
 use super::design::NullLaws;
+use crate::stats::bisect::largest_below_one;
 use num_bigint::BigUint;
 
 impl NullLaws {
@@ -42,16 +43,8 @@ impl NullLaws {
             let tails = region(k).into_iter().map(|c| scores[c]);
             tails.zip(&masses).map(|(tail, mass)| tail * mass).sum()
         };
-        // Positive floats are ordered like their bits.
-        let (mut low, mut high) = (0, 1f64.to_bits());
-        while low + 1 < high {
-            let middle = low + (high - low) / 2;
-            match size(f64::from_bits(middle)) <= alpha * MARGIN {
-                true => low = middle,
-                false => high = middle,
-            }
-        }
-        let critical = region(f64::from_bits(low) * MARGIN);
+        let largest = largest_below_one(|k| size(k) <= alpha * MARGIN);
+        let critical = region(largest * MARGIN);
         critical
             .into_iter()
             .map(|c| self.score.first() + c as u64)

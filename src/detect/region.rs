@@ -56,16 +56,17 @@ impl Region {
 
     /// C_W(T) for T = 0 … M₂: (lower, upper) such that W ≤ lower or W ≥ upper decides H₁.
     pub fn critical_values(&self) -> Vec<(Option<u64>, Option<u64>)> {
-        let bounds = |&score: &u64| match (score, self.alternative) {
-            (NEVER, _) => (None, None),
-            (score, Alternative::Greater) => (None, Some(score)),
-            (score, Alternative::Less) => (self.twice_mean.checked_sub(score), None),
-            (score, Alternative::TwoSided) => {
-                let upper = (self.twice_mean + score).div_ceil(2);
-                (self.twice_mean.checked_sub(upper), Some(upper))
-            }
-        };
-        self.critical.iter().map(bounds).collect()
+        (self.critical.iter())
+            .map(|&score| match self.alternative {
+                _ if score == NEVER => (None, None),
+                Alternative::Greater => (None, Some(score)),
+                Alternative::Less => (self.twice_mean.checked_sub(score), None),
+                Alternative::TwoSided => {
+                    let upper = (self.twice_mean + score).div_ceil(2);
+                    (self.twice_mean.checked_sub(upper), Some(upper))
+                }
+            })
+            .collect()
     }
 }
 

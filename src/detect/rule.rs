@@ -2,7 +2,7 @@
 //! against it, and the sign of Δ it looks for.
 
 use schemars::JsonSchema;
-use serde::de::{Deserializer, Error, MapAccess, Visitor};
+use serde::de::{Deserializer, Error, MapAccess, Unexpected, Visitor};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -191,15 +191,15 @@ impl<'de> Deserialize<'de> for Critical {
             }
 
             fn visit_i64<E: Error>(self, value: i64) -> Result<Critical, E> {
-                let refused = || E::invalid_value(serde::de::Unexpected::Signed(value), &self);
-                let value = u64::try_from(value).map_err(|_| refused())?;
-                Ok(Critical(Some(value)))
+                u64::try_from(value)
+                    .map(|rank_sum| Critical(Some(rank_sum)))
+                    .map_err(|_| E::invalid_value(Unexpected::Signed(value), &self))
             }
 
             fn visit_str<E: Error>(self, value: &str) -> Result<Critical, E> {
                 match value {
                     "never" => Ok(Critical(None)),
-                    _ => Err(E::invalid_value(serde::de::Unexpected::Str(value), &self)),
+                    _ => Err(E::invalid_value(Unexpected::Str(value), &self)),
                 }
             }
         }
@@ -276,8 +276,9 @@ impl fmt::Display for Rule {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())?;
         if let Self::Table(entries) = self {
-            let entry = |w: &Option<u64>| w.map_or("never".to_owned(), |w| w.to_string());
-            let entries: Vec<String> = entries.iter().map(entry).collect();
+            let entries: Vec<String> = (entries.iter())
+                .map(|w| w.map_or("never".to_owned(), |w| w.to_string()))
+                .collect();
             write!(f, "({})", entries.join(" "))?;
         }
         Ok(())
@@ -295,20 +296,12 @@ impl fmt::Display for Method {
 
 impl fmt::Display for Ties {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Random => "random",
-            Self::ByPosition => "by-position",
-            Self::Strict => "strict",
-        })
+        self.serialize(f)
     }
 }
 
 impl fmt::Display for Alternative {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Greater => "greater",
-            Self::Less => "less",
-            Self::TwoSided => "two-sided",
-        })
+        self.serialize(f)
     }
 }

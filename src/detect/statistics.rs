@@ -18,7 +18,7 @@ pub struct Statistics {
 }
 
 /// The whitened samples of one trial.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Pooled<'a> {
     /// X.
     pub reference: &'a [f64],
@@ -29,15 +29,6 @@ pub struct Pooled<'a> {
 }
 
 impl Pooled<'_> {
-    /// No samples at all.
-    pub fn none() -> Self {
-        Self {
-            reference: &[],
-            shift: &[],
-            scale: &[],
-        }
-    }
-
     /// W and T. `keys` gives a random key for each sample, in the order X, Y₁, Y₂.
     #[inline]
     pub fn statistics<'k>(&self, keys: impl FnOnce() -> &'k [u64]) -> Statistics {

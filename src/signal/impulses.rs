@@ -115,9 +115,10 @@ impl ImpulseMemory {
     /// the sign of one that starts from S = 0.
     #[inline]
     pub fn step(&mut self, nu: f64, draw: u64) -> f64 {
-        match draw >> 11 < chance(nu) {
-            true => self.fire(draw),
-            false => 0.0,
+        if draw >> 11 < chance(nu) {
+            self.fire(draw)
+        } else {
+            0.0
         }
     }
 
@@ -137,10 +138,7 @@ impl ImpulseMemory {
 
 impl fmt::Display for During {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Motion => "motion",
-            Self::Inertial => "inertial",
-        })
+        self.serialize(f)
     }
 }
 

@@ -6,6 +6,7 @@
 //! [^1]: M. A. Raifeld, "Distinguishing the motion/stop states of a lift from accelerometer
 //! signals", Avtometriya (in Russian), received 25 November 2013.
 
+mod autoregression;
 mod digitiser;
 mod disturbance;
 mod gaussian;

@@ -147,10 +147,7 @@ impl Motion {
 
 impl fmt::Display for DeltaAt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Record => "record",
-            Self::Whitened => "whitened",
-        })
+        self.serialize(f)
     }
 }
 

@@ -101,9 +101,10 @@ impl Noise {
                 if !(freedom >= 0.25 && freedom.is_finite()) {
                     return Err(LawError::DegreesOfFreedom(freedom));
                 }
-                match freedom > 2.0 {
-                    true => sqrt((freedom - 2.0) / freedom),
-                    false => 1.0,
+                if freedom > 2.0 {
+                    sqrt((freedom - 2.0) / freedom)
+                } else {
+                    1.0
                 }
             }
             Law::Contaminated { share, scale } => {

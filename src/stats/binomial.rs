@@ -7,6 +7,7 @@
 //!
 //! [^1]: C. Loader, "Fast and accurate computation of binomial probabilities", 2000.
 
+use crate::stats::bisect::first;
 use libm::{exp, log, sqrt};
 use std::f64::consts::PI;
 
@@ -67,16 +68,7 @@ fn lower_ratios(k: u64, n: u64, p: f64) -> impl Iterator<Item = f64> {
 
 /// The smallest k with P(K ≥ k) ≤ `level`; n + 1 when there is none.
 pub fn critical_count(level: f64, n: u64, p: f64) -> u64 {
-    let (mut below, mut at) = (0, n + 1);
-    while below < at {
-        let middle = below + (at - below) / 2;
-        if upper_tail(middle, n, p) <= level {
-            at = middle;
-        } else {
-            below = middle + 1;
-        }
-    }
-    at
+    first(0..n + 1, |count| upper_tail(count, n, p) <= level)
 }
 
 /// `first` · (1 + r₁ + r₁r₂ + …), cut off where nothing more can change the sum. The series is summed

@@ -1,4 +1,6 @@
-//! Where a condition ceases to hold.
+//! Where a condition ceases to hold, or begins to.
+
+use std::ops::Range;
 
 /// The boundary in [`low`, `high`] below which `inside` holds, to twelve digits.
 pub fn bisect(mut low: f64, mut high: f64, inside: impl Fn(f64) -> bool) -> f64 {
@@ -15,6 +17,27 @@ pub fn bisect(mut low: f64, mut high: f64, inside: impl Fn(f64) -> bool) -> f64 
     }
 }
 
+/// The first of `range` at which `holds` does, which must then hold from there on; its end where there is none.
+pub fn first(range: Range<u64>, holds: impl Fn(u64) -> bool) -> u64 {
+    let (mut low, mut high) = (range.start, range.end);
+    while low < high {
+        let middle = low + (high - low) / 2;
+        if holds(middle) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    low
+}
+
+/// The largest number below 1 that is `inside`, as all smaller ones must then be; 0 where there is none.
+pub fn largest_below_one(inside: impl Fn(f64) -> bool) -> f64 {
+    // Positive floats are ordered like their bits.
+    let beyond = first(1..1f64.to_bits(), |bits| !inside(f64::from_bits(bits)));
+    f64::from_bits(beyond - 1)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -23,5 +46,14 @@ mod tests {
     fn finds_a_root() {
         let root = bisect(0.0, 2.0, |x| x * x < 2.0);
         assert!((root - 2f64.sqrt()).abs() < 2e-12);
+    }
+
+    #[test]
+    fn finds_the_first_and_the_largest() {
+        assert_eq!(first(3..9, |i| i >= 5), 5);
+        assert_eq!((first(3..9, |_| true), first(3..9, |_| false)), (3, 9));
+        assert_eq!(largest_below_one(|x| x <= 0.3), 0.3);
+        assert_eq!(largest_below_one(|_| false), 0.0);
+        assert_eq!(largest_below_one(|_| true), 1.0 - f64::EPSILON / 2.0);
     }
 }

@@ -16,9 +16,10 @@ pub fn upper_tail(x: f64, degrees: usize) -> f64 {
         return 0.0;
     }
     let y = x / 2.0;
-    let (first, lowest) = match degrees.is_multiple_of(2) {
-        true => (0.0, 0.0),
-        false => (0.5, erfc(sqrt(y))),
+    let (first, lowest) = if degrees.is_multiple_of(2) {
+        (0.0, 0.0)
+    } else {
+        (0.5, erfc(sqrt(y)))
     };
     let terms = (0..degrees / 2).map(|step| {
         let a = first + step as f64;

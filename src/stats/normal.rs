@@ -10,9 +10,10 @@ pub fn two_sided_quantile(confidence: f64) -> f64 {
     let (mut low, mut high) = (0.0, 40.0);
     while high - low > 1e-14 * high {
         let middle = f64::midpoint(low, high);
-        match libm::erfc(middle / SQRT_2) > outside {
-            true => low = middle,
-            false => high = middle,
+        if libm::erfc(middle / SQRT_2) > outside {
+            low = middle
+        } else {
+            high = middle
         }
     }
     f64::midpoint(low, high)

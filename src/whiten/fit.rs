@@ -84,30 +84,21 @@ impl<V: Value> Fitter<V> {
 
     fn solve(&mut self, training: &[V], mean: V, lane: usize) {
         let solver = &mut self.solver;
-        let centred = training
-            .iter()
-            .map(|x| x.lanes()[lane] - mean.lanes()[lane]);
-        let centre =
-            |forward: &mut [f64]| forward.iter_mut().zip(centred).for_each(|(f, x)| *f = x);
+        let by_products = self.whitening.fit == Fit::LeastSquares && self.choice.is_none();
+        if by_products {
+            let products = self.products.iter().map(|product| product.lanes()[lane]);
+            (solver.normal.iter_mut().zip(products)).for_each(|(to, product)| *to = product);
+        } else {
+            for (centred, x) in solver.forward.iter_mut().zip(training) {
+                *centred = x.lanes()[lane] - mean.lanes()[lane];
+            }
+        }
         match self.whitening.fit {
             Fit::Known | Fit::None => {}
-            Fit::LeastSquares if self.choice.is_some() => {
-                centre(&mut solver.forward);
-                solver.least_squares_of_record();
-            }
-            Fit::LeastSquares => {
-                let products = self.products.iter().map(|product| product.lanes()[lane]);
-                (solver.normal.iter_mut().zip(products)).for_each(|(to, product)| *to = product);
-                solver.least_squares();
-            }
-            Fit::YuleWalker => {
-                centre(&mut solver.forward);
-                solver.yule_walker();
-            }
-            Fit::Burg => {
-                centre(&mut solver.forward);
-                solver.burg();
-            }
+            Fit::LeastSquares if by_products => solver.least_squares(),
+            Fit::LeastSquares => solver.least_squares_of_record(),
+            Fit::YuleWalker => solver.yule_walker(),
+            Fit::Burg => solver.burg(),
         }
         for (all, one) in self.coefficients.iter_mut().zip(&solver.coefficients) {
             all.lanes_mut()[lane] = *one;

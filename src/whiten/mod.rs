@@ -158,18 +158,13 @@ impl Whitening {
         includes_reference: bool,
         sensor_order: usize,
     ) -> Result<Self, WhiteningError> {
-        let order = order.into();
-        match order {
-            Order::Fixed(order) => check_order(order, fit, training, sensor_order)?,
-            Order::Auto => check_choice(fit, training)?,
-        }
-        let fitted = fit != Fit::Known;
-        Ok(Self {
-            order,
+        let whitening = Self {
+            order: order.into(),
             fit,
-            training: if fitted { training } else { 0 },
-            includes_reference: includes_reference && fitted,
-        })
+            training,
+            includes_reference,
+        };
+        whitening.checked(sensor_order)
     }
 
     /// The same, its parts checked against each other and against a sensor of order `sensor_order`.
@@ -177,13 +172,55 @@ impl Whitening {
     /// # Errors
     /// As [`Whitening::new`].
     pub fn checked(self, sensor_order: usize) -> Result<Self, WhiteningError> {
-        let Self {
-            order,
-            fit,
-            training,
-            includes_reference,
-        } = self;
-        Self::new(order, fit, training, includes_reference, sensor_order)
+        match self.order {
+            Order::Fixed(order) => self.check_order(order, sensor_order)?,
+            Order::Auto => self.check_choice()?,
+        }
+        if self.fit != Fit::Known {
+            return Ok(self);
+        }
+        Ok(Self {
+            training: 0,
+            includes_reference: false,
+            ..self
+        })
+    }
+
+    fn check_order(&self, order: usize, sensor: usize) -> Result<(), WhiteningError> {
+        let Self { fit, training, .. } = *self;
+        if order == 0 {
+            return Err(WhiteningError::NoOrder);
+        }
+        let needed = match fit {
+            Fit::LeastSquares => 2 * order + 1,
+            Fit::YuleWalker => order + 1,
+            Fit::Burg => order + 2,
+            Fit::Known | Fit::None => 0,
+        };
+        if training < needed {
+            return Err(WhiteningError::TrainingTooShort {
+                fit,
+                order,
+                needed,
+                training,
+            });
+        }
+        if fit == Fit::Known && order < sensor {
+            return Err(WhiteningError::BelowSensor { sensor, order });
+        }
+        Ok(())
+    }
+
+    fn check_choice(&self) -> Result<(), WhiteningError> {
+        let Self { fit, training, .. } = *self;
+        if matches!(fit, Fit::Known | Fit::None) {
+            return Err(WhiteningError::NothingToChoose(fit));
+        }
+        let needed = SAMPLES_PER_COEFFICIENT;
+        if training < needed {
+            return Err(WhiteningError::TooShortToChoose { needed, training });
+        }
+        Ok(())
     }
 
     /// m, or that it is chosen.
@@ -217,46 +254,6 @@ impl Whitening {
     }
 }
 
-fn check_order(
-    order: usize,
-    fit: Fit,
-    training: usize,
-    sensor: usize,
-) -> Result<(), WhiteningError> {
-    if order == 0 {
-        return Err(WhiteningError::NoOrder);
-    }
-    let needed = match fit {
-        Fit::LeastSquares => 2 * order + 1,
-        Fit::YuleWalker => order + 1,
-        Fit::Burg => order + 2,
-        Fit::Known | Fit::None => 0,
-    };
-    if training < needed {
-        return Err(WhiteningError::TrainingTooShort {
-            fit,
-            order,
-            needed,
-            training,
-        });
-    }
-    if fit == Fit::Known && order < sensor {
-        return Err(WhiteningError::BelowSensor { sensor, order });
-    }
-    Ok(())
-}
-
-fn check_choice(fit: Fit, training: usize) -> Result<(), WhiteningError> {
-    if matches!(fit, Fit::Known | Fit::None) {
-        return Err(WhiteningError::NothingToChoose(fit));
-    }
-    let needed = SAMPLES_PER_COEFFICIENT;
-    if training < needed {
-        return Err(WhiteningError::TooShortToChoose { needed, training });
-    }
-    Ok(())
-}
-
 /// The whitened sample y_i = r_i − Σ a_p r_{i−p}, where `past` ends with r_{i−1}.
 #[inline(always)]
 pub fn step<V: Value>(coefficients: &[V], past: &[V], sample: V) -> V {
@@ -284,12 +281,6 @@ pub fn whiten(coefficients: &[f64], record: &[f64], start: usize, whitened: &mut
 
 impl fmt::Display for Fit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::LeastSquares => "least-squares",
-            Self::YuleWalker => "yule-walker",
-            Self::Burg => "burg",
-            Self::Known => "known",
-            Self::None => "none",
-        })
+        self.serialize(f)
     }
 }

@@ -69,9 +69,10 @@ pub fn solve_normal_equations(normal: &mut [f64], diagonal: &mut [f64], solution
         let known: f64 = (k + 1..=order)
             .map(|i| normal[at(k, i)] * solution[i - 1])
             .sum();
-        solution[k - 1] = match pivot > 0.0 {
-            true => (normal[at(k, 0)] - known) / pivot,
-            false => 0.0,
+        solution[k - 1] = if pivot > 0.0 {
+            (normal[at(k, 0)] - known) / pivot
+        } else {
+            0.0
         };
     }
 }

@@ -57,10 +57,7 @@ impl From<usize> for Order {
 
 impl fmt::Display for Order {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Fixed(order) => order.fmt(f),
-            Self::Auto => f.write_str("auto"),
-        }
+        self.serialize(f)
     }
 }
 

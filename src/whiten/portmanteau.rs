@@ -79,11 +79,13 @@ impl LjungBox {
             return Err(PortmanteauError::Constant(length));
         }
         let variance = covariance(0);
-        let term = |lag: usize| {
-            let rho = covariance(lag) / variance;
-            rho * rho / (n - lag as f64)
-        };
-        let statistic = n * (n + 2.0) * (1..=lags).map(term).sum::<f64>();
+        let sum: f64 = (1..=lags)
+            .map(|lag| {
+                let rho = covariance(lag) / variance;
+                rho * rho / (n - lag as f64)
+            })
+            .sum();
+        let statistic = n * (n + 2.0) * sum;
         let degrees = lags - order;
         Ok(Self {
             lags,

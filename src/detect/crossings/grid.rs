@@ -1,6 +1,6 @@
 //! The values of Δ that crossings are counted at, and where among them two lines cross.
 
-use crate::simd::Wide;
+use crate::simd::{Wide, least};
 
 /// The values of Δ, in ascending order.
 #[derive(Clone, Debug)]
@@ -90,16 +90,4 @@ pub(super) fn round<const N: usize>(place: Wide<N>) -> Wide<N> {
 #[inline(always)]
 pub(super) fn round_up<const N: usize>(place: Wide<N>) -> [u32; N] {
     ((place + Wide::all(0.5)) + Wide::all(ROUND)).low_bits()
-}
-
-/// The smaller of two numbers, in one instruction; the second where one is NaN.
-#[inline(always)]
-pub(super) fn least(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
-}
-
-/// The larger of two numbers, in one instruction; the second where one is NaN.
-#[inline(always)]
-pub(super) fn greatest(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
 }

@@ -1,7 +1,7 @@
 //! Samples as lines in Δ, and where those of Y₁ cross another.
 
-use super::grid::{Grid, greatest, least, round, round_up};
-use crate::simd::Wide;
+use super::grid::{Grid, round, round_up};
+use crate::simd::{Wide, greatest, least};
 
 /// Samples as lines in Δ.
 #[derive(Clone, Copy, Debug)]

@@ -18,8 +18,8 @@ mod lines;
 pub use lines::Lines;
 
 use super::statistics::{Statistics, smallest_rank_sum};
-use crate::simd::{Vectors, Wide};
-use grid::{Grid, greatest, least};
+use crate::simd::{Vectors, Wide, greatest, least};
+use grid::Grid;
 use lines::{Field, SEVERAL};
 
 /// Two samples nearer than this share of the largest value may compare one way or the other by
@@ -100,9 +100,10 @@ impl Crossings {
         }
         let mut nearest = f64::INFINITY;
         for (&y, &slope) in scale.base.iter().zip(scale.slope) {
-            match slope == 0.0 {
-                true => self.shift.meet_still(&self.grid, y),
-                false => self.shift.meet(&self.grid, y, slope),
+            if slope == 0.0 {
+                self.shift.meet_still(&self.grid, y)
+            } else {
+                self.shift.meet(&self.grid, y, slope)
             }
             self.rank_sums.count(&self.shift, slope);
             // T: above max X, and below min X.

@@ -62,15 +62,12 @@ impl Drive {
         let Self {
             acceleration, jerk, ..
         } = *self;
-        let (ramp, duration) = match speed >= acceleration * acceleration / jerk {
-            true => {
-                let ramp = acceleration / jerk;
-                (ramp, speed / acceleration + ramp)
-            }
-            false => {
-                let ramp = sqrt(speed / jerk);
-                (ramp, 2.0 * ramp)
-            }
+        let (ramp, duration) = if speed >= acceleration * acceleration / jerk {
+            let ramp = acceleration / jerk;
+            (ramp, speed / acceleration + ramp)
+        } else {
+            let ramp = sqrt(speed / jerk);
+            (ramp, 2.0 * ramp)
         };
         Start {
             jerk,
@@ -104,21 +101,21 @@ impl Start {
     /// m/s.
     pub fn speed_at(&self, time: f64) -> f64 {
         let time = time.clamp(0.0, self.duration);
-        match 2.0 * time > self.duration {
-            true => self.speed - self.early_speed(self.duration - time),
-            false => self.early_speed(time),
+        if 2.0 * time > self.duration {
+            self.speed - self.early_speed(self.duration - time)
+        } else {
+            self.early_speed(time)
         }
     }
 
     /// m.
     pub fn way_at(&self, time: f64) -> f64 {
         let time = time.clamp(0.0, self.duration);
-        match 2.0 * time > self.duration {
-            true => {
-                let left = self.duration - time;
-                self.speed * (self.duration / 2.0 - left) + self.early_way(left)
-            }
-            false => self.early_way(time),
+        if 2.0 * time > self.duration {
+            let left = self.duration - time;
+            self.speed * (self.duration / 2.0 - left) + self.early_way(left)
+        } else {
+            self.early_way(time)
         }
     }
 

@@ -156,11 +156,12 @@ impl Ride {
                 seconds: rests[index],
             });
         }
-        let course = |(number, trip): (usize, &Trip)| {
-            let refused = |reason| RideError::Trip { number, reason };
-            trip.course().map_err(refused)
-        };
-        let courses = (1..).zip(&trips).map(course).collect::<Result<_, _>>()?;
+        let courses = (1..)
+            .zip(&trips)
+            .map(|(number, trip)| {
+                (trip.course()).map_err(|reason| RideError::Trip { number, reason })
+            })
+            .collect::<Result<_, _>>()?;
         Self {
             rate,
             rests,
@@ -181,14 +182,15 @@ impl Ride {
     fn of_some_length(self) -> Result<Self, RideError> {
         let (seconds, rate) = (self.duration(), self.rate);
         let samples = (seconds * rate).round();
-        match (1.0..=MOST_SAMPLES as f64).contains(&samples) {
-            true => Ok(self),
-            false => Err(RideError::Length {
+        if (1.0..=MOST_SAMPLES as f64).contains(&samples) {
+            Ok(self)
+        } else {
+            Err(RideError::Length {
                 most: MOST_SAMPLES,
                 samples,
                 seconds,
                 rate,
-            }),
+            })
         }
     }
 
@@ -246,20 +248,21 @@ impl Ride {
 
     /// Its trips as they come to be.
     pub fn journeys(&self) -> Vec<Journey> {
-        let journey = |(start, course): (f64, &Course)| {
-            let (uniform, braking) = course.uniform_motion();
-            Journey {
-                start,
-                uniform: start + uniform,
-                braking: start + braking,
-                stop: start + course.duration(),
-                direction: course.direction(),
-                distance: course.distance(),
-                speed: course.top_speed(),
-                jammed: course.is_jammed(),
-            }
-        };
-        self.started().map(journey).collect()
+        self.started()
+            .map(|(start, course)| {
+                let (uniform, braking) = course.uniform_motion();
+                Journey {
+                    start,
+                    uniform: start + uniform,
+                    braking: start + braking,
+                    stop: start + course.duration(),
+                    direction: course.direction(),
+                    distance: course.distance(),
+                    speed: course.top_speed(),
+                    jammed: course.is_jammed(),
+                }
+            })
+            .collect()
     }
 
     /// Each trip's motion and when it starts, s from the first sample.

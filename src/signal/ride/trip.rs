@@ -115,9 +115,10 @@ impl Trip {
 }
 
 fn positive(name: &'static str, value: f64) -> Result<(), TripError> {
-    match value > 0.0 && value.is_finite() {
-        true => Ok(()),
-        false => Err(TripError::NotPositive { name, value }),
+    if value > 0.0 && value.is_finite() {
+        Ok(())
+    } else {
+        Err(TripError::NotPositive { name, value })
     }
 }
 

@@ -71,9 +71,10 @@ fn commanded_trips_arrive_within_their_limits() {
                 "{trip:?}"
             );
         }
-        match course.phases().any(|(phase, _)| phase == Phase::Inertial) {
-            true => uniform += 1,
-            false => short += 1,
+        if course.phases().any(|(phase, _)| phase == Phase::Inertial) {
+            uniform += 1
+        } else {
+            short += 1
         }
     }
     println!("{uniform} trips with uniform motion, {short} without");

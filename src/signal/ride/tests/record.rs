@@ -133,9 +133,10 @@ fn impulses_act_in_uniform_motion_alone() {
         let impulse = (a - b).round();
         sum += impulse;
         assert!(sum.abs() == 0.0 || sum.abs() == 8.0);
-        match (inertial.from..inertial.to).contains(&time) {
-            true => places += 1,
-            false => assert_eq!(impulse, 0.0),
+        if (inertial.from..inertial.to).contains(&time) {
+            places += 1
+        } else {
+            assert_eq!(impulse, 0.0)
         }
         hits += u64::from(impulse != 0.0);
     }

@@ -1,0 +1,113 @@
+//! What a motion adds to the rest of a trial.
+
+use super::batch::observe;
+use super::family::Course;
+use super::source::Source;
+use crate::detect::{Crossings, Lines, Pooled, Samples, Statistics};
+use crate::signal::Digitiser;
+use crate::whiten::whiten;
+use std::ops::Range;
+
+/// What a motion adds.
+pub(super) struct Motion {
+    /// λ/θ for each raw observation.
+    pub pattern: Vec<f64>,
+    /// Block means of the pattern.
+    pub observed: Vec<f64>,
+    /// Whitened step and impulses; noise and impulses; all three.
+    step: Vec<f64>,
+    impulse: Vec<f64>,
+    without_step: Vec<f64>,
+    pub whitened: Vec<f64>,
+}
+
+impl Motion {
+    /// For so many raw observations after X, and so many of their means.
+    pub fn new(raw: usize, observed: usize) -> Self {
+        Self {
+            pattern: vec![0.0; raw],
+            observed: vec![0.0; observed],
+            step: vec![0.0; observed],
+            impulse: vec![0.0; observed],
+            without_step: vec![0.0; observed],
+            whitened: vec![0.0; observed],
+        }
+    }
+
+    /// The pattern of this course from the trial's draws.
+    pub fn draw_impulses(&mut self, course: &Course, draws: &[[u8; 8]], source: &Source) {
+        let first = course.first_impulse(&source.samples);
+        let (silent, acting) = self.pattern.split_at_mut(first);
+        silent.fill(0.0);
+        if course.impulses.are_absent() {
+            acting.fill(0.0)
+        } else {
+            course.impulses.pattern(&draws[first..], acting)
+        }
+    }
+
+    /// Whitened responses to a unit step and to the impulses, and the whitened record without step.
+    pub fn respond(
+        &mut self,
+        course: &Course,
+        coefficients: &[f64],
+        source: &Source,
+        rest: &[f64],
+    ) {
+        whiten(coefficients, &course.observed_shape, 0, &mut self.step);
+        let decimation = source.samples.decimation();
+        observe(
+            &Digitiser::default(),
+            decimation,
+            &self.pattern,
+            &mut self.observed,
+        );
+        whiten(coefficients, &self.observed, 0, &mut self.impulse);
+        let theta = course.impulses.theta();
+        let noise = &rest[source.samples.reference()..];
+        for ((sum, xi), impulse) in self.without_step.iter_mut().zip(noise).zip(&self.impulse) {
+            *sum = xi + theta * impulse;
+        }
+    }
+
+    /// Adds Δ times the step response.
+    pub fn add_step(&mut self, delta: f64) {
+        for ((y, rest), step) in self
+            .whitened
+            .iter_mut()
+            .zip(&self.without_step)
+            .zip(&self.step)
+        {
+            *y = rest + delta * step;
+        }
+    }
+
+    /// W and T at every Δ of the course, unless a near tie leaves them in doubt.
+    pub fn count<'c>(
+        &self,
+        crossings: &'c mut Crossings,
+        samples: &Samples,
+        rest: &[f64],
+    ) -> Option<&'c [Statistics]> {
+        let base = pool(samples, rest, &self.without_step);
+        let slope = pool(samples, rest, &self.step);
+        let lines = |base, slope| Lines { base, slope };
+        crossings.count(
+            base.reference,
+            lines(base.shift, slope.shift),
+            lines(base.scale, slope.scale),
+        )
+    }
+}
+
+/// X from the whitened rest, Y₁ and Y₂ from what follows it.
+pub(super) fn pool<'a>(samples: &Samples, rest: &'a [f64], motion: &'a [f64]) -> Pooled<'a> {
+    let after = |range: Range<usize>| {
+        &motion[range.start - samples.reference()..range.end - samples.reference()]
+    };
+    Pooled {
+        reference: &rest[samples.reference_range()],
+        shift: after(samples.shift_range()),
+        scale: after(samples.scale_range()),
+    }
+}
