@@ -1,11 +1,13 @@
 //! A recording and what was found in it: the record, below it the same whitened; states shaded and named; where
 //! X, Y₁ and Y₂ of each decision lay, and when it was made.
 
-use super::FigureError;
-use super::phases::{add_phases, phase_colour, phase_words};
+use super::error::FigureError;
 use crate::detection::{Column, Detection};
 use crate::monitor::{Decision, Kind, State};
-use crate::plot::{Axis, Colour, Entry, Key, Legend, Mark, Place, Plot, Style, ends, literal};
+use crate::plot::{
+    Axis, Colour, Entry, Key, Legend, Mark, Place, Plot, Style, add_phases, ends, literal,
+    phase_colour, phase_words,
+};
 
 const PANEL: f64 = 140.0;
 /// Room for the bars of the samples, as a share of the lower panel.

@@ -6,12 +6,13 @@
 #![allow(missing_docs, reason = "fields are called what they are")]
 
 pub mod detection;
-pub mod phases;
+mod error;
 mod raster;
-pub mod rates;
 mod svg;
 
-use crate::plot::{LayoutError, Plot, layout};
+pub use error::FigureError;
+
+use crate::plot::{Plot, layout};
 
 /// A picture in both its forms.
 #[derive(Clone, Debug)]
@@ -20,28 +21,6 @@ pub struct Drawing {
     pub png: Vec<u8>,
     /// With its text as outlines, so that it looks the same without the font.
     pub svg: Vec<u8>,
-}
-
-/// Why a picture could not be drawn.
-#[derive(Debug, thiserror::Error)]
-pub enum FigureError {
-    #[error(transparent)]
-    Layout(#[from] LayoutError),
-    /// In the words of the drawing library.
-    #[error("figure: {0}")]
-    Drawing(String),
-    #[error("figure: {0}")]
-    Png(#[from] png::EncodingError),
-    #[error(
-        "figure: no point of the results lies on the axis {0} (draw it from a sweep's results)"
-    )]
-    Empty(&'static str),
-    #[error("figure: too short to be drawn, without a single block (record a ride)")]
-    Short,
-    #[error("figure: the rows are not those of a [{0}] (compute it again with `liftsim sweep`)")]
-    NoRows(&'static str),
-    #[error("figure: {0}")]
-    Law(#[from] crate::detect::NullLawError),
 }
 
 /// Draws a plot; `provenance` says what made it to whoever finds it alone.
@@ -61,9 +40,4 @@ impl Drawing {
     pub fn files(&self) -> [(&'static str, &[u8]); 2] {
         [("figure.png", &self.png), ("figure.svg", &self.svg)]
     }
-}
-
-/// A place on a canvas in whole units, so many per point.
-fn rounded((x, y): (f64, f64), unit: f64) -> (i32, i32) {
-    ((x * unit).round() as i32, (y * unit).round() as i32)
 }

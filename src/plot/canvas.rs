@@ -1,7 +1,7 @@
 //! Lines, areas and texts on a sheet, measured in points (1/72 inch) from its upper left corner.
 
+use super::style::{Colour, Marker, Style};
 use super::text::{FONT_HEIGHT, runs, text_width};
-use super::{Colour, Marker, Style};
 
 /// A sheet and what lies on it, from the bottom up.
 #[derive(Clone, Debug, PartialEq)]
@@ -154,9 +154,15 @@ impl Canvas {
     }
 }
 
+/// A place in whole units, so many per point.
+pub fn rounded((x, y): (f64, f64), unit: f64) -> (i32, i32) {
+    ((x * unit).round() as i32, (y * unit).round() as i32)
+}
+
 fn corners((left, top): (f64, f64), (right, bottom): (f64, f64)) -> [(f64, f64); 4] {
     [(left, top), (right, top), (right, bottom), (left, bottom)]
 }
+
 /// The parts of a line through `points` that a `dash` leaves.
 fn strokes(points: &[(f64, f64)], dash: &[f64]) -> Vec<Vec<(f64, f64)>> {
     let mut strokes = vec![points[..1].to_vec()];

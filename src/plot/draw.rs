@@ -1,9 +1,12 @@
 //! Draws marks in their panels.
 
+use super::axis::ends;
 use super::canvas::{Align, Canvas};
 use super::frame::Frame;
+use super::mark::{Block, Limit, Mark, Point};
+use super::picture::WIDTH;
+use super::style::{Colour, Style};
 use super::text::{NORMAL, SMALL, text_width};
-use super::{Block, Colour, Limit, Mark, Point, Style, WIDTH, ends};
 
 /// Width of a column of a dense line.
 const COLUMN: f64 = 0.4;

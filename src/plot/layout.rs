@@ -2,9 +2,11 @@
 
 use super::canvas::{Align, Canvas, Shape, Text};
 use super::frame::Frame;
-use super::legend::{Place, Placed};
+use super::legend::Place;
+use super::mark::Mark;
+use super::picture::{CAPTION_LEFT, Plot, WIDTH};
+use super::placed::Placed;
 use super::text::{CAPTION, font_width};
-use super::{CAPTION_LEFT, Mark, Plot, WIDTH};
 
 /// From one line of a caption to the next.
 const CAPTION_STEP: f64 = 10.5;
@@ -31,11 +33,8 @@ pub enum LayoutError {
     Clipped(String),
 }
 
-/// Whether a plot of so many panels in rows of two can be drawn.
-///
-/// # Errors
-/// Where it cannot, with the number that can.
-pub fn check_panels(panels: usize) -> Result<(), LayoutError> {
+/// Refuses more panels, in rows of two, than can be drawn.
+pub(super) fn check_panels(panels: usize) -> Result<(), LayoutError> {
     let most = 2 * ((HIGHEST - AROUND_ROWS) / ROW) as usize;
     if panels > most {
         return Err(LayoutError::Panels { panels, most });

@@ -1,6 +1,6 @@
 //! What is drawn in a panel, in its data.
 
-use super::{Colour, Style};
+use super::style::{Colour, Style};
 
 /// Something in a panel. What lies outside its axes is drawn on their edge. Pairs of numbers are `(x, y)`,
 /// or the ends of a stretch of x.

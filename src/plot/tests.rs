@@ -1,3 +1,4 @@
+use super::layout::check_panels;
 use super::*;
 
 fn axis(label: &str) -> Axis {

@@ -3,10 +3,10 @@
 
 use super::row::Row;
 use crate::experiment::Measure;
-use crate::figure::rates::{Curve, add_bands};
 use crate::format::thousands;
 use crate::plot::{
-    Axis, Key, Legend, Limit, Mark, Place, Plot, Point, Style, ends, is_long, literal,
+    Axis, Curve, Key, Legend, Limit, Mark, Place, Plot, Point, Style, add_bands, ends, is_long,
+    literal,
 };
 
 /// What was asked of rides along an axis.

@@ -4,9 +4,9 @@
 use super::labels::{self, WHITENED_DELTA, axis_label, common_facts, is_held_against_alpha};
 use super::x_axis::XAxis;
 use crate::figure::FigureError;
-use crate::figure::rates::{Curve, add_bands, add_bars};
 use crate::plot::{
-    Axis, Entry, Key, LONG_RANGE, Legend, Limit, Mark, Panel, Place, Plot, Point, Style, ends,
+    Axis, Curve, Entry, Key, LONG_RANGE, Legend, Limit, Mark, Panel, Place, Plot, Point, Style,
+    add_bands, add_bars, ends,
 };
 use crate::results::Row;
 use crate::scenario::Parameter;
@@ -56,7 +56,7 @@ pub fn plot(sweep: &Sweep, rows: &[Row], seed: u64) -> Result<Plot, FigureError>
     if all.is_empty() {
         return Err(FigureError::Empty(sweep.axis.name));
     }
-    let axis = XAxis::new(sweep, &all);
+    let axis = XAxis::new(sweep.axis, &sweep.values, &all);
     let common = common_facts(&all);
     let (entries, mut groups) = grouped(sweep, &drawn, &axis, &common);
     let is_false_alarm = all.iter().all(|row| row.is_at_rest());

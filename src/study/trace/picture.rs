@@ -4,8 +4,9 @@
 use super::row::Row;
 use crate::chain::Scenario;
 use crate::experiment::Trace;
-use crate::figure::phases::add_phases;
-use crate::plot::{Axis, Entry, Key, Legend, Mark, Place, Plot, Point, Style, ends, literal};
+use crate::plot::{
+    Axis, Entry, Key, Legend, Mark, Place, Plot, Point, Style, add_phases, ends, literal,
+};
 
 const SINGLE: f64 = 190.0;
 const PANEL: f64 = 128.0;

@@ -1,6 +1,8 @@
 //! Curves of rates with their intervals: lines in bands, or bars side by side at names.
 
-use crate::plot::{Mark, Plot, Point, Style};
+use super::mark::{Mark, Point};
+use super::picture::Plot;
+use super::style::Style;
 
 /// What is drawn in one style.
 pub struct Curve {
