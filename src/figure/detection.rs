@@ -5,8 +5,8 @@ use super::error::FigureError;
 use crate::detection::{Column, Detection};
 use crate::monitor::{Decision, Kind, State};
 use crate::plot::{
-    Axis, Colour, Entry, Key, Legend, Mark, Place, Plot, Style, add_phases, ends, literal,
-    phase_colour, phase_words,
+    Axis, Colour, Entry, Key, Mark, Place, Plot, Style, add_phases, ends, literal, phase_colour,
+    phase_words,
 };
 
 const PANEL: f64 = 140.0;
@@ -44,8 +44,7 @@ pub fn plot(detection: &Detection, name: &str) -> Result<Plot, FigureError> {
         }
     }
     plot.add_to_all(&Mark::Axes);
-    plot.add(0, Mark::Legend);
-    plot.legend = Some(Legend::new(entries(), Place::Across));
+    plot.add_legend(entries(), Place::Across);
     plot.set_caption(&caption(detection, name));
     Ok(plot)
 }
@@ -82,9 +81,10 @@ fn y_axis(
         known.any(|((from, to), _)| *from <= column.times.0 && column.times.1 <= *to)
     };
     let known: Vec<_> = columns.iter().filter(is_known).map(value).collect();
-    let shown = match known.is_empty() {
-        true => columns.iter().map(value).collect(),
-        false => known,
+    let shown = if known.is_empty() {
+        columns.iter().map(value).collect()
+    } else {
+        known
     };
     let (low, high) = ends(shown.into_iter().flat_map(|(low, high)| [low, high]));
     let room = (high - low).max(1e-9);

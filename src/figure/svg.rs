@@ -54,12 +54,13 @@ fn write(out: &mut String, shape: &Shape) -> fmt::Result {
         }
         Shape::Text(text) => {
             let ((x, y), size) = (rounded(text.at, UNITS), text.height * UNITS);
-            let place = match text.is_upright {
-                true => format!(
+            let place = if text.is_upright {
+                format!(
                     "translate({:.0} {y}) rotate(-90)",
                     f64::from(x) + size / 2.0
-                ),
-                false => format!("translate({x} {:.0})", f64::from(y) + size / 2.0),
+                )
+            } else {
+                format!("translate({x} {:.0})", f64::from(y) + size / 2.0)
             };
             let path = outline(&text.text, size)?;
             writeln!(

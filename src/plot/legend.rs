@@ -40,21 +40,16 @@ pub enum Place {
     Across,
 }
 
-impl Legend {
-    pub fn new(entries: impl IntoIterator<Item = Entry>, place: Place) -> Self {
-        let entries = entries.into_iter().collect();
-        Self { entries, place }
-    }
-
-    /// Curves in the styles of their places.
-    pub fn of_curves(names: impl IntoIterator<Item = String>, key: Key, place: Place) -> Self {
-        let names = names.into_iter().enumerate();
-        let entries = names.map(|(index, name)| Entry::new(name, Style::of(index), key));
-        Self::new(entries, place)
-    }
-}
-
 impl Entry {
+    /// Those of curves in the styles of their places.
+    pub fn of_curves(
+        names: impl IntoIterator<Item = String>,
+        key: Key,
+    ) -> impl Iterator<Item = Self> {
+        let names = names.into_iter().enumerate();
+        names.map(move |(index, name)| Self::new(name, Style::of(index), key))
+    }
+
     pub fn new(text: impl Into<String>, style: Style, key: Key) -> Self {
         let text = text.into();
         Self { text, style, key }

@@ -1,7 +1,7 @@
 //! A picture: panels with their axes, the marks in them, a legend and a caption.
 
 use super::axis::Axis;
-use super::legend::Legend;
+use super::legend::{Entry, Legend, Place};
 use super::mark::Mark;
 use super::text::wrap;
 
@@ -99,6 +99,13 @@ impl Plot {
         for panel in 0..self.panels.len() {
             self.add(panel, mark.clone());
         }
+    }
+
+    /// Draws a legend next, wherever it finds room.
+    pub fn add_legend(&mut self, entries: impl IntoIterator<Item = Entry>, place: Place) {
+        self.add(0, Mark::Legend);
+        let entries = entries.into_iter().collect();
+        self.legend = Some(Legend { entries, place });
     }
 
     /// What the caption says, broken into lines between these parts.

@@ -5,7 +5,7 @@ use super::row::Row;
 use crate::experiment::Measure;
 use crate::format::thousands;
 use crate::plot::{
-    Axis, Curve, Key, Legend, Limit, Mark, Place, Plot, Point, Style, add_bands, ends, is_long,
+    Axis, Curve, Entry, Key, Limit, Mark, Place, Plot, Point, Style, add_bands, ends, is_long,
     literal,
 };
 
@@ -64,12 +64,11 @@ pub fn plot(rows: &[Row], rides: &Rides) -> Plot {
         add_bands(&mut plot, panel, curves, false);
         plot.add(panel, Mark::Axes);
     }
-    plot.add(0, Mark::Legend);
     // One curve without a name of its own needs no legend.
-    let is_plain = rides.labels.len() == 1 && rides.labels[0] == "1";
-    let names = rides.labels.iter().map(|label| literal(label));
-    let legend = Legend::of_curves(names, Key::MarkedLine, Place::Free);
-    plot.legend = (!is_plain).then_some(legend);
+    if rides.labels != ["1"] {
+        let names = rides.labels.iter().map(|label| literal(label));
+        plot.add_legend(Entry::of_curves(names, Key::MarkedLine), Place::Free);
+    }
     plot.set_caption(&caption(rows, rides));
     plot
 }
@@ -163,9 +162,12 @@ impl<'a> Places<'a> {
         let quantiles = ["05", "50", "95"].map(|name| format!("{outcome}_{name}"));
         let [low, middle, high] = quantiles.map(|outcome| self.of(curve, &outcome));
         (middle.iter().zip(low.iter().zip(high)))
-            .map(|(row, (low, high))| match high.estimate.is_finite() {
-                true => Point::new(self.x(row), [low, row, high].map(|row| row.estimate)),
-                false => Point::at((self.x(row), row.estimate)),
+            .map(|(row, (low, high))| {
+                if high.estimate.is_finite() {
+                    Point::new(self.x(row), [low, row, high].map(|row| row.estimate))
+                } else {
+                    Point::at((self.x(row), row.estimate))
+                }
             })
             .collect()
     }

@@ -1,7 +1,7 @@
 //! What a picture says about its curves: legend, axis, caption, all from the rows themselves.
 //!
 //! Every parameter is a [`Fact`] in the words of the table of parameters. What all points share stands in the
-//! caption, unless it is a default nobody needs to be told; what tells curves apart stands in the legend.
+//! caption, unless it is a default that goes without saying; what tells curves apart stands in the legend.
 
 use crate::format::thousands;
 use crate::plot::literal;

@@ -51,9 +51,10 @@ impl<'a> XAxis<'a> {
             let rule = self.rules.iter().position(|rule| *rule == own);
             return rule.unwrap_or(0) as f64;
         }
-        let value = match rows.len() == self.values.len() {
-            true => self.values[index],
-            false => row.on_axis(self.parameter).unwrap_or(0.0),
+        let value = if rows.len() == self.values.len() {
+            self.values[index]
+        } else {
+            row.on_axis(self.parameter).unwrap_or(0.0)
         };
         if self.is_logarithmic {
             libm::log10(value)
@@ -64,9 +65,10 @@ impl<'a> XAxis<'a> {
 
     /// From the first place to the last, with a little room on either side.
     pub fn axis(&self, places: impl Iterator<Item = f64>) -> Axis {
-        match self.is_named() {
-            true => Axis::names(self.names()),
-            false => Axis::around(places, self.is_logarithmic),
+        if self.is_named() {
+            Axis::names(self.names())
+        } else {
+            Axis::around(places, self.is_logarithmic)
         }
     }
 

@@ -4,9 +4,7 @@
 use super::row::Row;
 use crate::chain::Scenario;
 use crate::experiment::Trace;
-use crate::plot::{
-    Axis, Entry, Key, Legend, Mark, Place, Plot, Point, Style, add_phases, ends, literal,
-};
+use crate::plot::{Axis, Entry, Key, Mark, Place, Plot, Point, Style, add_phases, ends, literal};
 
 const SINGLE: f64 = 190.0;
 const PANEL: f64 = 128.0;
@@ -46,10 +44,9 @@ pub fn plot(rows: &[Row], trace: &Trace, scenario: &Scenario, seed: u64) -> Plot
         add_values(&mut plot, 1, time.line(rows, |row| row.whitened));
     }
     plot.add_to_all(&Mark::Axes);
-    plot.add(0, Mark::Legend);
     let entry = |index, text| Entry::new(text, Style::of(index).solid(), Key::Line);
     let entries = [entry(0, "record"), entry(1, "acceleration in it")];
-    plot.legend = Some(Legend::new(entries, Place::Free));
+    plot.add_legend(entries, Place::Free);
     plot.set_caption(&caption(scenario, trace, seed));
     plot
 }
@@ -172,18 +169,9 @@ fn caption(scenario: &Scenario, trace: &Trace, seed: u64) -> Vec<String> {
     }
     parts.push(format!("{} noise", literal(&scenario.noise.to_string())));
     parts.push(literal(&scenario.sensor.to_string()).replace('-', "−"));
-    parts.extend(
-        scenario
-            .digitiser
-            .quantum()
-            .map(|quantum| measured("step", quantum)),
-    );
-    parts.extend(
-        scenario
-            .digitiser
-            .range()
-            .map(|range| measured("range", range)),
-    );
+    let digitiser = &scenario.digitiser;
+    parts.extend(digitiser.quantum().map(|step| measured("step", step)));
+    parts.extend(digitiser.range().map(|range| measured("range", range)));
     if trace.whitened {
         let whitening = &scenario.whitening;
         parts.push(format!("{} filter", whitening.fit()));
