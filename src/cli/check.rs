@@ -70,7 +70,9 @@ fn report(config: &Config, plan: &Plan, decisions: &[Decision], findings: &[Find
     let count = |verdict| findings.iter().filter(|f| f.verdict == verdict).count();
     let power = findings.iter().map(|f| f.power).fold(1.0, f64::min);
     let advice = match gate::trials_for_power(findings) {
-        Some(trials) if power < gate::POWER => format!("a run of {trials} trials could tell\n"),
+        Some(trials) if power < gate::POWER => {
+            format!("{trials} trials per point would be enough\n")
+        }
         _ => String::new(),
     };
     format!(
@@ -124,11 +126,11 @@ fn p_value(p: f64) -> String {
 /// The curve's label, and what the axis changes unless another column says it, or it is a motion.
 fn scenario(config: &Config, row: &Row) -> String {
     let parameter = config.parameter();
-    let is_told = ["motion.", "impulses.", "detector.alpha"]
+    let is_shown = ["motion.", "impulses.", "detector.alpha"]
         .iter()
         .any(|start| parameter.paths[0].starts_with(start));
     match row.on_axis(parameter) {
-        Some(value) if !is_told => format!("{}, {} = {value}", row.label, parameter.name),
+        Some(value) if !is_shown => format!("{}, {} = {value}", row.label, parameter.name),
         _ => row.label.clone(),
     }
 }

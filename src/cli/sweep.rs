@@ -13,14 +13,14 @@ use std::time::Instant;
 
 /// Run every point of an experiment; write points.csv, the figure and run.json.
 ///
-/// A config that says what to draw instead of what to sweep is computed and drawn in the same way,
-/// with single numbers in quantities.csv where it has any.
+/// A config with a table of another study instead of an axis and curves is run in the same way; its
+/// single numbers, if any, are written to quantities.csv.
 ///
 /// The same config and seed give the same bytes on any machine, with any number of threads.
 ///
-/// What is counted is saved in counts.json every few seconds. However a run ends, the same command goes
-/// on from there. What a directory holds is never simulated again: more trials, a further curve or
-/// claim take only what is missing.
+/// Counts are saved in counts.json every few seconds. However a run ends, the same command continues it.
+/// Nothing that a directory holds is simulated again: for more trials, another curve or another claim
+/// only what is missing is run.
 #[derive(Debug, Args)]
 pub struct Sweep {
     #[command(flatten)]
@@ -81,7 +81,7 @@ pub(super) fn default_directory(config: &Path) -> PathBuf {
     Path::new("results").join(config.file_stem().unwrap_or(config.as_os_str()))
 }
 
-/// Writes what a run came to, and says so. A shard has written all it has.
+/// Writes the results of a run, and lists the files. A shard has no more to write than its counts.
 pub(super) fn finish(
     study: &Loaded,
     session: Session,
@@ -93,7 +93,7 @@ pub(super) fn finish(
         None => format!("[{}]", study.name()),
     };
     if let Some(shard) = shard {
-        // A share of no trials is one, too; and whoever joins it compares the words of the config.
+        // Also where its share is no trials: `merge` needs the file, and compares the config in it.
         let is_new = !directory.has_counts();
         session.save().map_err(Failure::run)?;
         let counts = line(&directory, "counts.json", is_new);
@@ -114,7 +114,7 @@ pub(super) fn finish(
     Ok(format!("{findings}{what} in {seconds:.1} s\n{files}"))
 }
 
-/// Writes counts, then pictures, then the manifest that vouches for both.
+/// Writes tables, then pictures, then the manifest with the hashes of both.
 pub(super) fn write(study: &Loaded, session: Session) -> Result<(Output, Written), Failure> {
     let start = Instant::now();
     let output = study.output(session.counts()).map_err(Failure::study)?;
@@ -123,7 +123,7 @@ pub(super) fn write(study: &Loaded, session: Session) -> Result<(Output, Written
         seconds = start.elapsed().as_secs_f64();
         study.judge(&output).map_err(Failure::study)?;
     }
-    // Until the last file vouches for the others, the counts are what a run goes on from.
+    // Until the manifest is written, a run continues from the counts.
     session.save().map_err(Failure::run)?;
     let directory = session.directory().clone();
     let mut manifest = made_by(&session, manifest(study.origin(), seconds));
@@ -151,7 +151,7 @@ pub(super) fn write(study: &Loaded, session: Session) -> Result<(Output, Written
     Ok((output, written))
 }
 
-/// Counts that are only written anew are as old as they were.
+/// Counts that are only written again keep the origin they had.
 fn made_by(session: &Session, now: Manifest) -> Manifest {
     match session.made_by().cloned() {
         Some(made_by) => Manifest {
