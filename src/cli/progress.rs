@@ -32,7 +32,7 @@ pub struct Reporter {
 }
 
 impl Reporter {
-    /// As the command line has it.
+    /// Shows a bar, lines of JSON, or nothing.
     pub fn new(quiet: bool, progress: &Progress, prefix: &str) -> Self {
         Self {
             is_json: progress.json && !quiet,
@@ -226,7 +226,7 @@ fn pilot(pilots: &Pilots, plan: &Plan, reporter: &Reporter) -> Result<Vec<Decisi
 fn bar(prefix: &str, name: &'static str, work: u64, trials: u64, is_shown: bool) -> ProgressBar {
     let points = work as f64 / trials as f64;
     let speed = move |state: &ProgressState, text: &mut dyn Write| {
-        // An estimate that cannot be written is not worth stopping for.
+        // Without the estimate the bar still shows the progress.
         let _ = write!(text, "{:.0}", state.per_sec() / points);
     };
     let style =

@@ -81,7 +81,7 @@ pub(super) fn default_directory(config: &Path) -> PathBuf {
     Path::new("results").join(config.file_stem().unwrap_or(config.as_os_str()))
 }
 
-/// Writes the results of a run, and lists the files. A shard has no more to write than its counts.
+/// Writes what a run came to, and says so. A shard has written all it has.
 pub(super) fn finish(
     study: &Loaded,
     session: Session,
@@ -93,7 +93,7 @@ pub(super) fn finish(
         None => format!("[{}]", study.name()),
     };
     if let Some(shard) = shard {
-        // Also where its share is no trials: `merge` needs the file, and compares the config in it.
+        // A share of no trials is one, too; and whoever joins it compares the words of the config.
         let is_new = !directory.has_counts();
         session.save().map_err(Failure::run)?;
         let counts = line(&directory, "counts.json", is_new);
@@ -114,7 +114,7 @@ pub(super) fn finish(
     Ok(format!("{findings}{what} in {seconds:.1} s\n{files}"))
 }
 
-/// Writes tables, then pictures, then the manifest with the hashes of both.
+/// Writes counts, then pictures, then the manifest that vouches for both.
 pub(super) fn write(study: &Loaded, session: Session) -> Result<(Output, Written), Failure> {
     let start = Instant::now();
     let output = study.output(session.counts()).map_err(Failure::study)?;

@@ -1,5 +1,5 @@
-//! A recording and what was found in it: the record, below it the same whitened; states shaded and named; where
-//! X, Y₁ and Y₂ of each decision lay, and when it was made.
+//! A recording and what was found in it: the record, below it the same whitened; states shaded and named; X, Y₁
+//! and Y₂ of each decision, and when it was made.
 
 use super::error::FigureError;
 use crate::detection::{Column, Detection};
@@ -68,8 +68,8 @@ fn states(detection: &Detection, from: f64, to: f64) -> Vec<((f64, f64), &'stati
     states
 }
 
-/// A scale for what was recorded while something was known of the cage: somebody who picks the sensor up
-/// would flatten everything else.
+/// A scale for the times at which the state was known: a sensor that is picked up would flatten everything
+/// else.
 fn y_axis(
     columns: &[Column],
     states: &[((f64, f64), &str)],

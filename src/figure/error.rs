@@ -1,4 +1,4 @@
-//! Why there is no picture.
+//! Why a picture could not be drawn.
 
 use crate::plot::LayoutError;
 

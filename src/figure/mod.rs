@@ -1,5 +1,4 @@
-//! Pictures: what each says ([`Plot`]), from rows and a few plain facts, and how a plot becomes PNG at
-//! 300 dpi and SVG.
+//! How a [`Plot`] becomes PNG at 300 dpi and SVG.
 //!
 //! `detection` is the picture of a recording; the picture of a study stands beside it.
 
@@ -23,7 +22,7 @@ pub struct Drawing {
     pub svg: Vec<u8>,
 }
 
-/// Draws a plot; `provenance` says what made it to whoever finds it alone.
+/// Draws a plot; `provenance`, written into both files, says what made them.
 ///
 /// # Errors
 /// Where it does not fit on a sheet, or drawing fails.

@@ -112,7 +112,7 @@ impl Axis {
         Self { label, ..self }
     }
 
-    /// The same without any words.
+    /// The same without words.
     pub fn unlabelled(&self) -> Self {
         let ticks = self.ticks.iter().map(|(at, _)| (*at, String::new()));
         Self::new(self.from, self.to, ticks.collect())

@@ -44,7 +44,7 @@ pub(super) enum Align {
 }
 
 impl Canvas {
-    /// White paper.
+    /// A white sheet.
     pub(super) fn new(size: (f64, f64)) -> Self {
         let shapes = Vec::new();
         let mut canvas = Self { size, shapes };
@@ -57,7 +57,7 @@ impl Canvas {
             .push(Shape::Line(points.to_vec(), width, colour));
     }
 
-    /// A line, its dash drawn and left out in turn.
+    /// A line with its dashes.
     pub(super) fn dashed(&mut self, points: &[(f64, f64)], style: &Style) {
         if style.dash.is_empty() || points.is_empty() {
             return self.line(points, style.width, style.colour);
@@ -92,16 +92,11 @@ impl Canvas {
             Marker::Wedge => &[(0.0, 1.2), (1.1, -0.8), (-1.1, -0.8)],
             Marker::Diamond => &[(0.0, -1.3), (1.1, 0.0), (0.0, 1.3), (-1.1, 0.0)],
             Marker::Cross => {
-                self.line(
-                    &[(-1.0, -1.0), (1.0, 1.0)].map(|end| place(&end)),
-                    0.4 * r,
-                    colour,
-                );
-                return self.line(
-                    &[(-1.0, 1.0), (1.0, -1.0)].map(|end| place(&end)),
-                    0.4 * r,
-                    colour,
-                );
+                for down in [1.0, -1.0] {
+                    let ends = [(-1.0, -down), (1.0, down)].map(|end| place(&end));
+                    self.line(&ends, 0.4 * r, colour);
+                }
+                return;
             }
         };
         self.area(corners.iter().map(place).collect(), colour);

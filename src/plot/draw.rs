@@ -28,14 +28,14 @@ impl Mark {
                 canvas.area(upper.chain(lower).collect(), style.colour);
             }
             Self::Bars(points, style) => {
-                points
-                    .iter()
-                    .for_each(|point| draw_bar(canvas, frame, point, style));
+                for point in points {
+                    draw_bar(canvas, frame, point, style);
+                }
             }
             Self::Markers(points, style) => {
-                points
-                    .iter()
-                    .for_each(|point| draw_marker(canvas, frame, point, style));
+                for point in points {
+                    draw_marker(canvas, frame, point, style);
+                }
             }
             Self::Points(points, style) => {
                 for point in points {

@@ -65,7 +65,7 @@ pub enum Limit {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
     pub ends: (f64, f64),
-    /// It goes on before the panel.
+    /// It begins before the panel.
     pub is_cut: bool,
     /// Without one there is no box.
     pub colour: Option<Colour>,

@@ -25,7 +25,7 @@ pub fn font() -> FontRef<'static> {
     FontRef::try_from_slice(dejavu::sans::regular()).expect("the embedded font is a font")
 }
 
-/// A user's own words: an underscore in them lowers nothing.
+/// Text in which an underscore is an underscore.
 pub fn literal(text: &str) -> String {
     text.replace('_', &UNDERSCORE.to_string())
 }

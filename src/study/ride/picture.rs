@@ -190,8 +190,8 @@ impl<'a> Places<'a> {
     }
 }
 
-/// A rate and its interval; on a logarithmic scale, where nothing was counted, an arrow, which tells more than a
-/// band to the end of the paper.
+/// A rate and its interval. On a logarithmic scale an arrow stands where nothing was counted: a band would
+/// reach to the edge.
 fn point(row: &Row, x: f64, kind: Kind) -> Point {
     let point = Point::new(x, [row.low, row.estimate, row.high]);
     let Kind::Positive(limit) = kind else {
@@ -274,7 +274,10 @@ fn caption(rows: &[Row], rides: &Rides) -> Vec<String> {
     let percent = 100.0 * rows[0].confidence;
     parts.push(match measure {
         Measure::Rides | Measure::Jam => {
-            format!("bands: exact {percent} % intervals above, 5 % to 95 % of the delays below, where so many were told")
+            format!(
+                "bands: exact {percent} % intervals above, 5 % to 95 % of the delays below, where \
+                 so many were told"
+            )
         }
         Measure::Rest | Measure::Tradeoff => {
             format!("bands: exact {percent} % intervals; arrows: limits where nothing happened")
@@ -284,7 +287,7 @@ fn caption(rows: &[Row], rides: &Rides) -> Vec<String> {
     parts
 }
 
-/// The parameters of a point in words, always as many; none for what goes without saying.
+/// The parameters of a point in words, always as many; `None` for what goes without saying.
 fn facts(measure: Measure, row: &Row) -> Vec<Option<String>> {
     let Row {
         trips,

@@ -88,7 +88,7 @@ impl Time {
         points.collect()
     }
 
-    /// The stretches in which `of` says the same, each with its ends.
+    /// The stretches in which `of` is constant, each with its ends.
     fn stretches<'r, T: Copy + PartialEq>(
         &self,
         rows: &'r [Row],
@@ -98,7 +98,7 @@ impl Time {
         let places: Vec<(f64, T)> = rows.iter().map(|row| (self.of(row), of(row))).collect();
         (places.chunk_by(|a, b| a.1 == b.1))
             .map(|stretch| (stretch[0], stretch[stretch.len() - 1]))
-            .map(|((first, said), (last, _))| ((first - half, last + half), said))
+            .map(|((first, value), (last, _))| ((first - half, last + half), value))
             .collect()
     }
 }
