@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all: written beside their place, synced, and moved into it.
 //!
-//! The name of a draft is new and a move replaces a symbolic link, not what it points to: a link that somebody has
-//! planted is never followed.
+//! The name of a draft is new and a move replaces a symbolic link, not what it points to: a planted link is never
+//! followed.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -11,7 +11,7 @@ use tempfile::{Builder, NamedTempFile};
 /// What the name of every draft begins with.
 const PREFIX: &str = ".liftsim-part";
 
-/// A file that is complete but not yet in its place. Dropped, it leaves nothing behind.
+/// A complete file that is not yet in its place. Dropped, it leaves nothing behind.
 #[derive(Debug)]
 pub struct Draft {
     part: NamedTempFile,
@@ -19,7 +19,7 @@ pub struct Draft {
 }
 
 impl Draft {
-    /// Writes what is to stand at `path`.
+    /// Writes the content of `path` to a draft.
     ///
     /// # Errors
     /// Where its folder or `content` refuses, or the disk is full.
@@ -40,7 +40,7 @@ impl Draft {
         Ok(Self { part, path })
     }
 
-    /// Puts it in the place of whatever is there.
+    /// Moves it to its path, over whatever is there.
     ///
     /// # Errors
     /// Where the file system refuses; what was there is then whole.
@@ -49,17 +49,17 @@ impl Draft {
         sync(folder(&self.path))
     }
 
-    /// Puts it where nothing is.
+    /// Moves it to its path, where nothing may be.
     ///
     /// # Errors
-    /// Where something is there, or the file system refuses.
+    /// Where a file exists there, or the file system refuses.
     pub fn create_new(self) -> io::Result<()> {
         self.part.persist_noclobber(&self.path)?;
         sync(folder(&self.path))
     }
 }
 
-/// Puts a file in the place of whatever is there.
+/// Writes a file over whatever is there.
 ///
 /// # Errors
 /// Where it cannot be written; what was there is then whole.
@@ -98,7 +98,7 @@ fn share(builder: &mut Builder) {
 #[cfg(not(unix))]
 fn share(_: &mut Builder) {}
 
-/// Makes a move last.
+/// Makes a move durable.
 #[cfg(unix)]
 fn sync(folder: &Path) -> io::Result<()> {
     File::open(folder)?.sync_all()

@@ -1,4 +1,4 @@
-//! Numbers as a typesetter writes them, and what a user wrote, at no more than some length.
+//! Numbers as a typesetter writes them, and long texts cut short.
 
 use std::borrow::Cow;
 
@@ -20,7 +20,7 @@ pub fn eight_digits(value: f64) -> f64 {
     format!("{value:.7e}").parse().unwrap_or(value)
 }
 
-/// A hyphen is no minus.
+/// With a minus sign instead of the hyphen.
 pub fn minus(number: &str) -> String {
     number.replace('-', "−")
 }
@@ -52,7 +52,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_long_is_shorten() {
+    fn long_text_is_shortened() {
         let (fits, long) = ("ä".repeat(200), "ä".repeat(1_000_000) + "end");
         assert_eq!(shorten(&fits), fits);
         let short = shorten(&long);

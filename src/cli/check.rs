@@ -75,7 +75,9 @@ fn report(
     let count = |verdict| findings.iter().filter(|f| f.verdict == verdict).count();
     let power = findings.iter().map(|f| f.power).fold(1.0, f64::min);
     let advice = match gate::trials_for_power(findings) {
-        Some(trials) if power < gate::POWER => format!("a run of {trials} trials could tell\n"),
+        Some(trials) if power < gate::POWER => {
+            format!("{trials} trials per point would be enough\n")
+        }
         _ => String::new(),
     };
     format!(
@@ -134,11 +136,11 @@ fn p_value(p: f64) -> String {
 /// The curve's label, and what the axis changes unless another column says it, or it is a motion.
 fn scenario(config: &SweepConfig, row: &Row) -> String {
     let parameter = config.parameter();
-    let is_told = ["motion.", "impulses.", "detector.alpha"]
+    let is_shown = ["motion.", "impulses.", "detector.alpha"]
         .iter()
         .any(|start| parameter.paths[0].starts_with(start));
     match row.on_axis(parameter) {
-        Some(value) if !is_told => format!("{}, {} = {value}", row.label, parameter.name),
+        Some(value) if !is_shown => format!("{}, {} = {value}", row.label, parameter.name),
         _ => row.label.clone(),
     }
 }

@@ -1,7 +1,7 @@
 //! `liftsim completions SHELL`.
 
-use super::{Arguments, Outcome, print};
-use clap::{Args, CommandFactory};
+use super::{Outcome, print};
+use clap::{Args, Command};
 use clap_complete::Shell;
 use std::process::ExitCode;
 
@@ -15,15 +15,10 @@ pub struct Completions {
 }
 
 impl Completions {
-    /// Runs the command.
-    pub fn run(self) -> Outcome {
+    /// Runs the command; `program` is the whole command line.
+    pub fn run(self, mut program: Command) -> Outcome {
         let mut script = Vec::new();
-        clap_complete::generate(
-            self.shell,
-            &mut Arguments::command(),
-            "liftsim",
-            &mut script,
-        );
+        clap_complete::generate(self.shell, &mut program, "liftsim", &mut script);
         print(&String::from_utf8_lossy(&script))?;
         Ok(ExitCode::SUCCESS)
     }

@@ -9,7 +9,7 @@ use super::{Failure, Outcome, print, warn};
 use clap::Args;
 use indicatif::ProgressBar;
 use liftsim::detection::{DetectReport, Detection};
-use liftsim::figure::{self, Drawing, FigureError};
+use liftsim::figure::{self, FigureError};
 use liftsim::monitor::{Design, Knowledge, SavedState};
 use liftsim::signal::recording::{Reading, Recording, Sample};
 use std::path::PathBuf;
@@ -23,7 +23,7 @@ use std::process::ExitCode;
 /// there must be a few seconds of rest in it.
 ///
 /// Each decision keeps its level only if the whitened record at rest is exchangeable, and there are twenty a second.
-/// How many at rest were wrong in this recording is said with the result.
+/// The result says how many decisions at rest were wrong in this recording.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     liftsim simulate --out ride.csv && liftsim detect ride.csv --figure ride.png\n  \
@@ -53,7 +53,7 @@ pub struct Detect {
     reading: ReadingArguments,
 }
 
-/// Where results go, but for standard output.
+/// The files for the results.
 struct Outputs {
     state: Option<Output>,
     csv: Option<Output>,
@@ -68,7 +68,7 @@ impl Detect {
         let recording = self.open(&setup.config.reading)?;
         let passes = if setup.saved.is_some() { 1 } else { 3 };
         let bar = progress::passes(passes * recording.facts().samples, !quiet);
-        let (saved, design) = self.brief(setup, &recording, &bar)?;
+        let (saved, design) = self.learn(setup, &recording, &bar)?;
         let first = first_sample(&recording)?;
         let samples = recording.samples().map_err(Failure::input)?;
         let samples = progress::seen(samples, &bar);
@@ -88,7 +88,7 @@ impl Detect {
         Ok(ExitCode::SUCCESS)
     }
 
-    /// Before anything takes long.
+    /// Refuses what is in the way before anything takes long.
     fn outputs(&self) -> Result<Outputs, Failure> {
         let picture = |path: &PathBuf| Output::picture(path, self.force);
         let file = |path: &PathBuf| Output::new(path, self.force);
@@ -99,7 +99,7 @@ impl Detect {
         })
     }
 
-    /// Opens the recording and says what should be known of it.
+    /// Opens the recording, and prints the warnings about it.
     fn open(&self, reading: &Reading) -> Result<Recording, Failure> {
         let reading = self.reading.over(reading)?;
         let recording = Recording::open(&self.recording, &reading).map_err(Failure::input)?;
@@ -113,8 +113,8 @@ impl Detect {
         Ok(recording)
     }
 
-    /// What is known before the recording is watched, from a saved state or learnt, and how it is watched.
-    fn brief(
+    /// The saved state, or what is learnt from the recording, and the design of the monitor.
+    fn learn(
         &self,
         setup: Setup,
         recording: &Recording,
@@ -139,17 +139,6 @@ impl Detect {
         Ok((saved, design))
     }
 
-    fn drawing(&self, detection: &Detection) -> Result<Drawing, Failure> {
-        let (version, name) = (env!("CARGO_PKG_VERSION"), self.name());
-        let provenance = format!("liftsim {version}, recording {name}");
-        figure::detection::plot(detection, &name)
-            .and_then(|plot| figure::render(&plot, &provenance))
-            .map_err(|error| match error {
-                FigureError::Short => self.refused(error.into()),
-                error => Failure::run(error),
-            })
-    }
-
     /// All files or none.
     fn write(
         &self,
@@ -160,7 +149,13 @@ impl Detect {
     ) -> Result<(), Failure> {
         let mut written = Vec::new();
         if let Some(figure) = to.figure {
-            written.push(figure.draw(&self.drawing(detection)?)?);
+            let name = self.name();
+            let plot = figure::detection::plot(detection, &name);
+            let plot = plot.map_err(|error| match error {
+                FigureError::Short => self.refused(error.into()),
+                error => Failure::run(error),
+            })?;
+            written.push(figure.draw(&plot, &format!("recording {name}"))?);
         }
         if let Some(state) = to.state {
             written.push(state.write(saved.to_json().as_bytes())?);
@@ -178,7 +173,7 @@ impl Detect {
         name.to_string_lossy().into_owned()
     }
 
-    /// The recording is not what it should be.
+    /// The recording cannot be used.
     fn refused(&self, error: anyhow::Error) -> Failure {
         Failure::Input(error.context(self.recording.display().to_string()))
     }

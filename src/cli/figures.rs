@@ -17,13 +17,13 @@ use std::time::Instant;
 
 /// Run every config and write the reproduction report.
 ///
-/// Each config in configs/ gets its directory in results/. What is complete there for the same config,
-/// seed and trials is skipped; what differs from it in words alone is drawn again from the
-/// stored counts. Then results/README.md says what became of each claim, after the text of
+/// Each config in configs/ gets its directory in results/. Results that are complete for the same config,
+/// seed and trials are skipped; where only words of the config have changed, the figure is drawn again
+/// from the stored counts. Then results/README.md gives the verdict on each claim, after the text of
 /// configs/preface.md, if there is one.
 #[derive(Debug, Args)]
 pub struct Figures {
-    /// Only this config, by the name of its file; may be given again.
+    /// Only the config of this name, without .toml; may be repeated.
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
     /// Where the configs are.
@@ -35,7 +35,7 @@ pub struct Figures {
     /// Trials per point, instead of each config's.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_TRIALS))]
     trials: Option<u64>,
-    /// Simulate again what is complete, too, and replace whatever stands in its place.
+    /// Simulate complete results again, too, and replace what is there.
     #[arg(long)]
     fresh: bool,
     #[command(flatten)]
@@ -122,7 +122,7 @@ impl Figures {
         })
     }
 
-    /// What there is to do; nothing where the results are complete.
+    /// The run that is left to do; none where the results are complete.
     fn session<'a>(&self, entry: &'a Entry) -> Result<Option<Session<'a>>, Failure> {
         if !self.fresh && entry.is_complete() {
             return Ok(None);
@@ -138,7 +138,7 @@ impl Figures {
         session.map(Some).map_err(Failure::input)
     }
 
-    /// A quick look, or a config cut short, must not cost a long run.
+    /// Refuses to replace a longer run by a shorter one.
     fn check_trials(&self, entry: &Entry) -> Result<(), Failure> {
         let asked = entry.study.origin().trials;
         match entry.directory.manifest() {
@@ -186,7 +186,7 @@ impl Figures {
         print(&store::line(&directory, "README.md", is_new))
     }
 
-    /// From the results to the configs, as a link has it.
+    /// The relative path from the results to the configs.
     fn way_to_configs(&self) -> std::io::Result<String> {
         let (from, to) = (
             fs::canonicalize(&self.results)?,
@@ -199,14 +199,15 @@ impl Figures {
         let down = to.components().skip(shared);
         let down = down.map(|part| part.as_os_str().to_string_lossy().into_owned());
         let way: Vec<String> = up.chain(down).collect();
-        Ok(match way.is_empty() {
-            true => ".".to_owned(),
-            false => way.join("/"),
+        Ok(if way.is_empty() {
+            ".".to_owned()
+        } else {
+            way.join("/")
         })
     }
 }
 
-/// A few names, and how many more there are.
+/// The first names, and the number of the others.
 fn in_short(names: &[&str]) -> String {
     match names.len() {
         0..=4 => names.join(", "),
@@ -221,7 +222,7 @@ impl Entry {
     }
 }
 
-/// Simulates what is missing, and writes.
+/// Simulates what is missing, and writes the results.
 fn work_off(
     study: &Loaded,
     mut session: Session,

@@ -1,11 +1,11 @@
-//! What was found in a recording, as text.
+//! The result of `detect` as text.
 
 use super::table;
 use liftsim::detection::{AtRest, DetectReport, Detection, Trip};
 use liftsim::monitor::{Kind, Reference};
 use serde_json::Value;
 
-/// Below this p-value a filter is said to leave colour.
+/// Below this p-value the filter counts as leaving colour.
 const COLOURED: f64 = 0.01;
 
 /// The columns shown of every trip.
@@ -23,7 +23,7 @@ const TRIP: [&str; 8] = [
 /// The columns shown of its start and of its stop, without that prefix.
 const DECISION: [&str; 5] = ["reported", "rank_sum", "exceedances", "lower", "upper"];
 
-/// The report as text.
+/// The whole text.
 pub fn text(report: &DetectReport, detection: &Detection) -> String {
     [
         recording(report),

@@ -1,30 +1,25 @@
 //! `liftsim man`.
 
-use super::{Arguments, Failure, Outcome, print};
-use clap::{Args, CommandFactory};
+use super::{Failure, Outcome, print};
+use clap::{Args, Command};
 use clap_mangen::Man as Page;
 use std::process::ExitCode;
 
-/// Print the manual, every command in it, in roff.
+/// Print the manual of all commands in roff.
 ///
 /// Read it with: liftsim man | man -l -
 #[derive(Debug, Args)]
 pub struct Man;
 
 impl Man {
-    /// Runs the command.
-    pub fn run(self) -> Outcome {
-        let mut command = Arguments::command();
-        command.build();
+    /// Runs the command; `program` is the whole command line.
+    pub fn run(self, mut program: Command) -> Outcome {
+        program.build();
         let mut roff = Vec::new();
-        Page::new(command.clone())
-            .render(&mut roff)
-            .map_err(Failure::run)?;
-        for verb in command
-            .get_subcommands()
-            .filter(|verb| verb.get_name() != "help")
-        {
-            Page::new(verb.clone())
+        let commands = program.get_subcommands();
+        let commands = commands.filter(|command| command.get_name() != "help");
+        for command in std::iter::once(&program).chain(commands) {
+            Page::new(command.clone())
                 .render(&mut roff)
                 .map_err(Failure::run)?;
         }

@@ -1,6 +1,7 @@
-//! The commands, one file a verb. What needs a terminal, an argument list or an exit code is here
-//! and nowhere else.
+//! The commands, one file each; `arguments` parses and calls them. What needs a terminal, an argument list
+//! or an exit code is here and nowhere else.
 
+mod arguments;
 mod check;
 mod completions;
 mod detect;
@@ -24,73 +25,36 @@ mod store;
 mod sweep;
 mod threshold;
 
+pub use arguments::{Arguments, brief};
+
 use anyhow::Context;
-use clap::error::{ContextKind, ContextValue};
-use clap::{Args, Parser, Subcommand};
+use clap::Args;
 use liftsim::experiment::{ConfigError, Experiment, MOST_PILOT_TRIALS, SWEEP, SweepConfig};
-use liftsim::format::shorten;
 use liftsim::plan::Plan;
 use liftsim::run::StudyError;
 use liftsim::stats::tally::MOST_TRIALS;
 use liftsim::study::{self, Loaded};
 use std::fmt::Display;
-use std::io::{self, Write};
+use std::io::{self, StdoutLock, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Does the lift move, and how sure can we be, from an accelerometer alone?
-///
-/// liftsim simulates the adaptive-whitening, three-sample detector of M. A. Raifeld, whose
-/// false-alarm rate is known exactly, and measures how often it detects a motion.
-#[derive(Debug, Parser)]
-#[command(version, propagate_version = true, arg_required_else_help = true)]
-#[command(after_help = "Start with: liftsim sweep configs/fig6.toml\n\n\
-    Exit codes: 0 done; 1 a run failed, or a gate did not hold; 2 bad usage, config or input; \
-    3 a gate was inconclusive; 130 stopped by Ctrl-C, 143 by SIGTERM.")]
-pub struct Arguments {
-    /// Show no progress.
-    #[arg(long, short, global = true)]
-    quiet: bool,
-    #[command(subcommand)]
-    command: Command,
-}
-
-#[derive(Debug, Subcommand)]
-enum Command {
-    Sweep(sweep::Sweep),
-    Merge(merge::Merge),
-    Status(status::StatusCommand),
-    Plot(plot::Plot),
-    Check(check::Check),
-    Figures(figures::Figures),
-    Threshold(threshold::Threshold),
-    Plan(plan::PlanCommand),
-    Replay(replay::ReplayCommand),
-    #[command(alias = "record")]
-    Simulate(simulate::Simulate),
-    Detect(Box<detect::Detect>),
-    Monitor(Box<monitor::MonitorCommand>),
-    Keys(keys::Keys),
-    Completions(completions::Completions),
-    Man(man::Man),
-}
-
-/// An error, and whose it is.
+/// Why a command ended early, by exit code.
 pub enum Failure {
-    /// What the user gave cannot be used: exit 2.
+    /// Usage, config or input cannot be used: exit 2.
     Input(anyhow::Error),
     /// The run itself failed: exit 1.
     Run(anyhow::Error),
-    /// A signal stopped it: that of the shell for the signal.
+    /// A signal stopped it: exit 128 and the number of the signal, as a shell has it.
     Stopped {
         /// The exit code.
         code: u8,
-        /// How to go on.
+        /// The command that continues it.
         message: String,
     },
 }
 
-/// What a verb comes to.
+/// How a command ends.
 type Outcome = Result<ExitCode, Failure>;
 
 impl Failure {
@@ -107,61 +71,7 @@ impl Failure {
     }
 }
 
-impl Arguments {
-    /// Reads the command line; where that fails the process ends with the reason.
-    pub fn read() -> Self {
-        Self::try_parse().unwrap_or_else(|error| without_long_arguments(error).exit())
-    }
-
-    /// Runs the command.
-    pub fn run(self) -> Outcome {
-        match self.command {
-            Command::Sweep(verb) => verb.run(self.quiet),
-            Command::Merge(verb) => verb.run(),
-            Command::Status(verb) => verb.run(),
-            Command::Plot(verb) => verb.run(),
-            Command::Check(verb) => verb.run(self.quiet),
-            Command::Figures(verb) => verb.run(self.quiet),
-            Command::Threshold(verb) => verb.run(),
-            Command::Plan(verb) => verb.run(),
-            Command::Replay(verb) => verb.run(),
-            Command::Keys(verb) => verb.run(),
-            Command::Simulate(verb) => verb.run(),
-            Command::Detect(verb) => verb.run(self.quiet),
-            Command::Monitor(verb) => verb.run(),
-            Command::Completions(verb) => verb.run(),
-            Command::Man(verb) => verb.run(),
-        }
-    }
-}
-
-/// The same refusal, in which no argument is repeated at more than some length.
-fn without_long_arguments(mut error: clap::Error) -> clap::Error {
-    let contexts = error.context().filter_map(|(kind, value)| match value {
-        ContextValue::String(text) if shorten(text) != *text => Some((kind, shorten(text).into())),
-        _ => None,
-    });
-    for (kind, text) in contexts.collect::<Vec<_>>() {
-        error.insert(kind, ContextValue::String(text));
-        // Tips repeat it too.
-        error.remove(ContextKind::Suggested);
-    }
-    error
-}
-
-/// A message in which no argument is repeated at more than some length.
-pub fn brief(message: String) -> String {
-    let arguments = std::env::args_os().skip(1);
-    arguments.fold(message, |message, argument| {
-        let argument = argument.to_string_lossy();
-        let value = argument
-            .split_once('=')
-            .map_or(&*argument, |(_, value)| value);
-        message.replace(value, &shorten(value))
-    })
-}
-
-/// What every command that simulates can be told beside its config.
+/// The config of a command that simulates, and the flags that go over it.
 #[derive(Debug, Args)]
 struct Simulation {
     /// The experiment, a TOML file.
@@ -172,7 +82,7 @@ struct Simulation {
     /// Trials of each pilot run, instead of the config's.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_PILOT_TRIALS))]
     pilot: Option<u64>,
-    /// Where every draw starts from, instead of the config's.
+    /// Seed of all random draws, instead of the config's.
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
     /// Threads to run on; all cores by default. Results do not depend on it.
@@ -181,7 +91,7 @@ struct Simulation {
 }
 
 impl Simulation {
-    /// Reads the config of a sweep, puts the command line in its place, and plans it.
+    /// Reads the config of a sweep, lays the command line over it, and plans it.
     fn prepare(
         &self,
         plan: impl Fn(&SweepConfig) -> Result<Plan, ConfigError>,
@@ -234,23 +144,26 @@ fn threads(text: &str) -> Result<usize, String> {
         .ok_or_else(|| format!("must lie in 1 to {MOST_THREADS} (leave it out to use all cores)"))
 }
 
-/// Writes to standard output; a reader that has seen enough is no error.
+/// Writes to standard output. A reader that has closed it is not an error.
 fn print(text: &str) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
+    print_to(&mut io::stdout().lock(), text).map(|_| ())
+}
+
+/// The same; whether the reader is still there.
+fn print_to(out: &mut StdoutLock, text: &str) -> Result<bool, Failure> {
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::run(
-            anyhow::Error::from(error).context("standard output"),
-        )),
-        _ => Ok(()),
+        Ok(()) => Ok(true),
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(false),
+        Err(error) => Err(error).context("standard output").map_err(Failure::Run),
     }
 }
 
-/// A line on standard error. Best effort: where nobody can read it, the work goes on.
+/// Writes a line to standard error. Where that fails the work goes on.
 pub fn say(line: impl Display) {
     let _ = writeln!(io::stderr().lock(), "{line}");
 }
 
-/// What should be known, and stops nothing.
+/// Writes a warning to standard error.
 fn warn(warning: impl Display) {
     say(format_args!("warning: {warning}"));
 }
@@ -278,9 +191,10 @@ fn table(header: &[&str], rows: &[Vec<String>]) -> String {
             .zip(&numeric)
             .map(|((cell, width), numeric)| {
                 let blank = " ".repeat(width - cell.chars().count());
-                match numeric {
-                    true => format!("{blank}{cell}"),
-                    false => format!("{cell}{blank}"),
+                if *numeric {
+                    format!("{blank}{cell}")
+                } else {
+                    format!("{cell}{blank}")
                 }
             });
         padded.collect::<Vec<_>>().join("  ").trim_end().to_owned() + "\n"

@@ -1,23 +1,24 @@
 //! `liftsim monitor`: watches a lift, sample by sample, from standard input.
 
 use super::monitor_options::{MonitorArguments, Setup, check_strength};
-use super::{Failure, Outcome, warn};
+use super::{Failure, Outcome, print_to, warn};
 use anyhow::{Context, anyhow};
 use clap::{Args, ValueEnum};
 use liftsim::monitor::{Event, Knowledge, Monitor, SavedState};
 use liftsim::signal::recording::{LineError, LineReader, LineReading, Sample};
-use std::io::{self, BufReader, Write};
+use std::io::{self, BufReader};
+use std::iter;
 use std::process::ExitCode;
 
-/// Watch a lift: samples come in on standard input, changes of state go out, as they happen.
+/// Watch a lift: read samples from standard input, print changes of its state as they happen.
 ///
 /// A line is `acceleration` or `time,acceleration`, in m/s^2, up positive, and s. A header and lines that begin
-/// with # are passed over. What goes out is one JSON object a line: the state at first, and every change of it,
-/// with when it happened (time), when that was known (reported) and the decision that made it known; and alarms.
+/// with # are skipped. The output is one JSON object a line: the first state, every change of it with the time of the
+/// change (time), the time at which it became known (reported) and the decision behind it; and alarms.
 ///
 /// States are unknown, rest, acceleration, inertial, braking. A cage that moves smoothly looks like one that
-/// stands, so a monitor says unknown until it knows better: until the direction of motion has turned, or
-/// until rest is seen, if you say that the cage stands (--begins rest). In the state unknown there are no alarms.
+/// stands, so the state is unknown until the direction of motion has turned or, if you say that the cage
+/// stands (--begins rest), until rest is seen. In the state unknown there are no alarms.
 ///
 /// The alarm `jam` says that a motion ended in a violent pulse, without the braking of a commanded stop;
 /// `slack`, with --expected-moving, that the cage stands while the drum pays out rope.
@@ -39,7 +40,7 @@ pub struct MonitorCommand {
     /// Each line ends with one more number: 1 while the drum turns, else 0.
     #[arg(long)]
     expected_moving: bool,
-    /// Pass over lines that cannot be read, with a warning, instead of ending.
+    /// Skip lines that cannot be read, with a warning, instead of stopping.
     #[arg(long)]
     keep_going: bool,
     #[command(flatten)]
@@ -57,7 +58,7 @@ enum Beginning {
 /// Readings from which a rate is measured.
 const MEASURED: usize = 100;
 
-/// s, in size: no clock is later, and a double still tells milliseconds apart.
+/// The largest time, s: no clock is later, and doubles still resolve milliseconds.
 const LATEST: f64 = 1e12;
 
 /// A sample, and whether the drum turns.
@@ -103,37 +104,21 @@ impl MonitorCommand {
         };
         let design = design.map_err(Failure::Input)?;
         let mut monitor = Monitor::new(design, knowledge);
-        let mut out = Reports::new();
-        let begun = out.say(&monitor.beginning(beginning.time));
-        let mut watch = |(sample, drum_turns): Reading| {
-            let mut events = monitor.step(sample, drum_turns).iter();
-            events.try_for_each(|event| out.say(event))
+        let mut out = io::stdout().lock();
+        let mut report = |event: &Event| {
+            let line = serde_json::to_string(event).expect("an event can be written") + "\n";
+            print_to(&mut out, &line)
         };
-        let watched = begun
-            .and_then(|()| first.into_iter().try_for_each(&mut watch))
-            .and_then(|()| {
-                while let Some(reading) = readings.next()? {
-                    watch(reading)?;
-                }
-                Ok(())
-            });
-        match watched {
-            Err(Stop::Failed(failure)) => Err(failure),
-            Err(Stop::Closed) | Ok(()) => Ok(ExitCode::SUCCESS),
+        let mut is_read = report(&monitor.beginning(beginning.time))?;
+        let rest = iter::from_fn(|| readings.next().transpose());
+        let mut all = first.into_iter().map(Ok).chain(rest);
+        while is_read && let Some(reading) = all.next() {
+            let (sample, drum_turns) = reading?;
+            for event in monitor.step(sample, drum_turns) {
+                is_read = is_read && report(event)?;
+            }
         }
-    }
-}
-
-/// Why watching ends before the input does.
-enum Stop {
-    /// Nobody reads what is said.
-    Closed,
-    Failed(Failure),
-}
-
-impl From<Failure> for Stop {
-    fn from(failure: Failure) -> Self {
-        Self::Failed(failure)
+        Ok(ExitCode::SUCCESS)
     }
 }
 
@@ -164,7 +149,7 @@ impl<R: io::BufRead> Readings<R> {
         }
         match (known.or(self.measured()), first.len()) {
             (_, 0) => Err(Failure::Input(anyhow!(
-                "standard input: holds no reading (does the sensor send anything?)"
+                "standard input: holds no reading (check that the sensor sends any)"
             ))),
             (None, readings) => Err(Failure::Input(anyhow!(
                 "standard input: {readings} reading, and the rate is measured from two or more (give --rate)"
@@ -182,7 +167,7 @@ impl<R: io::BufRead> Readings<R> {
             .map(|median| 1.0 / median)
     }
 
-    /// Takes the time of a sample; once there are enough of them, they must come at the rate that is known.
+    /// Takes the time of a sample. Once there are enough, they must agree with the known rate.
     fn take_time(&mut self, time: f64) -> Result<(), Failure> {
         if let Some(last) = self.last.replace(time)
             && self.intervals.len() < MEASURED
@@ -221,7 +206,7 @@ impl<R: io::BufRead> Readings<R> {
         }
     }
 
-    /// A reading at its time, which must be later than that of the one before; or why it is passed over.
+    /// A reading at its time, which must be later than that of the one before; or why it is skipped.
     #[inline]
     fn timed(&mut self, reading: &LineReading) -> Result<anyhow::Result<Sample>, Failure> {
         let acceleration = reading.acceleration;
@@ -241,40 +226,16 @@ impl<R: io::BufRead> Readings<R> {
         };
         match self.last {
             _ if time.abs() > LATEST => Ok(Err(anyhow!(
-                "line {line}: times must lie within {LATEST:e} s, got {time:e} (are they counted in s?)"
+                "line {line}: times must lie within {LATEST:e} s, got {time:e} (give them in s)"
             ))),
             Some(last) if time <= last => Ok(Err(anyhow!(
-                "line {line}: time must increase, got {time} s after {last} s (are lines out of order or \
-                 repeated, or is a comma the decimal mark?)"
+                "line {line}: time must increase, got {time} s after {last} s (put lines in order, drop repeated \
+                 ones, and write decimals with a point)"
             ))),
             _ => {
                 self.take_time(time)?;
                 Ok(Ok(Sample { time, acceleration }))
             }
-        }
-    }
-}
-
-/// Standard output, a line at a time.
-struct Reports(io::StdoutLock<'static>);
-
-impl Reports {
-    fn new() -> Self {
-        Self(io::stdout().lock())
-    }
-
-    fn say(&mut self, event: &Event) -> Result<(), Stop> {
-        let line = serde_json::to_string(event).expect("an event can be written") + "\n";
-        match self
-            .0
-            .write_all(line.as_bytes())
-            .and_then(|()| self.0.flush())
-        {
-            Ok(()) => Ok(()),
-            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Err(Stop::Closed),
-            Err(error) => Err(Stop::Failed(Failure::run(
-                anyhow::Error::from(error).context("standard output"),
-            ))),
         }
     }
 }

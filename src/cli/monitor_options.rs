@@ -23,7 +23,7 @@ pub struct MonitorArguments {
     flags: SettingFlags,
 }
 
-/// Settings that have a flag, by the last words of their keys.
+/// The settings that have a flag, named as the ends of their keys.
 #[derive(Debug, Args, Serialize)]
 struct SettingFlags {
     /// The level of each decision [default: 0.001].
@@ -35,7 +35,7 @@ struct SettingFlags {
     /// Seconds that a block mean spans [default: 0.05].
     #[arg(long, value_name = "SECONDS", conflicts_with = "state")]
     block: Option<f64>,
-    /// The slowest motion there is, m/s [default: 0.2].
+    /// The speed of the slowest motion, m/s [default: 0.2].
     #[arg(long, value_name = "V", conflicts_with = "state")]
     least_speed: Option<f64>,
 }
@@ -44,11 +44,11 @@ struct SettingFlags {
 pub struct Setup {
     /// From the config and the flags.
     pub config: MonitorOptions,
-    /// Its settings go before those of the config.
+    /// Its settings replace those of the config.
     pub saved: Option<SavedState>,
 }
 
-/// Refuses an acceleration that a monitor would take for a weaker one.
+/// Refuses an acceleration beyond what a monitor counts.
 pub fn check_strength(acceleration: f64) -> anyhow::Result<()> {
     if acceleration.abs() > STRONGEST {
         return Err(anyhow!(
@@ -69,7 +69,7 @@ fn order(text: &str) -> Result<Order, String> {
 }
 
 impl MonitorArguments {
-    /// Reads what it names.
+    /// Reads the config and the state, and lays the flags over them.
     pub fn setup(&self) -> Result<Setup, Failure> {
         let mut config = match &self.config {
             Some(path) => MonitorOptions::load(path).map_err(Failure::input)?,

@@ -1,11 +1,12 @@
-//! Files that a command writes: what is in the way is refused before anything takes long, and all of them appear or
-//! none does.
+//! Files that a command writes. What is in the way is refused before anything takes long, and either all of
+//! them appear or none does.
 
 use super::Failure;
 use anyhow::anyhow;
-use liftsim::figure::Drawing;
+use liftsim::figure::render;
 use liftsim::files::Draft;
 use liftsim::format::shorten;
+use liftsim::plot::Plot;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -25,7 +26,7 @@ pub struct Ready {
 }
 
 impl Output {
-    /// Refuses a file that exists, unless it may be replaced, and one in a folder that does not.
+    /// Refuses a file that exists, unless it may be replaced, and one in a folder that does not exist.
     pub fn new(path: &Path, replaces: bool) -> Result<Self, Failure> {
         let output = Self {
             path: path.to_owned(),
@@ -37,7 +38,7 @@ impl Output {
         }
     }
 
-    /// The same for a picture, whose name must say of which kind it is.
+    /// The same for a picture, whose name must end in .png or .svg.
     pub fn picture(path: &Path, replaces: bool) -> Result<Self, Failure> {
         if path.extension().is_some_and(|e| e == "png" || e == "svg") {
             return Self::new(path, replaces);
@@ -67,21 +68,23 @@ impl Output {
         // Of a link itself, for what it points to may be anything.
         let there = self.path.symlink_metadata().ok()?;
         if !self.replaces {
-            Some("is there already (give another name, or --force to replace it)".to_owned())
+            Some("already exists (give another name, or --force to replace it)".to_owned())
         } else if !there.is_file() {
-            Some("is not an ordinary file, so it is not replaced (give another name)".to_owned())
+            Some("is not an ordinary file and cannot be replaced (give another name)".to_owned())
         } else {
             None
         }
     }
 
-    /// Writes what is all there.
+    /// Writes these bytes.
     pub fn write(self, bytes: &[u8]) -> Result<Ready, Failure> {
         self.write_with(|out| out.write_all(bytes))
     }
 
-    /// Writes a picture in the kind that the name says.
-    pub fn draw(self, drawing: &Drawing) -> Result<Ready, Failure> {
+    /// Writes a picture in the kind that the name says; `origin` says what it was made from.
+    pub fn draw(self, plot: &Plot, origin: &str) -> Result<Ready, Failure> {
+        let provenance = format!("liftsim {}, {origin}", env!("CARGO_PKG_VERSION"));
+        let drawing = render(plot, &provenance).map_err(Failure::run)?;
         if self.path.extension().is_some_and(|e| e == "svg") {
             self.write(&drawing.svg)
         } else {
@@ -89,7 +92,7 @@ impl Output {
         }
     }
 
-    /// Writes what comes bit by bit.
+    /// Writes what `content` writes.
     pub fn write_with(
         self,
         content: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,

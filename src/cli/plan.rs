@@ -9,12 +9,12 @@ use serde_json::json;
 use std::process::ExitCode;
 use std::time::Duration;
 
-/// Say what a sweep would do: points, trials, expected time, half-width. Writes nothing.
+/// Print what a sweep would do: points, trials, half-width, memory, expected time. Writes nothing.
 #[derive(Debug, Args)]
 pub struct PlanCommand {
     #[command(flatten)]
     simulation: Simulation,
-    /// Say it in JSON; the time is in seconds.
+    /// Print JSON instead of text; the time is in seconds.
     #[arg(long)]
     json: bool,
 }
@@ -52,13 +52,13 @@ impl PlanCommand {
     }
 }
 
-/// Of the interval of a rate.
+/// Half the width of the interval of a rate.
 fn half_width(hits: u64, trials: u64, confidence: f64) -> f64 {
     let (low, high) = Tally { hits, trials }.interval(confidence);
     (high - low) / 2.0
 }
 
-/// On all threads.
+/// What trials take on all threads.
 fn megabytes(estimate: &Estimate) -> f64 {
     1e3 * rayon::current_num_threads() as f64 * estimate.gigabytes
 }

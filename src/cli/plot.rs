@@ -11,7 +11,7 @@ use std::process::ExitCode;
 /// Draw the figure of a result directory again, from its counts; simulate nothing.
 #[derive(Debug, Args)]
 pub struct Plot {
-    /// A directory that `sweep` has written.
+    /// A directory of `sweep`.
     directory: PathBuf,
 }
 

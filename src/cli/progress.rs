@@ -1,5 +1,5 @@
-//! Simulation, and what is to be seen of it on standard error: a bar on a terminal, lines of JSON for
-//! machines, or nothing.
+//! Simulation with its progress on standard error: a bar on a terminal, lines of JSON for machines, or
+//! nothing.
 
 use super::signals::Signals;
 use super::{Failure, say};
@@ -18,12 +18,12 @@ use std::time::{Duration, Instant};
 /// How progress is shown.
 #[derive(Debug, Args)]
 pub struct Progress {
-    /// Say how far it is in lines of JSON on standard error, for machines.
+    /// Report progress as lines of JSON on standard error.
     #[arg(long)]
     json: bool,
 }
 
-/// Tells somebody how a run gets on.
+/// Reports the progress of a run.
 pub struct Reporter {
     is_json: bool,
     is_bar: bool,
@@ -32,7 +32,7 @@ pub struct Reporter {
 }
 
 impl Reporter {
-    /// As the command line has it.
+    /// Shows a bar, lines of JSON, or nothing.
     pub fn new(quiet: bool, progress: &Progress, prefix: &str) -> Self {
         Self {
             is_json: progress.json && !quiet,
@@ -48,7 +48,7 @@ impl Reporter {
         }
     }
 
-    /// `work` trial-points are to be done, `trials` of each.
+    /// Begins a stage of `work` trial-points, `trials` of each point.
     fn stage(&self, name: &'static str, work: u64, trials: u64) -> Stage<'_> {
         let now = Instant::now();
         Stage {
@@ -106,7 +106,7 @@ impl Stage<'_> {
     }
 }
 
-/// Between two saves, in seconds; tests have less patience.
+/// Seconds between two saves; tests set a shorter time.
 const SAVE_EVERY: (&str, f64) = ("LIFTSIM_SAVE_EVERY", 5.0);
 
 /// Runs what is missing of a session, saving as it goes.
@@ -147,7 +147,7 @@ fn period() -> Duration {
     Duration::from_secs_f64(seconds.unwrap_or(default))
 }
 
-/// Shows how a run gets on, and hears of signals.
+/// Shows the progress of a run, and stops it on a signal.
 struct Follower<'a> {
     reporter: &'a Reporter,
     stage: RwLock<Option<Stage<'a>>>,
@@ -163,9 +163,9 @@ impl<'a> Follower<'a> {
         }
     }
 
-    fn with(&self, tell: impl FnOnce(&Stage)) {
+    fn with(&self, act: impl FnOnce(&Stage)) {
         if let Some(stage) = &*self.stage.read().expect(NO_PANIC) {
-            tell(stage);
+            act(stage);
         }
     }
 }
@@ -222,38 +222,40 @@ fn pilot(pilots: &Pilots, plan: &Plan, reporter: &Reporter) -> Result<Vec<Decisi
     decisions.map_err(Failure::input)
 }
 
-/// A bar for `work` trial-points, `trials` of each, to be told of finished work by `inc`.
+/// A bar over `work` trial-points, `trials` of each point.
 fn bar(prefix: &str, name: &'static str, work: u64, trials: u64, is_shown: bool) -> ProgressBar {
     let points = work as f64 / trials as f64;
     let speed = move |state: &ProgressState, text: &mut dyn Write| {
-        // An estimate that cannot be written is not worth stopping for.
+        // Without the estimate the bar still shows the progress.
         let _ = write!(text, "{:.0}", state.per_sec() / points);
     };
-    let style = ProgressStyle::with_template(
-        "{prefix}{msg} {bar:32} {percent:>3} %  {speed} trials/s of every point, {eta} left",
-    )
-    .expect("the template is fixed")
-    .with_key("speed", speed);
-    let target = match is_shown && work > 0 {
-        true => ProgressDrawTarget::stderr_with_hz(5),
-        false => ProgressDrawTarget::hidden(),
-    };
-    let bar = ProgressBar::with_draw_target(Some(work), target).with_style(style);
-    bar.with_prefix(prefix.to_owned()).with_message(name)
+    let style =
+        style("{prefix}{msg} {bar:32} {percent:>3} %  {speed} trials/s of every point, {eta} left");
+    ProgressBar::with_draw_target(Some(work), target(is_shown && work > 0))
+        .with_style(style.with_key("speed", speed))
+        .with_prefix(prefix.to_owned())
+        .with_message(name)
 }
 
-/// A bar for passes over a recording, so many samples in all; see [`seen`].
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template).expect("the template is fixed")
+}
+
+fn target(is_shown: bool) -> ProgressDrawTarget {
+    if is_shown {
+        ProgressDrawTarget::stderr_with_hz(5)
+    } else {
+        ProgressDrawTarget::hidden()
+    }
+}
+
+/// A bar for passes over a recording of so many samples in all; [`seen`] moves it.
 pub fn passes(samples: u64, is_shown: bool) -> ProgressBar {
-    let style = ProgressStyle::with_template("reading {bar:32} {percent:>3} %, {eta} left")
-        .expect("the template is fixed");
-    let target = match is_shown {
-        true => ProgressDrawTarget::stderr_with_hz(5),
-        false => ProgressDrawTarget::hidden(),
-    };
-    ProgressBar::with_draw_target(Some(samples), target).with_style(style)
+    let style = style("reading {bar:32} {percent:>3} %, {eta} left");
+    ProgressBar::with_draw_target(Some(samples), target(is_shown)).with_style(style)
 }
 
-/// The same items, told to a bar every so often.
+/// The same items, counted on a bar.
 pub fn seen<T>(items: impl Iterator<Item = T>, bar: &ProgressBar) -> impl Iterator<Item = T> {
     const EVERY: u64 = 1 << 16;
     let mut count = 0;

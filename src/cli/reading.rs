@@ -1,10 +1,10 @@
-//! How a recording is read, as the command line has it.
+//! The flags that say how a recording is read.
 
 use super::Failure;
 use clap::Args;
 use liftsim::signal::recording::{Axis, Reading, TimeUnit, Unit};
 
-/// How the recording is read. Whatever is left out is found in the file.
+/// How the recording is read. What is left out is found in the file.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "The recording")]
 pub struct ReadingArguments {
@@ -14,7 +14,7 @@ pub struct ReadingArguments {
     /// The name of the column with the vertical acceleration, up positive.
     #[arg(long, value_name = "COLUMN")]
     acceleration: Option<String>,
-    /// What time is counted in: s, ms, us or ns.
+    /// The unit of time: s, ms, us or ns.
     #[arg(long, value_name = "UNIT")]
     time_unit: Option<TimeUnit>,
     #[command(flatten)]
@@ -23,7 +23,7 @@ pub struct ReadingArguments {
     /// gravity, or the one with the ride) [default: auto].
     #[arg(long, value_name = "AXIS")]
     axis: Option<Axis>,
-    /// Bring the samples to a uniform rate first, Hz.
+    /// Resample to this uniform rate first, Hz.
     #[arg(long, value_name = "HZ")]
     resample: Option<f64>,
     /// The table to read in a zip archive.
@@ -31,16 +31,16 @@ pub struct ReadingArguments {
     member: Option<String>,
 }
 
-/// What the acceleration is counted in.
+/// The unit of acceleration.
 #[derive(Debug, Args)]
 pub struct UnitArguments {
-    /// What acceleration is counted in: m/s^2, g, mg, or counts of a converter, see --scale.
+    /// The unit of acceleration: m/s^2, g, mg, or counts of a converter, see --scale.
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
     /// One count of the converter, m/s^2.
     #[arg(long, value_name = "M/S2", allow_negative_numbers = true)]
     scale: Option<f64>,
-    /// The count of no acceleration.
+    /// The count at zero acceleration.
     #[arg(long, value_name = "COUNT", allow_negative_numbers = true)]
     offset: Option<f64>,
 }
@@ -53,7 +53,7 @@ impl UnitArguments {
 }
 
 impl ReadingArguments {
-    /// Lays what is given over what a config says.
+    /// Lays the flags over a config.
     pub fn over(&self, config: &Reading) -> Result<Reading, Failure> {
         let name =
             |given: &Option<String>, config: &Option<String>| given.clone().or(config.clone());

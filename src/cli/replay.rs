@@ -10,7 +10,7 @@ use liftsim::plan::Plan;
 use std::fmt::Write;
 use std::process::ExitCode;
 
-/// Lay open every stage of one trial, as CSV: what was drawn, written down, fitted, ranked and decided.
+/// Print every stage of one trial as CSV: what was drawn, recorded, fitted, ranked and decided.
 ///
 /// Columns are stage, sample, index and value. Stages: innovation (the draws behind the noise), noise, acceleration and
 /// impulse (one for each raw sample), record (as observed), coefficient (of the filter, from 1), whitened,

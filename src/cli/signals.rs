@@ -1,7 +1,6 @@
-//! Ctrl-C and its kin: the first asks a run to stop, the second ends it.
+//! Ctrl-C and SIGTERM: the first asks a run to stop, the second ends it.
 //!
-//! Outside of a run, while pilots run or pictures are drawn, the first ends it at once: all counts are
-//! safe then.
+//! While pilots run or pictures are drawn, the first ends it at once: all counts are saved by then.
 
 use super::Failure;
 use signal_hook::consts::{SIGINT, SIGTERM};
@@ -10,20 +9,20 @@ use std::io;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
-/// While it lives, signals are heard instead of obeyed.
+/// While it lives, a signal sets a flag instead of ending the process.
 pub struct Signals(&'static Flags);
 
 struct Flags {
     /// Whether the next signal ends the process.
     is_fatal: Arc<AtomicBool>,
-    /// The signal that came.
+    /// The number of the signal that came, or 0.
     came: Arc<AtomicUsize>,
 }
 
 static FLAGS: OnceLock<Flags> = OnceLock::new();
 
 impl Signals {
-    /// Begins to listen.
+    /// Takes over the signals.
     pub fn watch() -> io::Result<Self> {
         let flags = match FLAGS.get() {
             Some(flags) => flags,
@@ -44,11 +43,11 @@ impl Signals {
         }
     }
 
-    /// The end of a run whose counts are safe in `directory`.
+    /// The end of a run whose counts are saved in `directory`.
     pub fn stopped(&self, directory: &str) -> Failure {
         let signal = self.came().unwrap_or(SIGINT);
         Failure::Stopped {
-            // As a shell has it of a process that the signal ends.
+            // The exit code of a shell for a process that the signal ends.
             code: 128 + u8::try_from(signal).unwrap_or(0),
             message: format!(
                 "stopped: what is counted is saved in {directory}; to go on:\n  {}",
@@ -77,7 +76,7 @@ impl Flags {
     }
 }
 
-/// The command that goes on where this one stopped: the same, but not afresh.
+/// The command that continues this one: the same without --fresh.
 fn same_command() -> String {
     let words = std::env::args().filter(|word| word != "--fresh");
     words

@@ -18,7 +18,7 @@ use std::process::ExitCode;
 ///
 /// The record is CSV in the layout of phyphox: time, acceleration along x, y and z (up), its size. FILE.truth.csv
 /// has a line for each trip: start, stop, direction, distance, top speed, how it ended, and from when to when
-/// the cage moved uniformly. Equal settings write equal bytes on every machine.
+/// the cage moved uniformly. Equal settings give equal bytes on every machine.
 #[derive(Debug, Args)]
 #[command(after_help = "Trips:\n  \
     up:12        12 m up, and a commanded stop\n  \
@@ -30,26 +30,26 @@ use std::process::ExitCode;
     liftsim simulate --out jam.csv --trip up:6 --trip down:20:jam --speed 1.6\n  \
     liftsim simulate --out rest.csv --still --rest 600 --step 0.01")]
 pub struct Simulate {
-    /// Settings, a TOML file with keys named as the flags below; a flag goes over it.
+    /// Settings, a TOML file with keys named as the flags below; flags take precedence.
     config: Option<PathBuf>,
-    /// Where the record goes; the truth goes to FILE.truth.csv.
+    /// The file of the record; the truth is written to FILE.truth.csv.
     #[arg(long, value_name = "FILE.csv")]
     out: PathBuf,
     /// Replace files that exist.
     #[arg(long)]
     force: bool,
-    /// No trip at all: one rest.
+    /// No trips: a single rest.
     #[arg(long, conflicts_with = "trip")]
     still: bool,
     #[command(flatten)]
     settings: Settings,
 }
 
-/// What a config or the flags say of the ride and the sensor.
+/// The ride and the sensor, from a config or the flags.
 #[derive(Clone, Debug, Default, Args, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct Settings {
-    /// Where every draw starts from [default: 1].
+    /// Seed of all random draws [default: 1].
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
     /// Samples per second [default: 100].
@@ -107,9 +107,8 @@ enum When {
 impl Request {
     /// `up:12`, `down:7.5`, `up:30:jam`, `up:30:jam@9`.
     fn parse(text: &str) -> Result<Self, String> {
-        let refused = || {
-            "a trip reads up:METRES or down:METRES, then :jam or :jam@SECONDS if it jams".to_owned()
-        };
+        let refused =
+            || "must be up:METRES or down:METRES, then :jam or :jam@SECONDS if it jams".to_owned();
         let mut parts = text.splitn(3, ':');
         let sign = match parts.next() {
             Some("up") => 1.0,
@@ -208,7 +207,7 @@ impl Simulate {
             flags.trip = Some(Vec::new());
             if let Some(rests @ [_, _, ..]) = flags.rest.as_deref() {
                 return Err(Failure::Input(anyhow!(
-                    "--still is one rest, got {} (give --rest once)",
+                    "--still: needs one rest, got {} (give --rest once)",
                     rests.len()
                 )));
             }
@@ -267,7 +266,7 @@ impl Settings {
         Ok(Ride::new(self.rate(), rests, trips)?)
     }
 
-    /// That of the vertical axis.
+    /// The sensor of the vertical axis.
     fn pickup(&self) -> anyhow::Result<Pickup> {
         let sigma = self.sigma.unwrap_or(0.012);
         let pickup = Pickup {

@@ -13,14 +13,14 @@ use std::time::Instant;
 
 /// Run every point of an experiment; write points.csv, the figure and run.json.
 ///
-/// A config that says what to draw instead of what to sweep is computed and drawn in the same way,
-/// with single numbers in quantities.csv where it has any.
+/// A config with a table of another study instead of an axis and curves is run in the same way; its
+/// single numbers, if any, are written to quantities.csv.
 ///
 /// The same config and seed give the same bytes on any machine, with any number of threads.
 ///
-/// What is counted is saved in counts.json every few seconds. However a run ends, the same command goes
-/// on from there. What a directory holds is never simulated again: more trials, a further curve or
-/// claim take only what is missing.
+/// Counts are saved in counts.json every few seconds. However a run ends, the same command continues it.
+/// Nothing that a directory holds is simulated again: for more trials, another curve or another claim
+/// only what is missing is run.
 #[derive(Debug, Args)]
 pub struct Sweep {
     #[command(flatten)]
@@ -122,7 +122,7 @@ pub(super) fn write(study: &Loaded, mut session: Session) -> Result<(Output, Wri
         seconds = start.elapsed().as_secs_f64();
         study.judge(&output).map_err(Failure::study)?;
     }
-    // Until the last file vouches for the others, the counts are what a run goes on from.
+    // Until the manifest is written, a run continues from the counts.
     session.save().map_err(Failure::run)?;
     let directory = session.directory().clone();
     let mut manifest = made_by(&session, manifest(study.origin(), seconds));
@@ -150,7 +150,7 @@ pub(super) fn write(study: &Loaded, mut session: Session) -> Result<(Output, Wri
     Ok((output, written))
 }
 
-/// Counts that are only written anew are as old as they were.
+/// Counts that are only written again keep the origin they had.
 fn made_by(session: &Session, now: Manifest) -> Manifest {
     match session.made_by().cloned() {
         Some(made_by) => Manifest {

@@ -2,9 +2,9 @@
 
 use super::output::Output;
 use super::{Failure, Outcome, print, table};
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use liftsim::detect::{Alternative, NullLaws, Region, Rule, Samples};
-use liftsim::figure::render;
 use liftsim::study::plane;
 use liftsim::values::Size;
 use serde_json::json;
@@ -32,11 +32,11 @@ pub struct Threshold {
     #[arg(long, value_name = "A")]
     alpha: f64,
     /// How the region is filled.
-    #[arg(long, value_name = "R", value_enum, default_value_t = RuleName::Product)]
-    rule: RuleName,
-    /// The sign of the acceleration it is made for.
-    #[arg(long, value_name = "SIGN", value_enum, default_value_t = Sign::Greater)]
-    alternative: Sign,
+    #[arg(long, value_name = "R", value_parser = one_of(&RULES), default_value = "product")]
+    rule: Rule,
+    /// The sign of the acceleration that it looks for.
+    #[arg(long, value_name = "SIGN", value_parser = one_of(&ALTERNATIVES), default_value = "greater")]
+    alternative: Alternative,
     /// Print JSON instead of a table.
     #[arg(long)]
     json: bool,
@@ -48,26 +48,33 @@ pub struct Threshold {
     force: bool,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum RuleName {
-    /// W alone.
-    Wilcoxon,
-    /// The product of both p-values.
-    Product,
-    /// Either statistic.
-    Disjunction,
-    /// Both statistics.
-    Conjunction,
-}
+/// A name on the command line, its meaning, and its line in the help.
+type Choice<T> = (&'static str, T, &'static str);
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Sign {
-    /// Upwards.
-    Greater,
-    /// Downwards.
-    Less,
-    /// Either way.
-    TwoSided,
+static RULES: [Choice<Rule>; 4] = [
+    ("wilcoxon", Rule::Wilcoxon, "W alone"),
+    ("product", Rule::Product, "The product of both p-values"),
+    ("disjunction", Rule::Disjunction, "Either statistic"),
+    ("conjunction", Rule::Conjunction, "Both statistics"),
+];
+
+static ALTERNATIVES: [Choice<Alternative>; 3] = [
+    ("greater", Alternative::Greater, "Upwards"),
+    ("less", Alternative::Less, "Downwards"),
+    ("two-sided", Alternative::TwoSided, "Either way"),
+];
+
+/// Reads one of the names.
+fn one_of<T: Clone + Send + Sync>(
+    choices: &'static [Choice<T>],
+) -> impl TypedValueParser<Value = T> {
+    let names = choices
+        .iter()
+        .map(|(name, _, help)| PossibleValue::new(*name).help(*help));
+    PossibleValuesParser::new(names).map(|name| {
+        let chosen = choices.iter().find(|(known, ..)| *known == name);
+        chosen.expect("no other name is possible").1.clone()
+    })
 }
 
 fn size(text: &str) -> Result<usize, Box<dyn Error + Send + Sync>> {
@@ -82,46 +89,27 @@ impl Threshold {
         let figure = figure.transpose()?;
         let samples =
             Samples::contiguous(self.reference, self.shift, self.scale).map_err(Failure::input)?;
-        let rule = match self.rule {
-            RuleName::Wilcoxon => Rule::Wilcoxon,
-            RuleName::Product => Rule::Product,
-            RuleName::Disjunction => Rule::Disjunction,
-            RuleName::Conjunction => Rule::Conjunction,
-        };
-        let alternative = match self.alternative {
-            Sign::Greater => Alternative::Greater,
-            Sign::Less => Alternative::Less,
-            Sign::TwoSided => Alternative::TwoSided,
-        };
+        let (rule, alternative) = (&self.rule, self.alternative);
         let laws = NullLaws::new(alternative, &samples).map_err(Failure::input)?;
-        let region = laws.region(&rule, self.alpha).map_err(Failure::input)?;
+        let region = laws.region(rule, self.alpha).map_err(Failure::input)?;
         let text = if self.json {
-            self.as_json(&laws, &region, &rule, alternative)
+            self.as_json(&laws, &region)
         } else {
-            self.as_table(&laws, &region, &rule, alternative)
+            self.as_table(&laws, &region)
         };
         if let Some(figure) = figure {
             let title = plane::title(&samples, alternative, self.alpha);
-            let plot = plane::plot(&laws, &plane::boundary(&rule, &region), &title);
-            let version = env!("CARGO_PKG_VERSION");
-            let provenance = format!("liftsim {version}, rule {rule}, {}", title.join("; "));
-            figure
-                .draw(&render(&plot, &provenance).map_err(Failure::run)?)?
-                .publish()?;
+            let plot = plane::plot(&laws, &plane::boundary(rule, &region), &title);
+            let origin = format!("rule {rule}, {}", title.join("; "));
+            figure.draw(&plot, &origin)?.publish()?;
         }
         print(&text)?;
         Ok(ExitCode::SUCCESS)
     }
 
-    fn as_table(
-        &self,
-        laws: &NullLaws,
-        region: &Region,
-        rule: &Rule,
-        alternative: Alternative,
-    ) -> String {
+    fn as_table(&self, laws: &NullLaws, region: &Region) -> String {
         let bound = |bound: Option<u64>| bound.map_or("never".to_owned(), |w| w.to_string());
-        let critical = |(lower, upper): (Option<u64>, Option<u64>)| match alternative {
+        let critical = |(lower, upper): (Option<u64>, Option<u64>)| match self.alternative {
             Alternative::Greater => bound(upper),
             Alternative::Less => bound(lower),
             Alternative::TwoSided => match (lower, upper) {
@@ -145,13 +133,15 @@ impl Threshold {
             ]
         })
         .collect();
-        let name = match alternative {
+        let name = match self.alternative {
             Alternative::Greater => "W >=",
             Alternative::Less => "W <=",
             Alternative::TwoSided => "W <= or >=",
         };
         format!(
-            "rule {rule}, alternative {alternative}, N/M1/M2 = {}/{}/{}, alpha = {}\n\n{}\nexact size {}\n",
+            "rule {}, alternative {}, N/M1/M2 = {}/{}/{}, alpha = {}\n\n{}\nexact size {}\n",
+            self.rule,
+            self.alternative,
             self.reference,
             self.shift,
             self.scale,
@@ -161,13 +151,7 @@ impl Threshold {
         )
     }
 
-    fn as_json(
-        &self,
-        laws: &NullLaws,
-        region: &Region,
-        rule: &Rule,
-        alternative: Alternative,
-    ) -> String {
+    fn as_json(&self, laws: &NullLaws, region: &Region) -> String {
         let conditional = laws.conditional_sizes(region);
         let critical: Vec<_> = (0..)
             .zip(region.critical_values())
@@ -186,8 +170,8 @@ impl Threshold {
             "shift": self.shift,
             "scale": self.scale,
             "alpha": self.alpha,
-            "rule": rule.to_string(),
-            "alternative": alternative.to_string(),
+            "rule": self.rule.to_string(),
+            "alternative": self.alternative.to_string(),
             "size": region.size(),
             "critical": critical,
         });

@@ -1,11 +1,13 @@
-//! A recording and what was found in it: the record, below it the same whitened; states shaded and named; where
-//! X, Y₁ and Y₂ of each decision lay, and when it was made.
+//! A recording and what was found in it: the record, below it the same whitened; states shaded and named; X, Y₁
+//! and Y₂ of each decision, and when it was made.
 
-use super::FigureError;
-use super::phases::{add_phases, phase_colour, phase_words};
+use super::error::FigureError;
 use crate::detection::{Column, Detection};
 use crate::monitor::{Decision, Kind, State};
-use crate::plot::{Axis, Colour, Entry, Key, Legend, Mark, Place, Plot, Style, ends, literal};
+use crate::plot::{
+    Axis, Colour, Entry, Key, Mark, Place, Plot, Style, add_phases, ends, literal, phase_colour,
+    phase_words,
+};
 
 const PANEL: f64 = 140.0;
 /// Room for the bars of the samples, as a share of the lower panel.
@@ -42,8 +44,7 @@ pub fn plot(detection: &Detection, name: &str) -> Result<Plot, FigureError> {
         }
     }
     plot.add_to_all(&Mark::Axes);
-    plot.add(0, Mark::Legend);
-    plot.legend = Some(Legend::new(entries(), Place::Across));
+    plot.add_legend(entries(), Place::Across);
     plot.set_caption(&caption(detection, name));
     Ok(plot)
 }
@@ -67,8 +68,8 @@ fn states(detection: &Detection, from: f64, to: f64) -> Vec<((f64, f64), &'stati
     states
 }
 
-/// A scale for what was recorded while something was known of the cage: somebody who picks the sensor up
-/// would flatten everything else.
+/// A scale for the times at which the state was known: a sensor that is picked up would flatten everything
+/// else.
 fn y_axis(
     columns: &[Column],
     states: &[((f64, f64), &str)],
@@ -80,9 +81,10 @@ fn y_axis(
         known.any(|((from, to), _)| *from <= column.times.0 && column.times.1 <= *to)
     };
     let known: Vec<_> = columns.iter().filter(is_known).map(value).collect();
-    let shown = match known.is_empty() {
-        true => columns.iter().map(value).collect(),
-        false => known,
+    let shown = if known.is_empty() {
+        columns.iter().map(value).collect()
+    } else {
+        known
     };
     let (low, high) = ends(shown.into_iter().flat_map(|(low, high)| [low, high]));
     let room = (high - low).max(1e-9);

@@ -1,17 +1,17 @@
-//! Pictures: what each says ([`Plot`]), from rows and a few plain facts, and how a plot becomes PNG at
-//! 300 dpi and SVG.
+//! How a [`Plot`] becomes PNG at 300 dpi and SVG.
 //!
 //! `detection` is the picture of a recording; the picture of a study stands beside it.
 
 #![allow(missing_docs, reason = "fields are called what they are")]
 
 pub mod detection;
-pub mod phases;
+mod error;
 mod raster;
-pub mod rates;
 mod svg;
 
-use crate::plot::{LayoutError, Plot, layout};
+pub use error::FigureError;
+
+use crate::plot::{Plot, layout};
 
 /// A picture in both its forms.
 #[derive(Clone, Debug)]
@@ -22,29 +22,7 @@ pub struct Drawing {
     pub svg: Vec<u8>,
 }
 
-/// Why a picture could not be drawn.
-#[derive(Debug, thiserror::Error)]
-pub enum FigureError {
-    #[error(transparent)]
-    Layout(#[from] LayoutError),
-    /// In the words of the drawing library.
-    #[error("figure: {0}")]
-    Drawing(String),
-    #[error("figure: {0}")]
-    Png(#[from] png::EncodingError),
-    #[error(
-        "figure: no point of the results lies on the axis {0} (draw it from a sweep's results)"
-    )]
-    Empty(&'static str),
-    #[error("figure: too short to be drawn, without a single block (record a ride)")]
-    Short,
-    #[error("figure: the rows are not those of a [{0}] (compute it again with `liftsim sweep`)")]
-    NoRows(&'static str),
-    #[error("figure: {0}")]
-    Law(#[from] crate::detect::NullLawError),
-}
-
-/// Draws a plot; `provenance` says what made it to whoever finds it alone.
+/// Draws a plot; `provenance`, written into both files, says what made them.
 ///
 /// # Errors
 /// Where it does not fit on a sheet, or drawing fails.
@@ -61,9 +39,4 @@ impl Drawing {
     pub fn files(&self) -> [(&'static str, &[u8]); 2] {
         [("figure.png", &self.png), ("figure.svg", &self.svg)]
     }
-}
-
-/// A place on a canvas in whole units, so many per point.
-fn rounded((x, y): (f64, f64), unit: f64) -> (i32, i32) {
-    ((x * unit).round() as i32, (y * unit).round() as i32)
 }

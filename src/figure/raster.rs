@@ -1,8 +1,8 @@
 //! PNG at 300 dpi. It is drawn three times too large and averaged down, because the drawing library's own
 //! lines are jagged.
 
-use super::FigureError;
-use crate::plot::{Canvas, Colour, Shape};
+use super::error::FigureError;
+use crate::plot::{Canvas, Colour, Shape, rounded};
 use plotters::backend::DrawingBackend;
 use plotters::prelude::{
     BitMapBackend, Color, FontStyle, FontTransform, IntoFont, RGBAColor, TextStyle,
@@ -48,7 +48,7 @@ pub(super) fn png(canvas: &Canvas, provenance: &str) -> Result<Vec<u8>, FigureEr
 
 fn draw(backend: &mut BitMapBackend, shape: &Shape) -> Result<(), FigureError> {
     let unit = f64::from(DPI * OVERSAMPLING) / 72.0;
-    let at = |point: &(f64, f64)| super::rounded(*point, unit);
+    let at = |point: &(f64, f64)| rounded(*point, unit);
     match shape {
         Shape::Line(points, width, colour) => {
             let width = (width * unit).round().max(1.0) as u32;

@@ -1,7 +1,7 @@
 //! SVG whose text is outlines, above everything else: no reader needs the font, and every reader sees the
 //! same.
 
-use crate::plot::{Canvas, Colour, Shape, font};
+use crate::plot::{Canvas, Colour, Shape, font, rounded};
 use ab_glyph::{Font, OutlineCurve, Point};
 use std::fmt::{self, Write};
 
@@ -45,7 +45,7 @@ fn write(out: &mut String, shape: &Shape) -> fmt::Result {
             writeln!(out, r#"<polygon {paint} points="{points}"/>"#)
         }
         Shape::Disc(centre, radius, colour) => {
-            let ((x, y), r) = (super::rounded(*centre, UNITS), (radius * UNITS).round());
+            let ((x, y), r) = (rounded(*centre, UNITS), (radius * UNITS).round());
             let paint = paint("fill", *colour);
             writeln!(
                 out,
@@ -53,13 +53,14 @@ fn write(out: &mut String, shape: &Shape) -> fmt::Result {
             )
         }
         Shape::Text(text) => {
-            let ((x, y), size) = (super::rounded(text.at, UNITS), text.height * UNITS);
-            let place = match text.is_upright {
-                true => format!(
+            let ((x, y), size) = (rounded(text.at, UNITS), text.height * UNITS);
+            let place = if text.is_upright {
+                format!(
                     "translate({:.0} {y}) rotate(-90)",
                     f64::from(x) + size / 2.0
-                ),
-                false => format!("translate({x} {:.0})", f64::from(y) + size / 2.0),
+                )
+            } else {
+                format!("translate({x} {:.0})", f64::from(y) + size / 2.0)
             };
             let path = outline(&text.text, size)?;
             writeln!(
@@ -77,7 +78,7 @@ fn paint(what: &str, colour: Colour) -> String {
 }
 
 fn list(points: &[(f64, f64)]) -> String {
-    let points = points.iter().map(|point| super::rounded(*point, UNITS));
+    let points = points.iter().map(|point| rounded(*point, UNITS));
     points.map(|(x, y)| format!("{x},{y} ")).collect()
 }
 

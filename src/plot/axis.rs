@@ -47,9 +47,10 @@ impl Axis {
     /// Decimal logarithms, `from` to `to`, with ticks at the powers of ten, and at 2 and 5 times them
     /// where there is room.
     pub fn logarithms(from: f64, to: f64) -> Self {
-        let factors: &[f64] = match to - from > 2.9 {
-            true => &[1.0],
-            false => &[1.0, 2.0, 5.0],
+        let factors: &[f64] = if to - from > 2.9 {
+            &[1.0]
+        } else {
+            &[1.0, 2.0, 5.0]
         };
         let ticks = ((from.floor() as i32)..=(to.ceil() as i32))
             .map(|power| libm::pow(10.0, f64::from(power)))
@@ -89,10 +90,13 @@ impl Axis {
     pub fn around(places: impl IntoIterator<Item = f64>, is_logarithmic: bool) -> Self {
         let (low, high) = ends(places);
         let room = 0.025 * (high - low);
-        let axis = match is_logarithmic {
-            _ if low == high => return Self::single(low),
-            true => Self::logarithms(low, high),
-            false => Self::linear(low, high, 7),
+        if low == high {
+            return Self::single(low);
+        }
+        let axis = if is_logarithmic {
+            Self::logarithms(low, high)
+        } else {
+            Self::linear(low, high, 7)
         };
         axis.within(low - room, high + room)
     }
@@ -108,7 +112,7 @@ impl Axis {
         Self { label, ..self }
     }
 
-    /// The same without any words.
+    /// The same without words.
     pub fn unlabelled(&self) -> Self {
         let ticks = self.ticks.iter().map(|(at, _)| (*at, String::new()));
         Self::new(self.from, self.to, ticks.collect())

@@ -1,7 +1,7 @@
 //! Lines, areas and texts on a sheet, measured in points (1/72 inch) from its upper left corner.
 
+use super::style::{Colour, Marker, Style};
 use super::text::{FONT_HEIGHT, runs, text_width};
-use super::{Colour, Marker, Style};
 
 /// A sheet and what lies on it, from the bottom up.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +44,7 @@ pub(super) enum Align {
 }
 
 impl Canvas {
-    /// White paper.
+    /// A white sheet.
     pub(super) fn new(size: (f64, f64)) -> Self {
         let shapes = Vec::new();
         let mut canvas = Self { size, shapes };
@@ -57,7 +57,7 @@ impl Canvas {
             .push(Shape::Line(points.to_vec(), width, colour));
     }
 
-    /// A line, its dash drawn and left out in turn.
+    /// A line with its dashes.
     pub(super) fn dashed(&mut self, points: &[(f64, f64)], style: &Style) {
         if style.dash.is_empty() || points.is_empty() {
             return self.line(points, style.width, style.colour);
@@ -92,16 +92,11 @@ impl Canvas {
             Marker::Wedge => &[(0.0, 1.2), (1.1, -0.8), (-1.1, -0.8)],
             Marker::Diamond => &[(0.0, -1.3), (1.1, 0.0), (0.0, 1.3), (-1.1, 0.0)],
             Marker::Cross => {
-                self.line(
-                    &[(-1.0, -1.0), (1.0, 1.0)].map(|end| place(&end)),
-                    0.4 * r,
-                    colour,
-                );
-                return self.line(
-                    &[(-1.0, 1.0), (1.0, -1.0)].map(|end| place(&end)),
-                    0.4 * r,
-                    colour,
-                );
+                for down in [1.0, -1.0] {
+                    let ends = [(-1.0, -down), (1.0, down)].map(|end| place(&end));
+                    self.line(&ends, 0.4 * r, colour);
+                }
+                return;
             }
         };
         self.area(corners.iter().map(place).collect(), colour);
@@ -154,9 +149,15 @@ impl Canvas {
     }
 }
 
+/// A place in whole units, so many per point.
+pub fn rounded((x, y): (f64, f64), unit: f64) -> (i32, i32) {
+    ((x * unit).round() as i32, (y * unit).round() as i32)
+}
+
 fn corners((left, top): (f64, f64), (right, bottom): (f64, f64)) -> [(f64, f64); 4] {
     [(left, top), (right, top), (right, bottom), (left, bottom)]
 }
+
 /// The parts of a line through `points` that a `dash` leaves.
 fn strokes(points: &[(f64, f64)], dash: &[f64]) -> Vec<Vec<(f64, f64)>> {
     let mut strokes = vec![points[..1].to_vec()];

@@ -1,9 +1,12 @@
 //! Draws marks in their panels.
 
+use super::axis::ends;
 use super::canvas::{Align, Canvas};
 use super::frame::Frame;
+use super::mark::{Block, Limit, Mark, Point};
+use super::picture::WIDTH;
+use super::style::{Colour, Style};
 use super::text::{NORMAL, SMALL, text_width};
-use super::{Block, Colour, Limit, Mark, Point, Style, WIDTH, ends};
 
 /// Width of a column of a dense line.
 const COLUMN: f64 = 0.4;
@@ -25,14 +28,14 @@ impl Mark {
                 canvas.area(upper.chain(lower).collect(), style.colour);
             }
             Self::Bars(points, style) => {
-                points
-                    .iter()
-                    .for_each(|point| draw_bar(canvas, frame, point, style));
+                for point in points {
+                    draw_bar(canvas, frame, point, style);
+                }
             }
             Self::Markers(points, style) => {
-                points
-                    .iter()
-                    .for_each(|point| draw_marker(canvas, frame, point, style));
+                for point in points {
+                    draw_marker(canvas, frame, point, style);
+                }
             }
             Self::Points(points, style) => {
                 for point in points {

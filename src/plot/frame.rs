@@ -1,8 +1,10 @@
 //! A panel in its place on the sheet.
 
+use super::axis::Axis;
 use super::canvas::{Align, Canvas};
+use super::picture::Panel;
+use super::style::Colour;
 use super::text::{NORMAL, SMALL, text_width};
-use super::{Axis, Colour, Panel};
 
 const WIDTH: f64 = 0.6;
 const TICK: f64 = 3.0;

@@ -2,9 +2,11 @@
 
 use super::canvas::{Align, Canvas, Shape, Text};
 use super::frame::Frame;
-use super::legend::{Place, Placed};
+use super::legend::Place;
+use super::mark::Mark;
+use super::picture::{CAPTION_LEFT, Plot, WIDTH};
+use super::placed::Placed;
 use super::text::{CAPTION, font_width};
-use super::{CAPTION_LEFT, Mark, Plot, WIDTH};
 
 /// From one line of a caption to the next.
 const CAPTION_STEP: f64 = 10.5;
@@ -12,9 +14,9 @@ const CAPTION_STEP: f64 = 10.5;
 const BETWEEN: [f64; 2] = [10.0, 36.0];
 /// Between panels side by side.
 const BESIDE: f64 = 22.0;
-/// A sheet no higher than this is drawn: its raster takes 400 MB.
+/// The highest sheet that is drawn: its raster takes 400 MB.
 const HIGHEST: f64 = 2200.0;
-/// What a row of panels in a grid takes, and at most what stands above and below all of them.
+/// The height of a row of panels in a grid, and the most that stands above and below all of them.
 const ROW: f64 = 150.0;
 const AROUND_ROWS: f64 = 250.0;
 
@@ -31,11 +33,8 @@ pub enum LayoutError {
     Clipped(String),
 }
 
-/// Whether a plot of so many panels in rows of two can be drawn.
-///
-/// # Errors
-/// Where it cannot, with the number that can.
-pub fn check_panels(panels: usize) -> Result<(), LayoutError> {
+/// Refuses more panels, in rows of two, than can be drawn.
+pub(super) fn check_panels(panels: usize) -> Result<(), LayoutError> {
     let most = 2 * ((HIGHEST - AROUND_ROWS) / ROW) as usize;
     if panels > most {
         return Err(LayoutError::Panels { panels, most });
@@ -104,7 +103,7 @@ impl Plot {
         }
     }
 
-    /// The legend in its place, and what it takes above the panels.
+    /// The legend in its place, and the height it takes above the panels.
     pub(super) fn placed_legend(&self) -> (Option<Placed<'_>>, f64) {
         let Some(legend) = &self.legend else {
             return (None, 0.0);
@@ -160,7 +159,7 @@ impl Plot {
 }
 
 impl Mark {
-    /// The lines along which it hides what lies under it, in data.
+    /// The lines, in data, that a legend must not hide.
     fn extent(&self) -> Vec<Vec<(f64, f64)>> {
         match self {
             Self::Line(points, _) => vec![points.clone()],

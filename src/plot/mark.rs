@@ -1,6 +1,6 @@
 //! What is drawn in a panel, in its data.
 
-use super::{Colour, Style};
+use super::style::{Colour, Style};
 
 /// Something in a panel. What lies outside its axes is drawn on their edge. Pairs of numbers are `(x, y)`,
 /// or the ends of a stretch of x.
@@ -65,7 +65,7 @@ pub enum Limit {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
     pub ends: (f64, f64),
-    /// It goes on before the panel.
+    /// It begins before the panel.
     pub is_cut: bool,
     /// Without one there is no box.
     pub colour: Option<Colour>,

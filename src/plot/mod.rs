@@ -8,148 +8,28 @@
 
 mod axis;
 mod canvas;
+mod curves;
 mod draw;
 mod frame;
 mod layout;
 mod legend;
 mod mark;
+mod phases;
+mod picture;
+mod placed;
 mod style;
 mod text;
 
 pub use axis::{Axis, LONG_RANGE, ends, is_long, power_of_ten};
-pub use canvas::{Canvas, Shape, Text};
-pub use layout::{LayoutError, check_panels, layout};
+pub use canvas::{Canvas, Shape, Text, rounded};
+pub use curves::{Curve, add_bands, add_bars};
+pub use layout::{LayoutError, layout};
 pub use legend::{Entry, Key, Legend, Place};
 pub use mark::{Block, Cell, Limit, Mark, Point};
+pub use phases::{add_phases, phase_colour, phase_words};
+pub use picture::{Margins, Panel, Plot, WIDTH};
 pub use style::{Colour, Marker, Style};
 pub use text::{font, literal, text_width};
-
-/// Width of every sheet, in points.
-pub const WIDTH: f64 = 396.0;
-/// Where a caption starts, and as far from the right edge it ends.
-const CAPTION_LEFT: f64 = 10.0;
-
-/// A picture.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Plot {
-    /// From left to right in each row, from the uppermost row down.
-    pub panels: Vec<Panel>,
-    /// Panels in a row.
-    pub columns: usize,
-    /// In the order in which they are drawn, each with the panel it lies in.
-    pub marks: Vec<(usize, Mark)>,
-    pub legend: Option<Legend>,
-    /// In lines.
-    pub caption: Vec<String>,
-    pub margins: Margins,
-}
-
-/// A pair of axes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Panel {
-    /// Above it.
-    pub title: String,
-    /// In points.
-    pub height: f64,
-    pub x: Axis,
-    /// A second scale along its upper edge.
-    pub top: Option<Axis>,
-    pub y: Axis,
-}
-
-/// Points left free around the panels: for labels, names, and what stands beside them.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Margins {
-    pub left: f64,
-    pub right: f64,
-    pub top: f64,
-    /// Above the caption.
-    pub bottom: f64,
-    /// Above and below a legend that lies over the panels.
-    pub legend: (f64, f64),
-}
-
-impl Default for Margins {
-    fn default() -> Self {
-        Self {
-            left: 54.0,
-            right: 16.0,
-            top: 10.0,
-            bottom: 36.0,
-            legend: (4.0, 8.0),
-        }
-    }
-}
-
-impl Plot {
-    /// Panels one under the other that share `x`, each `(height, y)`; only the lowest has words along x.
-    pub fn stack(x: &Axis, panels: impl IntoIterator<Item = (f64, Axis)>) -> Self {
-        let panels = panels.into_iter();
-        let mut panels: Vec<Panel> = panels
-            .map(|(height, y)| Panel::new(height, x.unlabelled(), y))
-            .collect();
-        if let Some(lowest) = panels.last_mut() {
-            lowest.x = x.clone();
-        }
-        Self::of(panels, 1)
-    }
-
-    /// Panels in rows of so many.
-    pub fn of(panels: Vec<Panel>, columns: usize) -> Self {
-        let (marks, caption) = (Vec::new(), Vec::new());
-        let (legend, margins) = (None, Margins::default());
-        Self {
-            panels,
-            columns,
-            marks,
-            legend,
-            caption,
-            margins,
-        }
-    }
-
-    /// Draws `mark` next, in a panel.
-    pub fn add(&mut self, panel: usize, mark: Mark) {
-        self.marks.push((panel, mark));
-    }
-
-    /// Draws `mark` next, in every panel.
-    pub fn add_to_all(&mut self, mark: &Mark) {
-        for panel in 0..self.panels.len() {
-            self.add(panel, mark.clone());
-        }
-    }
-
-    /// What the caption says, broken into lines between these parts.
-    pub fn set_caption(&mut self, parts: &[String]) {
-        self.caption = text::wrap(parts, WIDTH - 2.0 * CAPTION_LEFT);
-    }
-
-    /// The marks of a panel.
-    pub fn marks_of(&self, panel: usize) -> impl Iterator<Item = &Mark> {
-        let here = self.marks.iter().filter(move |(index, _)| *index == panel);
-        here.map(|(_, mark)| mark)
-    }
-}
-
-impl Panel {
-    /// Without title.
-    pub fn new(height: f64, x: Axis, y: Axis) -> Self {
-        let (title, top) = (String::new(), None);
-        Self {
-            title,
-            height,
-            x,
-            top,
-            y,
-        }
-    }
-
-    pub fn titled(self, title: &str) -> Self {
-        let title = title.to_owned();
-        Self { title, ..self }
-    }
-}
 
 #[cfg(test)]
 mod tests;

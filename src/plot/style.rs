@@ -1,6 +1,6 @@
 //! What tells curves apart: colours, markers and dashes.
 
-/// Red, green and blue, and how opaque.
+/// Red, green and blue, and opacity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Colour {
     pub rgb: [u8; 3],
@@ -42,7 +42,7 @@ impl Colour {
         Self { rgb, alpha: 1.0 }
     }
 
-    /// As opaque as `alpha` says.
+    /// With opacity `alpha`.
     pub const fn faded(self, alpha: f64) -> Self {
         Self { alpha, ..self }
     }

@@ -1,3 +1,4 @@
+use super::layout::check_panels;
 use super::*;
 
 fn axis(label: &str) -> Axis {
@@ -10,9 +11,8 @@ fn plot_of(points: &[(f64, f64)]) -> Plot {
     let points = points.iter().copied().map(Point::at).collect();
     plot.add(0, Mark::Markers(points, Style::of(0)));
     plot.add(0, Mark::Axes);
-    plot.add(0, Mark::Legend);
-    let names = ["a curve".to_owned()];
-    plot.legend = Some(Legend::of_curves(names, Key::MarkedLine, Place::Free));
+    let curves = Entry::of_curves(["a curve".to_owned()], Key::MarkedLine);
+    plot.add_legend(curves, Place::Free);
     plot
 }
 

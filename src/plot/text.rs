@@ -25,7 +25,7 @@ pub fn font() -> FontRef<'static> {
     FontRef::try_from_slice(dejavu::sans::regular()).expect("the embedded font is a font")
 }
 
-/// A user's own words: an underscore in them lowers nothing.
+/// Text in which an underscore is an underscore.
 pub fn literal(text: &str) -> String {
     text.replace('_', &UNDERSCORE.to_string())
 }
@@ -41,9 +41,10 @@ pub fn wrap(parts: &[String], width: f64) -> Vec<String> {
     let fits = |line: &str| text_width(line, CAPTION) <= width;
     let mut lines: Vec<String> = Vec::new();
     for part in parts {
-        let pieces: Vec<&str> = match fits(part) {
-            true => vec![part],
-            false => part.split(' ').collect(),
+        let pieces: Vec<&str> = if fits(part) {
+            vec![part]
+        } else {
+            part.split(' ').collect()
         };
         for (index, piece) in pieces.into_iter().enumerate() {
             let joint = if index == 0 { "; " } else { " " };

@@ -63,7 +63,7 @@ fn threshold_draws_the_plane() {
     fs::write(&path, "old").unwrap();
     let (code, _, err) = outcome(liftsim().args(&draw));
     assert_eq!(code, 2);
-    assert!(err.contains("plane.png: is there already"), "{err}");
+    assert!(err.contains("plane.png: already exists"), "{err}");
     assert_eq!(fs::read(&path).unwrap(), b"old");
     run(&[&draw[..], &["--force"]].concat());
     assert!(fs::read(&path).unwrap().starts_with(b"\x89PNG"));

@@ -124,7 +124,7 @@ fn writes_csv_and_pictures() {
         let before = fs::read(path(name)).unwrap();
         let (code, out, err) = detect(directory.path(), &["ride.csv", flag, name]);
         assert_eq!((code, out.as_str()), (2, ""));
-        let sentence = "is there already (give another name, or --force to replace it)";
+        let sentence = "already exists (give another name, or --force to replace it)";
         assert_eq!(err, format!("error: {name}: {sentence}\n"));
         assert_eq!(fs::read(path(name)).unwrap(), before);
     }

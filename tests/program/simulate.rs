@@ -63,7 +63,7 @@ fn a_config_is_read_strictly() {
             "rates = 50",
             "short.toml:1:1: unknown key `rates`, did you mean `rate`?",
         ),
-        ("trip = [\"up\"]", "a trip reads up:METRES or down:METRES"),
+        ("trip = [\"up\"]", "must be up:METRES or down:METRES"),
         (
             "rate = \"fast\"",
             "short.toml:1:8: rate: must be a finite number, got \"fast\"",
@@ -86,14 +86,14 @@ fn replaces_nothing_unasked() {
     let (code, _, err) = simulate(directory.path(), &other);
     assert_eq!(code, 2);
     assert!(
-        err.contains("ride.csv: is there already (give another name, or --force"),
+        err.contains("ride.csv: already exists (give another name, or --force"),
         "{err}"
     );
     assert_eq!(fs::read(directory.path().join("ride.csv")).unwrap(), first);
     fs::remove_file(directory.path().join("ride.csv")).unwrap();
     let (code, _, err) = simulate(directory.path(), &other);
     assert_eq!(code, 2);
-    assert!(err.contains("ride.truth.csv: is there already"), "{err}");
+    assert!(err.contains("ride.truth.csv: already exists"), "{err}");
     let forced = [&other[..], &["--force"]].concat();
     assert_eq!(simulate(directory.path(), &forced).0, 0);
     assert_ne!(fs::read(directory.path().join("ride.csv")).unwrap(), first);
@@ -111,7 +111,7 @@ fn files_are_replaced_whole_or_not_at_all() {
         let flags = ["--out", "ride.csv", "--still", "--rest", "1"];
         let (code, _, err) = simulate(directory.path(), &flags);
         assert_eq!(code, 2);
-        assert!(err.contains("is there already"), "{err}");
+        assert!(err.contains("already exists"), "{err}");
         let forced = [&flags[..], &["--force"]].concat();
         let (code, _, err) = simulate(directory.path(), &forced);
         assert_eq!(code, 2);
@@ -212,7 +212,7 @@ fn bad_flags_get_sentences() {
     ] {
         let err = refused(&["--trip", trip]);
         assert!(
-            err.contains("a trip reads up:METRES or down:METRES"),
+            err.contains("must be up:METRES or down:METRES"),
             "{trip}: {err}"
         );
     }
@@ -258,7 +258,7 @@ fn bad_flags_get_sentences() {
         ),
         (
             &["--still", "--rest", "3", "--rest", "4"],
-            "--still is one rest, got 2 (give --rest once)",
+            "--still: needs one rest, got 2 (give --rest once)",
         ),
         (&["--still", "--trip", "up:3"], "cannot be used with"),
         (&["--out", "ride"], "cannot be used multiple times"),

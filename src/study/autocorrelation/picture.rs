@@ -2,7 +2,7 @@
 
 use super::row::Row;
 use crate::format::thousands;
-use crate::plot::{Axis, Entry, Key, Legend, Mark, Place, Plot, Point, Style, literal};
+use crate::plot::{Axis, Entry, Key, Mark, Place, Plot, Point, Style, literal};
 use crate::signal::{Noise, Sensor};
 
 const UPPER: f64 = 160.0;
@@ -26,9 +26,10 @@ pub struct Records<'a> {
 /// The picture of an autocorrelation.
 pub fn plot(rows: &[Row], records: &Records) -> Plot {
     let last = rows.len() as f64 - 1.0;
-    let unit = match *records.sensor == Sensor::adxl105() {
-        true => " (T_0 = 62.5 µs)",
-        false => "",
+    let unit = if *records.sensor == Sensor::adxl105() {
+        " (T_0 = 62.5 µs)"
+    } else {
+        ""
     };
     let x = Axis::linear(0.0, last, 8).within(-0.02 * last, 1.02 * last);
     let upper = Axis::linear(-1.0, 1.0, 4).within(-1.1, 1.1);
@@ -44,6 +45,7 @@ pub fn plot(rows: &[Row], records: &Records) -> Plot {
     let mut plot = Plot::stack(&x.labelled(format!("lag k, samples{unit}")), panels);
     let line = |y: fn(&Row) -> f64| rows.iter().map(|row| (row.lag as f64, y(row))).collect();
     let estimates = rows.iter().map(|row| (row.lag as f64, row.estimate));
+    let estimates = estimates.map(Point::at).collect();
     let deviations = rows.iter().map(|row| {
         let deviations = [row.low, row.estimate, row.high].map(|y| y - row.theory);
         Point::new(row.lag as f64, deviations)
@@ -52,28 +54,19 @@ pub fn plot(rows: &[Row], records: &Records) -> Plot {
     plot.add(0, Mark::Line(line(|row| row.theory), THEORY));
     plot.add(0, Mark::Line(line(|row| row.exact_transfer), EXACT));
     plot.add(0, Mark::Axes);
-    plot.add(
-        0,
-        Mark::Markers(estimates.map(Point::at).collect(), SIMULATION),
-    );
-    plot.add(0, Mark::Legend);
+    plot.add(0, Mark::Markers(estimates, SIMULATION));
+    let entry = |text: &str, index, key| Entry::new(text, Style::of(index), key);
+    let entries = [
+        entry("theory, coefficients of the simulation", 0, Key::Line),
+        entry("theory, exact transfer of (1)", 3, Key::Line),
+        entry("simulation", 1, Key::Marker),
+    ];
+    plot.add_legend(entries, Place::Free);
     plot.add(1, Mark::Level(0.0, &[]));
-    plot.add(
-        1,
-        Mark::Line(line(|row| row.exact_transfer - row.theory), EXACT),
-    );
+    let exact = line(|row| row.exact_transfer - row.theory);
+    plot.add(1, Mark::Line(exact, EXACT));
     plot.add(1, Mark::Points(deviations.collect(), SIMULATION));
     plot.add(1, Mark::Axes);
-    let entries = [
-        Entry::new(
-            "theory, coefficients of the simulation",
-            Style::of(0),
-            Key::Line,
-        ),
-        Entry::new("theory, exact transfer of (1)", Style::of(3), Key::Line),
-        Entry::new("simulation", Style::of(1), Key::Marker),
-    ];
-    plot.legend = Some(Legend::new(entries, Place::Free));
     plot.set_caption(&caption(records));
     plot
 }

@@ -2,7 +2,7 @@
 
 use super::row::Row;
 use crate::format::thousands;
-use crate::plot::{Axis, Key, Legend, Mark, Place, Plot, Point, Style};
+use crate::plot::{Axis, Entry, Key, Mark, Place, Plot, Point, Style};
 
 const UPPER: f64 = 150.0;
 const LOWER: f64 = 110.0;
@@ -23,26 +23,23 @@ pub fn plot(rows: &[Row], confidence: f64, seed: u64) -> Plot {
     let lower = Axis::linear(0.0, 1.12 * highest, 4).labelled("P(λ_i = +θ)");
     let panels = [(UPPER, upper), (LOWER, lower)];
     let mut plot = Plot::stack(&x.labelled("i, samples since S = 0"), panels);
+    let zero_sum = |row: &Row| {
+        let rate = [row.zero_sum_low, row.zero_sum_rate, row.zero_sum_high];
+        (row.zero_sum, rate)
+    };
+    let positive = |row: &Row| {
+        let rate = [row.positive_low, row.positive_rate, row.positive_high];
+        (row.positive, rate)
+    };
     plot.add(0, Mark::Grid);
     plot.add(0, Mark::Level(0.5, &[4.0, 2.0]));
-    add_curves(&mut plot, 0, &curves, |row| {
-        (
-            row.zero_sum,
-            [row.zero_sum_low, row.zero_sum_rate, row.zero_sum_high],
-        )
-    });
+    add_curves(&mut plot, 0, &curves, zero_sum);
     plot.add(0, Mark::Axes);
-    plot.add(0, Mark::Legend);
-    plot.add(1, Mark::Grid);
-    add_curves(&mut plot, 1, &curves, |row| {
-        (
-            row.positive,
-            [row.positive_low, row.positive_rate, row.positive_high],
-        )
-    });
-    plot.add(1, Mark::Axes);
     let names = curves.iter().map(|curve| format!("ν = {}", curve[0].nu));
-    plot.legend = Some(Legend::of_curves(names, Key::MarkedLine, Place::Free));
+    plot.add_legend(Entry::of_curves(names, Key::MarkedLine), Place::Free);
+    plot.add(1, Mark::Grid);
+    add_curves(&mut plot, 1, &curves, positive);
+    plot.add(1, Mark::Axes);
     plot.set_caption(&[
         "lines: P(S_i = 0) = (1 + (1 − 2ν)ⁱ)/2 and P(λ_i = +θ) = ν/2".to_owned(),
         "dashed: the limit ½ of (6)".to_owned(),

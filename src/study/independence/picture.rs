@@ -2,7 +2,7 @@
 
 use super::row::{Row, findings};
 use crate::format::thousands;
-use crate::plot::{Axis, Colour, Key, Legend, Mark, Place, Plot, Point, Style};
+use crate::plot::{Axis, Colour, Entry, Key, Mark, Place, Plot, Point, Style};
 
 const DIAGONAL: Style = Style::of(0).wide(0.8).coloured(Colour::BLACK.faded(0.6));
 /// Sizes that a legend can name.
@@ -32,10 +32,9 @@ pub fn plot(rows: &[Row]) -> Plot {
         );
     }
     plot.add(0, Mark::Axes);
-    plot.add(0, Mark::Legend);
     let names = sizes.iter().take(NAMED);
     let names = names.map(|rows| sizes_of(&rows[0]).map(|size| size.to_string()).join("/"));
-    plot.legend = Some(Legend::of_curves(names, Key::Marker, Place::Free));
+    plot.add_legend(Entry::of_curves(names, Key::Marker), Place::Free);
     plot.set_caption(&caption(rows));
     plot
 }

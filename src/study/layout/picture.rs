@@ -2,8 +2,7 @@
 
 use super::row::Row;
 use crate::chain::Scenario;
-use crate::figure::phases::add_phases;
-use crate::plot::{Axis, Block, Mark, Plot, Style};
+use crate::plot::{Axis, Block, Mark, Plot, Style, add_phases};
 use crate::signal::{Motion, Profile};
 
 const UPPER: f64 = 84.0;

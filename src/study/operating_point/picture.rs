@@ -3,7 +3,7 @@
 use super::row::Row;
 use crate::chain::Scenario;
 use crate::format::thousands;
-use crate::plot::{Axis, Key, Legend, Mark, Place, Plot, Point, Style, ends};
+use crate::plot::{Axis, Entry, Key, Mark, Place, Plot, Point, Style, ends};
 
 /// The picture of a search.
 pub fn plot(rows: &[Row], scenario: &Scenario, seed: u64) -> Plot {
@@ -29,13 +29,11 @@ pub fn plot(rows: &[Row], scenario: &Scenario, seed: u64) -> Plot {
         plot.add(0, Mark::Line(line, style.solid().faded(0.6)));
         plot.add(0, Mark::Points(points, style));
     }
-    plot.add(0, Mark::Legend);
     let names = curves.iter().map(|curve| format!("D = {}", curve[0].power));
-    plot.legend = Some(Legend::of_curves(
-        names,
-        Key::MarkedLine,
+    plot.add_legend(
+        Entry::of_curves(names, Key::MarkedLine),
         Place::Inside(80.0, 6.0),
-    ));
+    );
     plot.set_caption(&caption(scenario, &rows[0], seed));
     plot
 }

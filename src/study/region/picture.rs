@@ -3,7 +3,7 @@
 
 use super::row::Row;
 use crate::detect::{Alternative, NullLaws, Samples};
-use crate::plot::{Axis, Cell, Colour, Entry, Key, Legend, Mark, Place, Plot, Style, power_of_ten};
+use crate::plot::{Axis, Cell, Colour, Entry, Key, Mark, Place, Plot, Style, power_of_ten};
 
 const HEIGHT: f64 = 238.0;
 /// Cells less probable than this are as pale as it.
@@ -36,13 +36,12 @@ pub fn plot(laws: &NullLaws, rows: &[Row], title: &[String]) -> Plot {
         }
     }
     plot.add(0, Mark::Axes);
-    plot.add(0, Mark::Legend);
     let entries = regions.iter().enumerate().map(|(index, rows)| {
         let rule = rows[0].rule.split('(').next().unwrap_or_default();
         let text = format!("{rule}, exact size {:.6}", rows[0].size);
         Entry::new(text, style(index), Key::Line)
     });
-    plot.legend = Some(Legend::new(entries, Place::Above));
+    plot.add_legend(entries, Place::Above);
     plot.set_caption(title);
     plot
 }
@@ -50,15 +49,9 @@ pub fn plot(laws: &NullLaws, rows: &[Row], title: &[String]) -> Plot {
 /// What the regions share, and where they lie, in the parts of a caption.
 pub fn title(samples: &Samples, alternative: Alternative, alpha: f64) -> Vec<String> {
     let side = match alternative {
-        Alternative::Greater => {
-            "a rule decides H_1* to the right of its line, and above it where it runs level"
-        }
-        Alternative::Less => {
-            "a rule decides H_1* to the left of its line, and above it where it runs level"
-        }
-        Alternative::TwoSided => {
-            "a rule decides H_1* outside its lines, and above them where they run level"
-        }
+        Alternative::Greater => "to the right of its line, and above it where it runs level",
+        Alternative::Less => "to the left of its line, and above it where it runs level",
+        Alternative::TwoSided => "outside its lines, and above them where they run level",
     };
     vec![
         format!("N = {}", samples.reference()),
@@ -66,7 +59,7 @@ pub fn title(samples: &Samples, alternative: Alternative, alpha: f64) -> Vec<Str
         format!("M_2 = {}", samples.scale()),
         format!("alternative {alternative}"),
         format!("α = {alpha}"),
-        side.to_owned(),
+        format!("a rule decides H_1* {side}"),
     ]
 }
 

@@ -3,10 +3,10 @@
 
 use super::measure::Measure;
 use super::row::Row;
-use crate::figure::rates::{Curve, add_bands};
 use crate::format::thousands;
 use crate::plot::{
-    Axis, Key, Legend, Limit, Mark, Place, Plot, Point, Style, ends, is_long, literal,
+    Axis, Curve, Entry, Key, Limit, Mark, Place, Plot, Point, Style, add_bands, ends, is_long,
+    literal,
 };
 
 /// What was asked of rides along an axis.
@@ -64,12 +64,11 @@ pub fn plot(rows: &[Row], rides: &Rides) -> Plot {
         add_bands(&mut plot, panel, curves, false);
         plot.add(panel, Mark::Axes);
     }
-    plot.add(0, Mark::Legend);
     // One curve without a name of its own needs no legend.
-    let is_plain = rides.labels.len() == 1 && rides.labels[0] == "1";
-    let names = rides.labels.iter().map(|label| literal(label));
-    let legend = Legend::of_curves(names, Key::MarkedLine, Place::Free);
-    plot.legend = (!is_plain).then_some(legend);
+    if rides.labels != ["1"] {
+        let names = rides.labels.iter().map(|label| literal(label));
+        plot.add_legend(Entry::of_curves(names, Key::MarkedLine), Place::Free);
+    }
     plot.set_caption(&caption(rows, rides));
     plot
 }
@@ -163,9 +162,12 @@ impl<'a> Places<'a> {
         let quantiles = ["05", "50", "95"].map(|name| format!("{outcome}_{name}"));
         let [low, middle, high] = quantiles.map(|outcome| self.of(curve, &outcome));
         (middle.iter().zip(low.iter().zip(high)))
-            .map(|(row, (low, high))| match high.estimate.is_finite() {
-                true => Point::new(self.x(row), [low, row, high].map(|row| row.estimate)),
-                false => Point::at((self.x(row), row.estimate)),
+            .map(|(row, (low, high))| {
+                if high.estimate.is_finite() {
+                    Point::new(self.x(row), [low, row, high].map(|row| row.estimate))
+                } else {
+                    Point::at((self.x(row), row.estimate))
+                }
             })
             .collect()
     }
@@ -188,8 +190,8 @@ impl<'a> Places<'a> {
     }
 }
 
-/// A rate and its interval; on a logarithmic scale, where nothing was counted, an arrow, which tells more than a
-/// band to the end of the paper.
+/// A rate and its interval. On a logarithmic scale an arrow stands where nothing was counted: a band would
+/// reach to the edge.
 fn point(row: &Row, x: f64, kind: Kind) -> Point {
     let point = Point::new(x, [row.low, row.estimate, row.high]);
     let Kind::Positive(limit) = kind else {
@@ -272,7 +274,10 @@ fn caption(rows: &[Row], rides: &Rides) -> Vec<String> {
     let percent = 100.0 * rows[0].confidence;
     parts.push(match measure {
         Measure::Rides | Measure::Jam => {
-            format!("bands: exact {percent} % intervals above, 5 % to 95 % of the delays below, where so many were told")
+            format!(
+                "bands: exact {percent} % intervals above, 5 % to 95 % of the delays below, where \
+                 so many were told"
+            )
         }
         Measure::Rest | Measure::Tradeoff => {
             format!("bands: exact {percent} % intervals; arrows: limits where nothing happened")
@@ -282,7 +287,7 @@ fn caption(rows: &[Row], rides: &Rides) -> Vec<String> {
     parts
 }
 
-/// The parameters of a point in words, always as many; none for what goes without saying.
+/// The parameters of a point in words, always as many; `None` for what goes without saying.
 fn facts(measure: Measure, row: &Row) -> Vec<Option<String>> {
     let Row {
         trips,

@@ -1,7 +1,7 @@
 //! What a picture says about its curves: legend, axis, caption, all from the rows themselves.
 //!
 //! Every parameter is a [`Fact`] in the words of the table of parameters. What all points share stands in the
-//! caption, unless it is a default nobody needs to be told; what tells curves apart stands in the legend.
+//! caption, unless it is a default that goes without saying; what tells curves apart stands in the legend.
 
 use crate::format::thousands;
 use crate::plot::literal;
@@ -19,12 +19,13 @@ pub(super) struct Fact {
 
 /// The facts of a row, always the same ones in the same order.
 fn facts(row: &Row) -> Vec<Fact> {
-    let mut said: Vec<(&Parameter, &Caption)> = PARAMETERS
+    let mut captions: Vec<(&Parameter, &Caption)> = PARAMETERS
         .iter()
         .filter_map(|parameter| Some((parameter, parameter.caption.as_ref()?)))
         .collect();
-    said.sort_by_key(|(_, caption)| caption.place);
-    said.into_iter()
+    captions.sort_by_key(|(_, caption)| caption.place);
+    captions
+        .into_iter()
         .map(|(parameter, caption)| {
             let value = row.values.text(parameter.name);
             Fact {

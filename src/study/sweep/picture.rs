@@ -4,9 +4,9 @@
 use super::labels::{self, WHITENED_DELTA, axis_label, common_facts, is_held_against_alpha};
 use super::x_axis::XAxis;
 use crate::figure::FigureError;
-use crate::figure::rates::{Curve, add_bands, add_bars};
 use crate::plot::{
-    Axis, Entry, Key, LONG_RANGE, Legend, Limit, Mark, Panel, Place, Plot, Point, Style, ends,
+    Axis, Curve, Entry, Key, LONG_RANGE, Limit, Mark, Panel, Place, Plot, Point, Style, add_bands,
+    add_bars, ends,
 };
 use crate::results::Row;
 use crate::scenario::Parameter;
@@ -56,7 +56,7 @@ pub fn plot(sweep: &Sweep, rows: &[Row], seed: u64) -> Result<Plot, FigureError>
     if all.is_empty() {
         return Err(FigureError::Empty(sweep.axis.name));
     }
-    let axis = XAxis::new(sweep, &all);
+    let axis = XAxis::new(sweep.axis, &sweep.values, &all);
     let common = common_facts(&all);
     let (entries, mut groups) = grouped(sweep, &drawn, &axis, &common);
     let is_false_alarm = all.iter().all(|row| row.is_at_rest());
@@ -64,9 +64,10 @@ pub fn plot(sweep: &Sweep, rows: &[Row], seed: u64) -> Result<Plot, FigureError>
     groups.iter_mut().for_each(|group| group.scale(is_log));
     let scale: fn(f64) -> f64 = if is_log { libm::log10 } else { f64::from };
     let level = is_held_against_alpha(&all).then(|| scale(all[0].alpha()));
-    let y = match is_false_alarm {
-        true => rate_axis(&groups, level, is_log),
-        false => power_axis(),
+    let y = if is_false_alarm {
+        rate_axis(&groups, level, is_log)
+    } else {
+        power_axis()
     };
     let label = axis_label(sweep.axis, is_whitened(&all));
     let mut plot = panels(&groups, &axis, label, &y);
@@ -81,10 +82,10 @@ pub fn plot(sweep: &Sweep, rows: &[Row], seed: u64) -> Result<Plot, FigureError>
     for (panel, group) in groups.into_iter().enumerate() {
         add_panel(&mut plot, panel, group, level, axis.is_named());
     }
-    plot.add(0, Mark::Legend);
     // One curve without a name of its own needs no legend.
-    let is_plain = entries.len() == 1 && entries[0].text == "1";
-    plot.legend = (!is_plain).then(|| Legend::new(entries, Place::Free));
+    if entries.len() > 1 || entries[0].text != "1" {
+        plot.add_legend(entries, Place::Free);
+    }
     Ok(plot)
 }
 
@@ -105,12 +106,13 @@ impl Group {
     /// Takes logarithms, or leaves rates as they are: then no limits stand for them.
     fn scale(&mut self, is_logarithmic: bool) {
         for point in self.curves.iter_mut().flat_map(|curve| &mut curve.points) {
-            *point = match is_logarithmic {
-                true => point.logarithms(),
-                false => Point {
+            *point = if is_logarithmic {
+                point.logarithms()
+            } else {
+                Point {
                     limit: None,
                     ..*point
-                },
+                }
             };
         }
     }
@@ -123,9 +125,10 @@ fn grouped(
     axis: &XAxis,
     common: &[Option<labels::Fact>],
 ) -> (Vec<Entry>, Vec<Group>) {
-    let key = match axis.is_named() {
-        true => Key::Marker,
-        false => Key::MarkedLine,
+    let key = if axis.is_named() {
+        Key::Marker
+    } else {
+        Key::MarkedLine
     };
     let mut entries: Vec<Entry> = Vec::new();
     let mut groups: Vec<Group> = Vec::new();

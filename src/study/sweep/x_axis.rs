@@ -1,29 +1,32 @@
 //! The axis of a sweep: where each row stands on it, and what its ticks say.
 
-use super::picture::Sweep;
 use crate::plot::{Axis, is_long};
 use crate::results::Row;
+use crate::scenario::Parameter;
 
 /// Where the rows of a sweep stand on its axis.
 pub(super) struct XAxis<'a> {
-    sweep: &'a Sweep,
+    parameter: &'static Parameter,
+    /// What it is swept over, where these are numbers.
+    values: &'a [f64],
     is_logarithmic: bool,
     /// The rules on a rule axis, in order.
     rules: Vec<String>,
 }
 
 impl<'a> XAxis<'a> {
-    pub fn new(sweep: &'a Sweep, rows: &[&Row]) -> Self {
+    pub fn new(parameter: &'static Parameter, values: &'a [f64], rows: &[&Row]) -> Self {
         let mut rules: Vec<String> = Vec::new();
-        for row in rows.iter().filter(|_| sweep.axis.name == "rule") {
+        for row in rows.iter().filter(|_| parameter.name == "rule") {
             let rule = row.values.text("rule");
             if !rules.contains(&rule) {
                 rules.push(rule);
             }
         }
         Self {
-            sweep,
-            is_logarithmic: is_long(&sweep.values),
+            parameter,
+            values,
+            is_logarithmic: is_long(values),
             rules,
         }
     }
@@ -42,15 +45,16 @@ impl<'a> XAxis<'a> {
     /// is placed by the values themselves, which a row need not repeat (a known filter has no
     /// training); at rest equal points are written once, and the rows must do.
     pub fn place(&self, rows: &[&Row], index: usize) -> f64 {
-        let (row, values) = (rows[index], &self.sweep.values);
+        let row = rows[index];
         if self.is_named() {
             let own = row.values.text("rule");
             let rule = self.rules.iter().position(|rule| *rule == own);
             return rule.unwrap_or(0) as f64;
         }
-        let value = match rows.len() == values.len() {
-            true => values[index],
-            false => row.on_axis(self.sweep.axis).unwrap_or(0.0),
+        let value = if rows.len() == self.values.len() {
+            self.values[index]
+        } else {
+            row.on_axis(self.parameter).unwrap_or(0.0)
         };
         if self.is_logarithmic {
             libm::log10(value)
@@ -61,9 +65,10 @@ impl<'a> XAxis<'a> {
 
     /// From the first place to the last, with a little room on either side.
     pub fn axis(&self, places: impl Iterator<Item = f64>) -> Axis {
-        match self.is_named() {
-            true => Axis::names(self.names()),
-            false => Axis::around(places, self.is_logarithmic),
+        if self.is_named() {
+            Axis::names(self.names())
+        } else {
+            Axis::around(places, self.is_logarithmic)
         }
     }
 

@@ -4,8 +4,7 @@
 use super::row::Row;
 use super::table::Trace;
 use crate::chain::Scenario;
-use crate::figure::phases::add_phases;
-use crate::plot::{Axis, Entry, Key, Legend, Mark, Place, Plot, Point, Style, ends, literal};
+use crate::plot::{Axis, Entry, Key, Mark, Place, Plot, Point, Style, add_phases, ends, literal};
 
 const SINGLE: f64 = 190.0;
 const PANEL: f64 = 128.0;
@@ -45,10 +44,9 @@ pub fn plot(rows: &[Row], trace: &Trace, scenario: &Scenario, seed: u64) -> Plot
         add_values(&mut plot, 1, time.line(rows, |row| row.whitened));
     }
     plot.add_to_all(&Mark::Axes);
-    plot.add(0, Mark::Legend);
     let entry = |index, text| Entry::new(text, Style::of(index).solid(), Key::Line);
     let entries = [entry(0, "record"), entry(1, "acceleration in it")];
-    plot.legend = Some(Legend::new(entries, Place::Free));
+    plot.add_legend(entries, Place::Free);
     plot.set_caption(&caption(scenario, trace, seed));
     plot
 }
@@ -90,7 +88,7 @@ impl Time {
         points.collect()
     }
 
-    /// The stretches in which `of` says the same, each with its ends.
+    /// The stretches in which `of` is constant, each with its ends.
     fn stretches<'r, T: Copy + PartialEq>(
         &self,
         rows: &'r [Row],
@@ -100,7 +98,7 @@ impl Time {
         let places: Vec<(f64, T)> = rows.iter().map(|row| (self.of(row), of(row))).collect();
         (places.chunk_by(|a, b| a.1 == b.1))
             .map(|stretch| (stretch[0], stretch[stretch.len() - 1]))
-            .map(|((first, said), (last, _))| ((first - half, last + half), said))
+            .map(|((first, value), (last, _))| ((first - half, last + half), value))
             .collect()
     }
 }
@@ -171,18 +169,9 @@ fn caption(scenario: &Scenario, trace: &Trace, seed: u64) -> Vec<String> {
     }
     parts.push(format!("{} noise", literal(&scenario.noise.to_string())));
     parts.push(literal(&scenario.sensor.to_string()).replace('-', "−"));
-    parts.extend(
-        scenario
-            .digitiser
-            .quantum()
-            .map(|quantum| measured("step", quantum)),
-    );
-    parts.extend(
-        scenario
-            .digitiser
-            .range()
-            .map(|range| measured("range", range)),
-    );
+    let digitiser = &scenario.digitiser;
+    parts.extend(digitiser.quantum().map(|step| measured("step", step)));
+    parts.extend(digitiser.range().map(|range| measured("range", range)));
     if trace.whitened {
         let whitening = &scenario.whitening;
         parts.push(format!("{} filter", whitening.fit()));

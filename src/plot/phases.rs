@@ -1,6 +1,8 @@
 //! What pictures of a ride in time share: phases shaded and named.
 
-use crate::plot::{Colour, Mark, Plot};
+use super::mark::Mark;
+use super::picture::Plot;
+use super::style::Colour;
 
 /// The shade of a phase.
 pub fn phase_colour(name: &str) -> Colour {

@@ -1,15 +1,17 @@
 //! Curves of rates with their intervals: lines in bands, or bars side by side at names.
 
-use crate::plot::{Mark, Plot, Point, Style};
+use super::mark::{Mark, Point};
+use super::picture::Plot;
+use super::style::Style;
 
-/// What is drawn in one style.
+/// Points in one style.
 pub struct Curve {
     pub style: Style,
     /// In the order of the axis.
     pub points: Vec<Point>,
 }
 
-/// Lines in their bands, and markers over all of them. Lines lead through limits only where they are `joined`.
+/// Lines in their bands, and markers over all of them. Bands and lines pass through limits only where `joined`.
 pub fn add_bands(plot: &mut Plot, panel: usize, curves: &[Curve], joined: bool) {
     for Curve { points, style } in curves {
         let band = points
