@@ -10,7 +10,7 @@ mod ranges;
 mod sums;
 
 pub use ranges::{Overlap, Ranges, StretchError};
-pub use sums::{Fixed, Shape, Sums, Values};
+pub use sums::{Counter, Fixed, Shape, Sums, Values};
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -42,15 +42,6 @@ impl fmt::Display for Key {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)
     }
-}
-
-/// Sums, and the trials that they are of.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Counter {
-    /// Every trial that was counted.
-    pub trials: Ranges,
-    /// Of all of them together.
-    pub sums: Sums,
 }
 
 /// How a point decides, as `points.csv` tells it.

@@ -1,8 +1,17 @@
 //! What a counter adds up: whole numbers alone, so that any order of adding gives the same.
 
-use super::{Counter, Ranges};
+use super::ranges::Ranges;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+
+/// Sums, and the trials that they are of.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counter {
+    /// Every trial that was counted.
+    pub trials: Ranges,
+    /// Of all of them together.
+    pub sums: Sums,
+}
 
 /// Sums over trials.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

@@ -186,10 +186,10 @@ impl From<Sums> for RideSums {
 mod tests {
     use super::super::account::Truth;
     use super::*;
-    use crate::experiment::ExhibitKind;
     use crate::monitor::{Alarm, Direction, Event, Kind, State};
     use crate::signal::Phase;
-    use crate::study::tests::config;
+    use crate::study::ride::Rides;
+    use crate::study::tests::read;
     use proptest::prelude::*;
 
     type Change = fn(&mut RideSums);
@@ -203,10 +203,7 @@ mod tests {
             "question = \"?\"\nseed = 1\ntrials = 4\n[ride]\nmeasure = \"{measure}\"\n{trips}\
              [ride.axis]\ndelta_over_sigma = [4]\n"
         );
-        match config(&text).kind {
-            ExhibitKind::Ride(study) => study.curves[0].points[0].1.clone(),
-            other => panic!("{other:?}"),
-        }
+        read::<Rides>(&text).table.curves[0].points[0].1.clone()
     }
 
     /// What a monitor might say, be it true or not, of a record that ends at `to`, s.
@@ -244,7 +241,7 @@ mod tests {
                 journeys: ride.journeys(),
                 to: ride.duration(),
             };
-            Account::new(&truth, &events(said, truth.to), point.tolerance)
+            Account::new(&truth, &events(said, truth.to), point.keys.tolerance)
         };
         let mut account = Account::default();
         if point.measure.rides() {
