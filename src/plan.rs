@@ -76,9 +76,10 @@ impl Plan {
     /// # Errors
     /// Where a parameter of a point is out of range, or no region or record can be made for it.
     pub fn new(config: &SweepConfig) -> Result<Self, ConfigError> {
-        match config.header().at_rest {
-            true => Self::at_rest(config),
-            false => Self::of(config, |_| true),
+        if config.header().at_rest {
+            Self::at_rest(config)
+        } else {
+            Self::of(config, |_| true)
         }
     }
 
@@ -243,9 +244,10 @@ impl Designer {
                 return Ok(Design::Pilot);
             }
         };
-        Ok(match detector.needs_pilot() {
-            true => Design::Pilot,
-            false => Design::Region(region),
+        Ok(if detector.needs_pilot() {
+            Design::Pilot
+        } else {
+            Design::Region(region)
         })
     }
 

@@ -1,5 +1,6 @@
 //! What a single value must be, and the refusal of one that is not.
 
+use crate::format::shorten;
 use std::fmt::{self, Display};
 
 /// A rule for one number.
@@ -16,9 +17,9 @@ pub enum Rule {
 
 /// A value that breaks its rule.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{key}: must {rule}, got {got}{remedy}")]
+#[error("{}must {rule}, got {got}{remedy}", prefix(key))]
 pub struct OutOfRange {
-    /// The key or the flag, as the user writes it.
+    /// The key or the flag, as the user writes it; blank where whoever reads the value adds it.
     pub key: String,
     /// After "must".
     pub rule: String,
@@ -26,6 +27,14 @@ pub struct OutOfRange {
     pub got: String,
     /// Why, or what to do, in brackets after a space; or nothing.
     pub remedy: &'static str,
+}
+
+fn prefix(key: &str) -> String {
+    if key.is_empty() {
+        String::new()
+    } else {
+        format!("{key}: ")
+    }
 }
 
 /// A rule, and a remedy for who breaks it.
@@ -82,13 +91,19 @@ impl Display for Rule {
 
 impl OutOfRange {
     /// `got` breaks a rule, which reads on after "must".
-    pub fn new(key: &str, rule: impl Display, got: impl Display) -> Self {
+    pub fn new(key: impl Into<String>, rule: impl Display, got: impl Display) -> Self {
         Self {
-            key: key.to_owned(),
+            key: key.into(),
             rule: rule.to_string(),
-            got: got.to_string(),
+            got: shorten(&got.to_string()).into_owned(),
             remedy: "",
         }
+    }
+
+    /// The same of a value without a key; what stands in brackets behind the rule is the remedy.
+    pub fn of(rule: &'static str, got: impl Display) -> Self {
+        let (rule, remedy) = rule.split_at(rule.find(" (").unwrap_or(rule.len()));
+        Self::new("", rule, got).explained(remedy)
     }
 
     /// The same with a remedy.

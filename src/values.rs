@@ -1,27 +1,7 @@
 //! Numbers that hold one rule, wherever they stand: checked once, when they are made or read from a file.
 
+use crate::rule::OutOfRange;
 use serde::{Deserialize, Deserializer, Serialize};
-
-/// A value outside its range.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OutOfRange {
-    /// What the value must do, and in brackets what to do about it.
-    pub rule: &'static str,
-    /// As given.
-    pub got: f64,
-}
-
-impl std::fmt::Display for OutOfRange {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { rule, got } = self;
-        match rule.split_once(" (") {
-            Some((rule, remedy)) => write!(f, "must {rule}, got {got} ({remedy}"),
-            None => write!(f, "must {rule}, got {got}"),
-        }
-    }
-}
-
-impl std::error::Error for OutOfRange {}
 
 /// Declares numbers with a rule: a name, what it is made from, the rule in words and as a test, its JSON
 /// Schema. `new` is the only gate, and serde goes through it.
@@ -37,12 +17,12 @@ macro_rules! bounded_f64 {
             ///
             /// # Errors
             /// Where it does not; NaN never does.
-            pub fn new(value: f64) -> Result<Self, $crate::values::OutOfRange> {
+            pub fn new(value: f64) -> Result<Self, $crate::rule::OutOfRange> {
                 let holds: fn(f64) -> bool = $holds;
                 if holds(value) {
                     Ok(Self(value))
                 } else {
-                    Err($crate::values::OutOfRange { rule: $rule, got: value })
+                    Err($crate::rule::OutOfRange::of($rule, value))
                 }
             }
 
@@ -53,7 +33,7 @@ macro_rules! bounded_f64 {
         }
 
         impl TryFrom<f64> for $name {
-            type Error = $crate::values::OutOfRange;
+            type Error = $crate::rule::OutOfRange;
 
             fn try_from(value: f64) -> Result<Self, Self::Error> {
                 Self::new(value)
@@ -115,8 +95,7 @@ impl Size {
         if value > 0 {
             Ok(Self(value))
         } else {
-            let rule = "be at least 1";
-            Err(OutOfRange { rule, got: 0.0 })
+            Err(OutOfRange::of("be at least 1", value))
         }
     }
 

@@ -1,6 +1,6 @@
 //! The command line: which commands there are, and what each takes.
 
-use super::Outcome;
+use super::CommandResult;
 use super::{
     check, completions, detect, figures, keys, man, merge, monitor, plan, plot, replay, simulate,
     status, sweep, threshold,
@@ -53,7 +53,7 @@ impl Arguments {
     }
 
     /// Runs the command.
-    pub fn run(self) -> Outcome {
+    pub fn run(self) -> CommandResult {
         match self.command {
             Command::Sweep(command) => command.run(self.quiet),
             Command::Merge(command) => command.run(),

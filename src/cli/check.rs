@@ -1,7 +1,7 @@
 //! `liftsim check CONFIG`: the false-alarm gate.
 
 use super::progress::{self, Progress, Reporter};
-use super::{Failure, Outcome, Simulation, print, table};
+use super::{CommandResult, Failure, Simulation, print, table};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::chain::Decision;
@@ -30,7 +30,7 @@ pub struct Check {
 
 impl Check {
     /// Runs the command.
-    pub fn run(self, quiet: bool) -> Outcome {
+    pub fn run(self, quiet: bool) -> CommandResult {
         if let Some(nominal) = self.nominal
             && !(nominal > 0.0 && nominal < 1.0)
         {

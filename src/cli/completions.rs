@@ -1,6 +1,6 @@
 //! `liftsim completions SHELL`.
 
-use super::{Outcome, print};
+use super::{CommandResult, print};
 use clap::{Args, Command};
 use clap_complete::Shell;
 use std::process::ExitCode;
@@ -16,7 +16,7 @@ pub struct Completions {
 
 impl Completions {
     /// Runs the command; `program` is the whole command line.
-    pub fn run(self, mut program: Command) -> Outcome {
+    pub fn run(self, mut program: Command) -> CommandResult {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut program, "liftsim", &mut script);
         print(&String::from_utf8_lossy(&script))?;

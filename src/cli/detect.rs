@@ -5,7 +5,7 @@ use super::monitor_options::{MonitorArguments, Setup, check_strength};
 use super::output::{Output, Ready};
 use super::progress;
 use super::reading::ReadingArguments;
-use super::{Failure, Outcome, print, warn};
+use super::{CommandResult, Failure, print, warn};
 use clap::Args;
 use indicatif::ProgressBar;
 use liftsim::detection::{DetectReport, Detection};
@@ -62,7 +62,7 @@ struct Outputs {
 
 impl Detect {
     /// Runs the command.
-    pub fn run(self, quiet: bool) -> Outcome {
+    pub fn run(self, quiet: bool) -> CommandResult {
         let outputs = self.outputs()?;
         let setup = self.options.setup()?;
         let recording = self.open(&setup.config.reading)?;

@@ -1,12 +1,12 @@
 //! `liftsim figures`: every config's results, and the report on all of them.
 
 use super::progress::{self, Progress, Reporter};
-use super::{Failure, Outcome, print, say, store, sweep, table};
+use super::{CommandResult, Failure, print, say, store, sweep, table};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::report;
 use liftsim::results::Directory;
-use liftsim::run::{Experiment, Overwrite, Session};
+use liftsim::run::{Overwrite, Runnable, Session};
 use liftsim::stats::tally::MOST_TRIALS;
 use liftsim::study::{self, Loaded};
 use std::ffi::OsStr;
@@ -51,7 +51,7 @@ struct Entry {
 
 impl Figures {
     /// Runs the command.
-    pub fn run(self, quiet: bool) -> Outcome {
+    pub fn run(self, quiet: bool) -> CommandResult {
         let paths = self.paths()?;
         let (chosen, others): (Vec<_>, Vec<_>) =
             (paths.iter()).partition(|(name, _)| self.only.is_empty() || self.only.contains(name));

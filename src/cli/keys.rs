@@ -1,6 +1,6 @@
 //! `liftsim keys`: the reference of every table and key of a config.
 
-use super::{Outcome, print};
+use super::{CommandResult, print};
 use clap::Args;
 use liftsim::study::reference;
 use std::process::ExitCode;
@@ -16,7 +16,7 @@ pub struct Keys {
 }
 
 impl Keys {
-    pub fn run(self) -> Outcome {
+    pub fn run(self) -> CommandResult {
         if self.schema {
             print(&format!("{:#}\n", reference::schema()))?;
         } else {

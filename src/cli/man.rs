@@ -1,6 +1,6 @@
 //! `liftsim man`.
 
-use super::{Failure, Outcome, print};
+use super::{CommandResult, Failure, print};
 use clap::{Args, Command};
 use clap_mangen::Man as Page;
 use std::process::ExitCode;
@@ -13,7 +13,7 @@ pub struct Man;
 
 impl Man {
     /// Runs the command; `program` is the whole command line.
-    pub fn run(self, mut program: Command) -> Outcome {
+    pub fn run(self, mut program: Command) -> CommandResult {
         program.build();
         let mut roff = Vec::new();
         let commands = program.get_subcommands();

@@ -1,6 +1,6 @@
 //! `liftsim merge DIR…`: shards into one result.
 
-use super::{Failure, Outcome, print, sweep};
+use super::{CommandResult, Failure, print, sweep};
 use clap::Args;
 use liftsim::results::{Directory, Shard};
 use liftsim::run::{self, Absent, MergeError};
@@ -25,7 +25,7 @@ pub struct Merge {
 
 impl Merge {
     /// Runs the command.
-    pub fn run(self) -> Outcome {
+    pub fn run(self) -> CommandResult {
         let directories: Vec<Directory> =
             self.directories.into_iter().map(Directory::new).collect();
         let origin = run::part(&directories[0]).map_err(Failure::input)?.origin;

@@ -55,7 +55,7 @@ pub enum Failure {
 }
 
 /// How a command ends.
-type Outcome = Result<ExitCode, Failure>;
+type CommandResult = Result<ExitCode, Failure>;
 
 impl Failure {
     fn input(error: impl Into<anyhow::Error>) -> Self {

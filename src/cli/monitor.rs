@@ -1,7 +1,7 @@
 //! `liftsim monitor`: watches a lift, sample by sample, from standard input.
 
 use super::monitor_options::{MonitorArguments, Setup, check_strength};
-use super::{Failure, Outcome, print_to, warn};
+use super::{CommandResult, Failure, print_to, warn};
 use anyhow::{Context, anyhow};
 use clap::{Args, ValueEnum};
 use liftsim::monitor::{Event, Knowledge, Monitor, SavedState};
@@ -66,7 +66,7 @@ type Reading = (Sample, Option<bool>);
 
 impl MonitorCommand {
     /// Runs the command.
-    pub fn run(self) -> Outcome {
+    pub fn run(self) -> CommandResult {
         let Setup { config, saved } = self.options.setup()?;
         let input = BufReader::with_capacity(1 << 16, io::stdin().lock());
         let mut readings = Readings {

@@ -1,8 +1,8 @@
 //! `liftsim plan CONFIG`: what a sweep would do.
 
-use super::{Failure, Outcome, Simulation, print};
+use super::{CommandResult, Failure, Simulation, print};
 use clap::Args;
-use liftsim::run::{Estimate, Experiment};
+use liftsim::run::{Estimate, Runnable};
 use liftsim::stats::tally::Tally;
 use liftsim::study::Loaded;
 use serde_json::json;
@@ -21,7 +21,7 @@ pub struct PlanCommand {
 
 impl PlanCommand {
     /// Runs the command.
-    pub fn run(self) -> Outcome {
+    pub fn run(self) -> CommandResult {
         let study = self.simulation.study()?;
         study.check().map_err(Failure::study)?;
         let trials = study.origin().trials;

@@ -1,7 +1,7 @@
 //! `liftsim plot DIR`: draws the figure again from the stored rows.
 
 use super::store::{line, store};
-use super::{Failure, Outcome, print};
+use super::{CommandResult, Failure, print};
 use clap::Args;
 use liftsim::results::Directory;
 use liftsim::study::{DrawError, Loaded};
@@ -17,7 +17,7 @@ pub struct Plot {
 
 impl Plot {
     /// Runs the command.
-    pub fn run(self) -> Outcome {
+    pub fn run(self) -> CommandResult {
         let directory = Directory::new(self.directory);
         directory.manifest().map_err(Failure::input)?;
         let _lock = directory.lock().map_err(Failure::input)?;

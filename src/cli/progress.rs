@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use liftsim::chain::Decision;
 use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
-use liftsim::run::{self, Outcome, Progress as _, Session};
+use liftsim::run::{self, Progress as _, Session, Tallied};
 use serde_json::json;
 use std::fmt::Write;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -200,7 +200,7 @@ impl run::Progress for Follower<'_> {
 }
 
 /// Runs the plan's pilots, then the plan itself, and saves nothing.
-pub fn simulate(plan: &Plan, reporter: &Reporter) -> Result<(Vec<Decision>, Outcome), Failure> {
+pub fn simulate(plan: &Plan, reporter: &Reporter) -> Result<(Vec<Decision>, Tallied), Failure> {
     let schedule = &plan.schedule;
     reporter.say(&json!({
         "event": "started", "points": plan.points.len(), "trials": schedule.trials,

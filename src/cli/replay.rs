@@ -1,6 +1,6 @@
 //! `liftsim replay CONFIG --point P --trial T`: every stage of one trial.
 
-use super::{Failure, Outcome, Simulation, print};
+use super::{CommandResult, Failure, Simulation, print};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::chain::{Decision, Replay};
@@ -31,7 +31,7 @@ pub struct ReplayCommand {
 
 impl ReplayCommand {
     /// Runs the command.
-    pub fn run(self) -> Outcome {
+    pub fn run(self) -> CommandResult {
         let (_, plan) = self.simulation.prepare(Plan::new)?;
         let (points, trials) = (plan.points.len(), plan.schedule.trials);
         if self.point > points as u64 {

@@ -1,7 +1,7 @@
 //! `liftsim simulate`: a ride as a phone would record it, with the truth beside it.
 
 use super::output::Output;
-use super::{Failure, Outcome, print};
+use super::{CommandResult, Failure, print};
 use anyhow::{Context, anyhow};
 use clap::Args;
 use liftsim::config;
@@ -172,7 +172,7 @@ impl When {
 
 impl Simulate {
     /// Runs the command.
-    pub fn run(self) -> Outcome {
+    pub fn run(self) -> CommandResult {
         if self.out.extension().is_none_or(|e| e != "csv") {
             let out = self.out.display();
             return Err(Failure::Input(anyhow!("--out must end in .csv, got {out}")));

@@ -1,6 +1,6 @@
 //! `liftsim status DIR…`: who has done what.
 
-use super::{Failure, Outcome, print, table};
+use super::{CommandResult, Failure, print, table};
 use clap::Args;
 use liftsim::results::Directory;
 use liftsim::run::Status;
@@ -18,7 +18,7 @@ pub struct StatusCommand {
 
 impl StatusCommand {
     /// Runs the command.
-    pub fn run(self) -> Outcome {
+    pub fn run(self) -> CommandResult {
         let mut rows = Vec::new();
         for directory in &self.directories {
             if !directory.is_dir() {

@@ -2,10 +2,10 @@
 
 use super::progress::{self, Progress, Reporter};
 use super::store::{Written, line, manifest, store};
-use super::{Failure, Outcome, Simulation, print, table};
+use super::{CommandResult, Failure, Simulation, print, table};
 use clap::Args;
 use liftsim::results::{Directory, Manifest, Shard};
-use liftsim::run::{Experiment, Overwrite, Session};
+use liftsim::run::{Overwrite, Runnable, Session};
 use liftsim::study::{Loaded, Output};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -41,7 +41,7 @@ pub struct Sweep {
 
 impl Sweep {
     /// Runs the command.
-    pub fn run(self, quiet: bool) -> Outcome {
+    pub fn run(self, quiet: bool) -> CommandResult {
         let study = self.simulation.study()?;
         if self.shard.is_some() && study.trials().is_none() {
             return Err(Failure::Input(anyhow::anyhow!(

@@ -1,7 +1,7 @@
 //! `liftsim threshold`: C_W(T) and the exact size of a rule.
 
 use super::output::Output;
-use super::{Failure, Outcome, print, table};
+use super::{CommandResult, Failure, print, table};
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use liftsim::detect::{Alternative, NullLaws, Region, Rule, Samples};
@@ -83,7 +83,7 @@ fn size(text: &str) -> Result<usize, Box<dyn Error + Send + Sync>> {
 
 impl Threshold {
     /// Runs the command.
-    pub fn run(self) -> Outcome {
+    pub fn run(self) -> CommandResult {
         let figure = self.figure.as_ref();
         let figure = figure.map(|path| Output::picture(path, self.force));
         let figure = figure.transpose()?;

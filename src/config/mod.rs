@@ -8,7 +8,7 @@ mod tree;
 
 pub use axis::{Axis, AxisValue};
 pub use read::Refusal;
-pub use source::{ConfigError, Conflict, Source, Unfit};
+pub use source::{ConfigError, Conflict, Source};
 pub use tree::{Node, Table, Value};
 
 use serde::de::DeserializeOwned;

@@ -30,9 +30,10 @@ impl Refusal {
 
     /// The same, of a value that stands under `prefix`.
     pub fn within(self, prefix: &str) -> Self {
-        match prefix.is_empty() {
-            true => self,
-            false => self.under(prefix),
+        if prefix.is_empty() {
+            self
+        } else {
+            self.under(prefix)
         }
     }
 
@@ -46,9 +47,10 @@ impl Refusal {
 
 impl Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.path.is_empty() {
-            true => f.write_str(&self.message),
-            false => write!(f, "{}: {}", self.path, self.message),
+        if self.path.is_empty() {
+            f.write_str(&self.message)
+        } else {
+            write!(f, "{}: {}", self.path, self.message)
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::read::Refusal;
 use super::tree::Node;
+use crate::rule::OutOfRange;
 use serde::de::DeserializeOwned;
 use std::error::Error;
 use std::fmt;
@@ -32,35 +33,9 @@ pub struct Conflict {
     pub error: Box<dyn Error + Send + Sync>,
 }
 
-/// A value that does not fit the others of its table.
-#[derive(Debug, thiserror::Error)]
-#[error("{path}: must {rule}, got {got}{remedy}")]
-pub struct Unfit {
-    /// Of the value, such as `impulse_law.nu[1]`.
-    pub path: String,
-    /// What it must do.
-    pub rule: String,
-    /// What stands there.
-    pub got: String,
-    /// What to do, in brackets after a space; or nothing.
-    pub remedy: &'static str,
-}
-
-impl Unfit {
-    /// A value at `path` that must keep `rule`, and what was got instead.
-    pub fn new(path: impl Into<String>, rule: impl Into<String>, got: impl fmt::Display) -> Self {
-        Self {
-            path: path.into(),
-            rule: rule.into(),
-            got: crate::format::shorten(&got.to_string()).into_owned(),
-            remedy: "",
-        }
-    }
-}
-
-impl From<Unfit> for Conflict {
-    fn from(unfit: Unfit) -> Self {
-        Self::of([unfit.path.clone()], unfit)
+impl From<OutOfRange> for Conflict {
+    fn from(error: OutOfRange) -> Self {
+        Self::of([error.key.clone()], error)
     }
 }
 
@@ -212,9 +187,10 @@ fn read(path: &Path) -> Result<String, Unreadable> {
     let mut text = String::new();
     let file = std::fs::File::open(path)?;
     file.take(MOST_BYTES + 1).read_to_string(&mut text)?;
-    match text.len() as u64 > MOST_BYTES {
-        true => Err(Unreadable::TooLarge),
-        false => Ok(text),
+    if text.len() as u64 > MOST_BYTES {
+        Err(Unreadable::TooLarge)
+    } else {
+        Ok(text)
     }
 }
 

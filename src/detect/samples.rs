@@ -4,7 +4,8 @@
 //!
 //! [^1]: see [`crate::signal`].
 
-use crate::values::{OutOfRange, Size};
+use crate::rule::OutOfRange;
+use crate::values::Size;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;

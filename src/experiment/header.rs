@@ -1,6 +1,7 @@
 //! What every experiment says of itself.
 
-use crate::config::{Conflict, Unfit};
+use crate::config::Conflict;
+use crate::rule::OutOfRange;
 use crate::stats::tally::{MOST_TRIALS, trials_for_half_width};
 use crate::values::{Level, bounded_f64};
 use schemars::JsonSchema;
@@ -115,8 +116,8 @@ impl Header {
         if self.trials.is_some() {
             let rule = "be left out where trials is given";
             let remedy = " (both fix the number of trials: leave one of them out)";
-            let unfit = Unfit::new("half_width", rule, half_width);
-            return Err(Unfit { remedy, ..unfit }.into());
+            let unfit = OutOfRange::new("half_width", rule, half_width);
+            return Err(unfit.explained(remedy).into());
         }
         let trials = trials_for_half_width(half_width, self.confidence.get());
         self.set_trials(trials);

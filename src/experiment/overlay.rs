@@ -1,6 +1,7 @@
 //! Curves along an axis: file ⊕ curve ⊕ axis value, laid over each other as they are written.
 
-use crate::config::{Axis, AxisValue, Conflict, Node, Unfit, Value};
+use crate::config::{Axis, AxisValue, Conflict, Node, Value};
+use crate::rule::OutOfRange;
 use serde::Deserialize;
 
 /// What a curve says, and what it says with the file under it.
@@ -97,9 +98,9 @@ impl Overlay {
         if points <= MOST_POINTS {
             return Ok(());
         }
-        let unfit = Unfit::new("points", format!("be at most {MOST_POINTS}"), points);
+        let unfit = OutOfRange::new("points", format!("be at most {MOST_POINTS}"), points);
         let remedy = " (take fewer curves or values)";
-        Err(Conflict::at(&self.axis.span, Unfit { remedy, ..unfit }))
+        Err(Conflict::at(&self.axis.span, unfit.explained(remedy)))
     }
 
     /// What is swept must not be set as well, not in other words either.
@@ -145,7 +146,7 @@ impl Overlay {
             return Ok(label);
         }
         let rule = "be there and differ from every other";
-        let unfit = Unfit::new(path, rule, format_args!("\"{label}\""));
+        let unfit = OutOfRange::new(path, rule, format_args!("\"{label}\""));
         Err(Conflict::at(&place.span, unfit))
     }
 }
@@ -161,12 +162,18 @@ fn curve_tables(table: &Node, prefix: &str) -> Result<Vec<Node>, Conflict> {
         Value::List(list) if list.is_empty() => plain(),
         Value::List(list) if list.len() > MOST_CURVES => {
             let rule = format!("be at most {MOST_CURVES} curves");
-            Err(Conflict::at(&node.span, Unfit::new(path, rule, list.len())))
+            Err(Conflict::at(
+                &node.span,
+                OutOfRange::new(path, rule, list.len()),
+            ))
         }
         Value::List(list) => Ok(list.clone()),
         _ => {
             let rule = "be a list (write [[curve]] for [curve])";
-            Err(Conflict::at(span, Unfit::new(path, rule, "a single one")))
+            Err(Conflict::at(
+                span,
+                OutOfRange::new(path, rule, "a single one"),
+            ))
         }
     }
 }

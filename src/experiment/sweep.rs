@@ -4,7 +4,8 @@ use super::file::{Experiment, SECTIONS, SWEEP};
 use super::header::Header;
 use super::overlay::{Keys, Overlay};
 use crate::claim::{self, Curve, Narrative, Scope};
-use crate::config::{Axis, AxisValue, ConfigError, Conflict, Unfit};
+use crate::config::{Axis, AxisValue, ConfigError, Conflict};
+use crate::rule::OutOfRange;
 use crate::scenario::{PARAMETERS, Parameter, Scenario, parameter};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -164,8 +165,8 @@ fn check_order(axis: &Axis) -> Result<(), Conflict> {
         Some(value) if axis.name == "order" => {
             let remedy =
                 " (sweep another parameter and give a curve whitening = { order = \"auto\" })";
-            let unfit = Unfit::new("axis.order", "be whole numbers", value);
-            Err(Conflict::at(&axis.span, Unfit { remedy, ..unfit }))
+            let unfit = OutOfRange::new("axis.order", "be whole numbers", value);
+            Err(Conflict::at(&axis.span, unfit.explained(remedy)))
         }
         _ => Ok(()),
     }
@@ -179,7 +180,7 @@ fn curves(experiment: &Experiment, overlay: &Overlay) -> Result<Vec<Curve>, Conf
         let CurveHeader { panel, series, .. } = experiment.source.read(&laid.header, &prefix)?;
         let refuse = |key: &str, rule: &str, got: &str| {
             let label = laid.header.get("label").map(|label| label.span.clone());
-            let unfit = Unfit::new(format!("{prefix}.{key}"), rule, got);
+            let unfit = OutOfRange::new(format!("{prefix}.{key}"), rule, got);
             Err(experiment.source.at(label, unfit))
         };
         if let Some(first) = curves.first()

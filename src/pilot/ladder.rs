@@ -56,9 +56,10 @@ impl Ladder {
         for _ in 0..40 {
             let middle = f64::midpoint(low, high);
             let region = self.region(middle);
-            match keeps(&region) {
-                true => (low, kept) = (middle, region),
-                false => high = middle,
+            if keeps(&region) {
+                (low, kept) = (middle, region)
+            } else {
+                high = middle
             }
         }
         kept

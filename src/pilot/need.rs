@@ -130,12 +130,13 @@ impl Need {
             Calibration::Promise => ladder.climb(detector.alpha, keeps),
             Calibration::Measured { .. } => ladder.search(keeps),
         };
-        match region.size() > 0.0 {
-            true => Ok(Decision::Region {
+        if region.size() > 0.0 {
+            Ok(Decision::Region {
                 region: Arc::new(region),
                 ties: detector.ties,
-            }),
-            false => Err(nothing(self.curve.clone(), detector, self.pilot)),
+            })
+        } else {
+            Err(nothing(self.curve.clone(), detector, self.pilot))
         }
     }
 }
@@ -197,9 +198,10 @@ fn allowed(detector: &Detector, pilot: u64) -> Option<u64> {
     let (mut shown, mut not_shown) = (0, expected + 1);
     while shown < not_shown {
         let middle = shown + (not_shown - shown) / 2;
-        match is_shown(middle) {
-            true => shown = middle + 1,
-            false => not_shown = middle,
+        if is_shown(middle) {
+            shown = middle + 1
+        } else {
+            not_shown = middle
         }
     }
     shown.checked_sub(1)

@@ -184,12 +184,11 @@ impl Directory {
 
     fn vouched(&self, name: &str, manifest: &Manifest) -> Result<Vec<u8>, ResultsError> {
         let (path, bytes) = self.read(name)?;
-        match manifest.files.get(name) == Some(&sha256(&bytes)) {
-            true => Ok(bytes),
-            false => {
-                let error = "its bytes are not those that run.json vouches for".to_owned();
-                Err(ResultsError::Damaged { path, error })
-            }
+        if manifest.files.get(name) == Some(&sha256(&bytes)) {
+            Ok(bytes)
+        } else {
+            let error = "its bytes are not those that run.json vouches for".to_owned();
+            Err(ResultsError::Damaged { path, error })
         }
     }
 

@@ -1,6 +1,6 @@
 //! What a directory has, as counts; and whether they may be gone on with.
 
-use super::{Experiment, Identity, StudyError, Target, Trials};
+use super::{Identity, Runnable, StudyError, Target, Trials};
 use crate::counts::Counts;
 use crate::results::{Checkpoint, Directory, Manifest, RESULTS, ResultsError};
 use std::collections::BTreeSet;
@@ -28,7 +28,7 @@ impl Existing {
     /// Reads the counts of a run that is not over or, where there are none, those of a finished result.
     pub fn read(
         directory: &Directory,
-        experiment: &dyn Experiment,
+        experiment: &dyn Runnable,
         overwrite: Overwrite,
     ) -> Result<Option<Self>, ResultsError> {
         if overwrite == Overwrite::Fresh {
@@ -51,7 +51,7 @@ impl Existing {
     }
 
     /// A finished result, with its counts where they can be told from it.
-    fn finished(directory: &Directory, experiment: &dyn Experiment) -> Result<Self, ResultsError> {
+    fn finished(directory: &Directory, experiment: &dyn Runnable) -> Result<Self, ResultsError> {
         let manifest = directory.manifest()?;
         let points = directory.points(&manifest)?;
         let comparisons = directory.comparisons(&manifest)?;
@@ -80,7 +80,7 @@ impl Existing {
         &self,
         directory: &Directory,
         here: &Checkpoint,
-        experiment: &dyn Experiment,
+        experiment: &dyn Runnable,
         overwrite: Overwrite,
     ) -> Result<(), ResultsError> {
         let path = directory.path().to_owned();
@@ -97,7 +97,7 @@ impl Existing {
 
     /// The first thing that keeps these counts from being those of the run `here`; labels, captions, claims
     /// and the number of trials do not count, nor does what is not here yet.
-    fn difference(&self, here: &Checkpoint, experiment: &dyn Experiment) -> Option<String> {
+    fn difference(&self, here: &Checkpoint, experiment: &dyn Runnable) -> Option<String> {
         let (there, origin) = (&self.state.origin, &here.origin);
         let differs = |name, there: &dyn ToString, here: &dyn ToString| {
             let (there, here) = (there.to_string(), here.to_string());
@@ -123,7 +123,7 @@ impl Existing {
     }
 
     /// What is another study, or a point that is not here.
-    fn points_difference(&self, experiment: &dyn Experiment) -> Option<String> {
+    fn points_difference(&self, experiment: &dyn Runnable) -> Option<String> {
         let Some(there) = experiment.of(&self.state.origin) else {
             return Some("its config cannot be read any more".to_owned());
         };

@@ -1,7 +1,7 @@
 //! Shards of one experiment, joined.
 
 use super::existing::check;
-use super::{Experiment, Overwrite, Session, StudyError, Trials};
+use super::{Overwrite, Runnable, Session, StudyError, Trials};
 use crate::counts::{Counts, CountsError, Key};
 use crate::results::{Checkpoint, Directory, RESULTS, ResultsError, Shard};
 use crate::rule::OutOfRange;
@@ -71,7 +71,7 @@ pub fn part(directory: &Directory) -> Result<Checkpoint, MergeError> {
 /// Where a shard has none or none that it can have, two are of different experiments or hold the same trials, or
 /// the directory holds another experiment or trials that the shards have not.
 pub fn merge<'a>(
-    experiment: &'a dyn Experiment,
+    experiment: &'a dyn Runnable,
     shards: &[Directory],
     directory: Directory,
 ) -> Result<(Session<'a>, Absent), MergeError> {
@@ -92,7 +92,7 @@ pub fn merge<'a>(
 
 /// The counts of all, and what is not among them.
 fn join(
-    experiment: &dyn Experiment,
+    experiment: &dyn Runnable,
     directories: &[Directory],
 ) -> Result<(Checkpoint, Absent), MergeError> {
     let trials = experiment.trials().unwrap_or_else(|| Box::new(()));

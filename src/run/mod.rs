@@ -42,5 +42,5 @@ pub use merge::{Absent, MergeError, merge, part};
 pub use missing::Missing;
 pub use session::Session;
 pub use status::{State, Status};
-pub use tally::{Outcome, run};
-pub use trials::{Experiment, Group, Progress, Simulation, StudyError, Target, Trials};
+pub use tally::{Tallied, run};
+pub use trials::{Group, Progress, Runnable, Simulation, StudyError, Target, Trials};

@@ -3,7 +3,7 @@
 use super::existing::{Existing, Overwrite, check};
 use super::missing::Work;
 use super::save::Saver;
-use super::{Experiment, Missing, Progress, StudyError, Target, Trials};
+use super::{Missing, Progress, Runnable, StudyError, Target, Trials};
 use crate::counts::Counts;
 use crate::results::{Checkpoint, Directory, Lock, Manifest, ResultsError, Shard};
 use std::time::{Duration, Instant};
@@ -29,7 +29,7 @@ impl<'a> Session<'a> {
     /// # Errors
     /// Where the directory is in use, cannot be written, or holds what is not to be overwritten.
     pub fn open(
-        experiment: &'a dyn Experiment,
+        experiment: &'a dyn Runnable,
         directory: Directory,
         shard: Option<Shard>,
         overwrite: Overwrite,

@@ -9,7 +9,7 @@ use crate::stats::tally::Tally;
 
 /// What a run comes to.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Outcome {
+pub struct Tallied {
     /// Of every point of the plan.
     pub tallies: Vec<Tally>,
     /// Of every pair: trials in which the first alone, the second alone decided for H₁; none where
@@ -24,14 +24,14 @@ pub fn run(
     decisions: &[Decision],
     pairs: &[[usize; 2]],
     progress: impl Fn(u64) + Sync,
-) -> Outcome {
+) -> Tallied {
     let families = Families::new(plan, pairs.to_vec());
     let decisions = Decisions::new(decisions.iter().cloned());
     let new = || Tallies::new(&decisions, &families);
     let counts = plan.schedule.run(new, progress);
     let trials = plan.schedule.trials;
     let tallies = counts.hits.iter();
-    Outcome {
+    Tallied {
         tallies: tallies.map(|&hits| Tally { hits, trials }).collect(),
         discordant: (0..pairs.len())
             .map(|pair| families.share(pair).then(|| counts.discordant[pair]))

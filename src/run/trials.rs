@@ -139,8 +139,8 @@ pub trait Progress: Sync {
 /// Nobody is told.
 impl Progress for () {}
 
-/// What a directory is to hold: a study, and the numbers of this run.
-pub trait Experiment {
+/// What can be run in a directory: a study, and the numbers of this run.
+pub trait Runnable {
     /// The name of the study's table.
     fn name(&self) -> &'static str;
 
@@ -164,5 +164,5 @@ pub trait Experiment {
     ) -> Result<Option<Counts>, csv::Error>;
 
     /// The experiment behind other results; none where this version cannot read its config.
-    fn of(&self, origin: &Origin) -> Option<Box<dyn Experiment>>;
+    fn of(&self, origin: &Origin) -> Option<Box<dyn Runnable>>;
 }

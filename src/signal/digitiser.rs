@@ -3,7 +3,8 @@
 //! A quantised record has ties, and a clipped one is not linear in Δ; both break an assumption of
 //! the exact laws, which is why they can be simulated.
 
-use crate::values::{OutOfRange, Positive, bounded_f64};
+use crate::rule::OutOfRange;
+use crate::values::{Positive, bounded_f64};
 
 /// Rounds to multiples of a quantum, then clips.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

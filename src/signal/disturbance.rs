@@ -10,8 +10,9 @@
 //!
 //! [^1]: see [`crate::signal`].
 
+use crate::rule::OutOfRange;
 use crate::simd::Value;
-use crate::values::{OutOfRange, Probability, bounded_f64};
+use crate::values::{Probability, bounded_f64};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;

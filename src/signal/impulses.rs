@@ -9,7 +9,8 @@
 //!
 //! [^1]: see [`crate::signal`].
 
-use crate::values::{NonNegative, OutOfRange, Probability};
+use crate::rule::OutOfRange;
+use crate::values::{NonNegative, Probability};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;

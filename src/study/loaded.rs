@@ -5,18 +5,18 @@ use super::kind::Context;
 use super::registry::{STUDIES, parse};
 use crate::claim::{Evidence, Narrative};
 use crate::counts::Counts;
-use crate::experiment::Experiment as Config;
+use crate::experiment::Experiment;
 use crate::figure::Drawing;
 use crate::report::Section;
 use crate::results::{
     Comparison, Directory, Manifest, Origin, Quantity, RESULTS, ResultsError, file_name,
 };
-use crate::run::{Experiment, Identity, StudyError, Trials};
+use crate::run::{Identity, Runnable, StudyError, Trials};
 
 /// A config's study, with the numbers of this run.
 pub struct Loaded {
     study: Box<dyn AnyStudy>,
-    config: Config,
+    config: Experiment,
     narrative: Narrative,
     origin: Origin,
 }
@@ -26,7 +26,7 @@ impl Loaded {
     ///
     /// # Errors
     /// Where a parameter of a point is out of range, or no region or record can be made for it.
-    pub fn new(config: Config) -> Result<Self, StudyError> {
+    pub fn new(config: Experiment) -> Result<Self, StudyError> {
         let mut studies = STUDIES.iter();
         let entry = studies.find(|entry| entry.name == config.study());
         let entry = entry.expect("a config names a study");
@@ -130,7 +130,7 @@ impl Loaded {
     }
 }
 
-impl Experiment for Loaded {
+impl Runnable for Loaded {
     fn name(&self) -> &'static str {
         self.study.name()
     }
@@ -155,7 +155,7 @@ impl Experiment for Loaded {
         self.study.recall(points, comparisons)
     }
 
-    fn of(&self, origin: &Origin) -> Option<Box<dyn Experiment>> {
+    fn of(&self, origin: &Origin) -> Option<Box<dyn Runnable>> {
         let there = Self::again(origin).ok()?;
         Some(Box::new(there))
     }
@@ -176,7 +176,7 @@ impl Loaded {
 }
 
 /// What a config's results are known by.
-fn origin(config: &Config, trials: u64) -> Origin {
+fn origin(config: &Experiment, trials: u64) -> Origin {
     let header = &config.header;
     Origin {
         config_name: file_name(config.name()),

@@ -195,9 +195,10 @@ fn choices(schema: &Value) -> String {
             Some(format!("`{name}`: {}", meaning.trim_end_matches('.')))
         })
         .collect();
-    match said.is_empty() {
-        true => String::new(),
-        false => format!(" {}.", said.join("; ")),
+    if said.is_empty() {
+        String::new()
+    } else {
+        format!(" {}.", said.join("; "))
     }
 }
 
@@ -229,10 +230,13 @@ fn kind(schema: &Value) -> String {
         name => Some(name),
     };
     match name.and_then(Value::as_str) {
-        Some("array") => match schema["items"].is_null() {
-            true => "list".to_owned(),
-            false => format!("list of: {}", kind(&schema["items"])),
-        },
+        Some("array") => {
+            if schema["items"].is_null() {
+                "list".to_owned()
+            } else {
+                format!("list of: {}", kind(&schema["items"]))
+            }
+        }
         Some("object") => {
             let keys = schema["properties"].as_object();
             let keys: Vec<&str> = keys
@@ -260,8 +264,9 @@ fn bounds(schema: &Value) -> String {
         bound("exclusiveMaximum", "<"),
     ];
     let bounds: Vec<String> = bounds.into_iter().flatten().collect();
-    match bounds.is_empty() {
-        true => String::new(),
-        false => format!(" {}", bounds.join(", ")),
+    if bounds.is_empty() {
+        String::new()
+    } else {
+        format!(" {}", bounds.join(", "))
     }
 }

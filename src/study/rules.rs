@@ -1,6 +1,7 @@
 //! Rules for the values that the table of a study lists.
 
-use crate::config::{Conflict, Unfit};
+use crate::config::Conflict;
+use crate::rule::OutOfRange;
 use std::fmt::{Debug, Display};
 use std::ops::RangeInclusive;
 
@@ -14,7 +15,7 @@ pub(super) fn within(
         return Ok(());
     }
     let rule = format!("lie in {} to {}", allowed.start(), allowed.end());
-    Err(Unfit::new(path, rule, value).into())
+    Err(OutOfRange::new(path, rule, value).into())
 }
 
 /// Refuses an empty list, one of more than `most`, and the first value that stands there before.
@@ -26,18 +27,18 @@ pub(super) fn distinct<T: PartialEq + Debug>(
     show: impl Fn(&T) -> String,
 ) -> Result<(), Conflict> {
     if values.is_empty() {
-        return Err(Unfit::new(path, format!("list at least one {one}"), "none").into());
+        return Err(OutOfRange::new(path, format!("list at least one {one}"), "none").into());
     }
     if values.len() > most {
         return Err(
-            Unfit::new(path, format!("list at most {most} {several}"), values.len()).into(),
+            OutOfRange::new(path, format!("list at most {most} {several}"), values.len()).into(),
         );
     }
     let again = (1..values.len()).find(|&i| values[..i].contains(&values[i]));
     match again {
         Some(i) => {
             let got = format!("{} twice", show(&values[i]));
-            Err(Unfit::new(format!("{path}[{i}]"), "differ from the others", got).into())
+            Err(OutOfRange::new(format!("{path}[{i}]"), "differ from the others", got).into())
         }
         None => Ok(()),
     }
@@ -51,7 +52,7 @@ pub(super) fn each<T: Display>(
     holds: impl Fn(&T) -> bool,
 ) -> Result<(), Conflict> {
     match values.iter().position(|value| !holds(value)) {
-        Some(i) => Err(Unfit::new(format!("{path}[{i}]"), rule, &values[i]).into()),
+        Some(i) => Err(OutOfRange::new(format!("{path}[{i}]"), rule, &values[i]).into()),
         None => Ok(()),
     }
 }

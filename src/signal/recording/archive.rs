@@ -101,12 +101,11 @@ struct Found {
 
 impl Found {
     fn open(&self, source: &Source) -> Result<Source, RecordingError> {
-        match self.is_packed_otherwise {
-            true => {
-                let problem = RecordingProblem::Packing(self.member.name.clone());
-                Err(source.error(None, problem))
-            }
-            false => Ok(source.with_member(self.member.clone())),
+        if self.is_packed_otherwise {
+            let problem = RecordingProblem::Packing(self.member.name.clone());
+            Err(source.error(None, problem))
+        } else {
+            Ok(source.with_member(self.member.clone()))
         }
     }
 

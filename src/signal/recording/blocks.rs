@@ -86,8 +86,9 @@ impl Blocks {
 
 fn median(mut values: Vec<f64>) -> f64 {
     let middle = values.len() / 2;
-    match values.is_empty() {
-        true => 0.0,
-        false => *values.select_nth_unstable_by(middle, f64::total_cmp).1,
+    if values.is_empty() {
+        0.0
+    } else {
+        *values.select_nth_unstable_by(middle, f64::total_cmp).1
     }
 }

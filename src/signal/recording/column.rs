@@ -102,9 +102,10 @@ impl Column {
         let word: String = words.chars().filter(|c| c.is_alphanumeric()).collect();
         let word = word.to_lowercase();
         let is_foreign = unit_name.is_some() && time_unit.is_none() && unit.is_none();
-        let role = match is_foreign {
-            true => Role::Other,
-            false => role(&word, time_unit, unit, owner),
+        let role = if is_foreign {
+            Role::Other
+        } else {
+            role(&word, time_unit, unit, owner)
         };
         Self {
             name: name.to_owned(),
@@ -142,9 +143,10 @@ fn role(word: &str, time_unit: Option<TimeUnit>, unit: Option<Unit>, owner: &str
             return Role::Along { axis, gravity };
         }
     }
-    match is_stated || ACCELERATIONS.contains(&word) || LINEAR.contains(&word) {
-        true => Role::Acceleration,
-        false => Role::Other,
+    if is_stated || ACCELERATIONS.contains(&word) || LINEAR.contains(&word) {
+        Role::Acceleration
+    } else {
+        Role::Other
     }
 }
 

@@ -83,9 +83,10 @@ impl Layout {
         let mut splitter = Splitter::new(delimiter);
         splitter.split(first);
         let is_headed = !is_row(&splitter, delimiter);
-        let columns = match is_headed {
-            true => headed(&splitter, owner),
-            false => numbered(splitter.cells().count()),
+        let columns = if is_headed {
+            headed(&splitter, owner)
+        } else {
+            numbered(splitter.cells().count())
         };
         let is_told = reading.time.is_some() && reading.acceleration.is_some();
         if let (false, false, width @ 3..) = (is_headed, is_told, columns.len()) {

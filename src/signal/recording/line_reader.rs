@@ -92,9 +92,10 @@ pub enum LineError {
 }
 
 fn layout(has_drum: bool) -> &'static str {
-    match has_drum {
-        false => "`acceleration` or `time,acceleration`",
-        true => "`acceleration,drum` or `time,acceleration,drum`, the drum 0 or 1",
+    if has_drum {
+        "`acceleration,drum` or `time,acceleration,drum`, the drum 0 or 1"
+    } else {
+        "`acceleration` or `time,acceleration`"
     }
 }
 

@@ -259,18 +259,20 @@ fn vertical(
 /// Seconds are a guess where nothing is said, and a rate that no sensor of lifts has shows it to be wrong.
 /// What is said is believed, but for rates that no clock can tell.
 fn check_clock(layout: &Layout, facts: &Facts) -> Result<(), RecordingProblem> {
-    let believed = match layout.is_time_unit_stated {
-        true => 1e-3..=1e7,
-        false => 2.0..=5e4,
+    let believed = if layout.is_time_unit_stated {
+        1e-3..=1e7
+    } else {
+        2.0..=5e4
     };
-    match believed.contains(&facts.rate) {
-        true => Ok(()),
-        false => Err(RecordingProblem::Rate {
+    if believed.contains(&facts.rate) {
+        Ok(())
+    } else {
+        Err(RecordingProblem::Rate {
             column: layout.columns[layout.time].name.clone(),
             unit: layout.time_unit,
             rate: facts.rate,
             likely: likely_unit(layout.time_unit, facts.rate),
-        }),
+        })
     }
 }
 

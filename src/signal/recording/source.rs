@@ -120,9 +120,10 @@ impl Source {
             .map_err(|error| self.error(None, RecordingProblem::Unreadable(error)))?;
         let packed = BufReader::with_capacity(BUFFER, bytes).take(member.packed);
         let checksum = member.checksum;
-        Ok(match member.is_deflated {
-            true => decoded(Checked::new(DeflateDecoder::new(packed), checksum)),
-            false => decoded(Checked::new(packed, checksum)),
+        Ok(if member.is_deflated {
+            decoded(Checked::new(DeflateDecoder::new(packed), checksum))
+        } else {
+            decoded(Checked::new(packed, checksum))
         })
     }
 }

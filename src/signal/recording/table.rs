@@ -123,9 +123,10 @@ impl Table {
         match read {
             Cell::NotFinite => RecordingProblem::NotFinite { column, got },
             _ => RecordingProblem::NotANumber {
-                remedy: match is_date(cell) {
-                    true => " (dates are not read: write times as numbers, in s from any start)",
-                    false => "",
+                remedy: if is_date(cell) {
+                    " (dates are not read: write times as numbers, in s from any start)"
+                } else {
+                    ""
                 },
                 column,
                 got,

@@ -20,13 +20,14 @@ mod row;
 pub use row::Row;
 
 use crate::chain::Scenario;
-use crate::config::{Conflict, Unfit};
+use crate::config::Conflict;
 use crate::counts::{Counts, Fixed, Shape, Sums};
 use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::{Quantity, eight_digits};
 use crate::rng::Stream;
+use crate::rule::OutOfRange;
 use crate::run::{Group, Identity, Simulation, StudyError, Target, Trials};
 use crate::signal::{Law, Sensor, Transfer};
 use crate::stats::normal::two_sided_quantile;
@@ -88,8 +89,8 @@ impl Keys {
         within("autocorrelation.lags", self.lags, 1..=most)?;
         if context.trials < 2 {
             let remedy = " (one record has no deviation)";
-            let unfit = Unfit::new("trials", "be at least 2", context.trials);
-            return Err(Unfit { remedy, ..unfit }.into());
+            let unfit = OutOfRange::new("trials", "be at least 2", context.trials);
+            return Err(unfit.explained(remedy).into());
         }
         match Law::from(scenario.noise) {
             Law::Cauchy => {}
@@ -98,9 +99,9 @@ impl Keys {
         }
         // The band is that of a mean of squares, which a heavy tail does not have.
         let rule = "have a fourth moment, which the band of an autocorrelation needs";
-        let unfit = Unfit::new("noise.law", rule, scenario.noise);
+        let unfit = OutOfRange::new("noise.law", rule, scenario.noise);
         let remedy = " (take another law, or a student_t above 4)";
-        Err(Unfit { remedy, ..unfit }.into())
+        Err(unfit.explained(remedy).into())
     }
 }
 

@@ -12,12 +12,13 @@ mod row;
 
 pub use row::{Finding, Row, findings};
 
-use crate::config::{Conflict, Unfit};
+use crate::config::Conflict;
 use crate::counts::Counts;
 use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::Quantity;
+use crate::rule::OutOfRange;
 use crate::run::{Identity, StudyError};
 use crate::study::kind::{Context, Study, Table};
 use crate::study::rules::distinct;
@@ -45,7 +46,7 @@ impl Independence {
         const PATH: &str = "independence.sizes";
         for (i, sizes) in self.sizes.iter().enumerate() {
             let unfit = |rule: String| {
-                Err(Unfit::new(format!("{PATH}[{i}]"), rule, format!("{sizes:?}")).into())
+                Err(OutOfRange::new(format!("{PATH}[{i}]"), rule, format!("{sizes:?}")).into())
             };
             if sizes.contains(&0) {
                 return unfit("be at least 1 each".to_owned());

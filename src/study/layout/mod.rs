@@ -10,11 +10,12 @@ mod row;
 pub use row::Row;
 
 use crate::chain::Scenario;
-use crate::config::{Conflict, Unfit};
+use crate::config::Conflict;
 use crate::counts::Counts;
 use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
+use crate::rule::OutOfRange;
 use crate::run::{Identity, StudyError};
 use crate::study::kind::{Context, Study};
 use schemars::{JsonSchema, SchemaGenerator};
@@ -40,7 +41,7 @@ impl Layout {
             return Ok(());
         }
         let rule = format!("span at most {LONGEST} observations");
-        Err(Unfit::new("layout.samples", rule, length).into())
+        Err(OutOfRange::new("layout.samples", rule, length).into())
     }
 }
 
@@ -107,9 +108,10 @@ fn rows(scenario: &Scenario) -> Vec<Row> {
     let (shift, scale) = (samples.shift_range(), samples.scale_range());
     let end = from_motion(scale.end);
     let first = from_motion(0);
-    let training = match scenario.whitening.includes_reference() {
-        true => -(scenario.whitening.training() as i64),
-        false => first - scenario.whitening.training() as i64,
+    let training = if scenario.whitening.includes_reference() {
+        -(scenario.whitening.training() as i64)
+    } else {
+        first - scenario.whitening.training() as i64
     };
     let training_end = if scenario.whitening.includes_reference() {
         0

@@ -1,9 +1,10 @@
 //! What is looked for, and the scenario of each size with its grids of Δ.
 
 use crate::chain::{Purpose, RecordTooLong, Scenario};
-use crate::config::{Conflict, Unfit};
+use crate::config::Conflict;
 use crate::detect::{Method, NullLaws, Region, RegionError, Samples};
 use crate::results;
+use crate::rule::OutOfRange;
 use crate::run::{Identity, StudyError};
 use crate::scenario::ScenarioError;
 use crate::schedule::Schedule;
@@ -69,7 +70,7 @@ impl Search {
         })?;
         if delta.from >= delta.to {
             let got = format!("{} to {}", delta.from, delta.to);
-            let unfit = Unfit::new("operating_point.delta", "rise from `from` to `to`", got);
+            let unfit = OutOfRange::new("operating_point.delta", "rise from `from` to `to`", got);
             return Err(unfit.into());
         }
         Ok(())
@@ -104,7 +105,7 @@ impl Sized {
         let Method::Rule(rule) = &detector.method else {
             let name = detector.method.name();
             let rule = "have an exact region (name wilcoxon, product, disjunction or conjunction)";
-            return Err(Unfit::new("detector.rule", rule, name).into());
+            return Err(OutOfRange::new("detector.rule", rule, name).into());
         };
         let laws = NullLaws::new(detector.alternative, &samples).map_err(RegionError::from)?;
         let region = laws.region(rule, detector.alpha)?;

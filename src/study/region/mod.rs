@@ -8,12 +8,13 @@ mod row;
 pub use row::Row;
 
 use crate::chain::Scenario;
-use crate::config::{Conflict, Unfit};
+use crate::config::Conflict;
 use crate::counts::Counts;
 use crate::detect::{Method, NullLaws, Region, RegionError, Rule};
 use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
+use crate::rule::OutOfRange;
 use crate::run::{Identity, StudyError};
 use crate::scenario::ScenarioError;
 use crate::study::kind::{Context, Study};
@@ -47,7 +48,7 @@ fn with_regions(methods: Vec<Method>) -> Result<Vec<Rule>, Conflict> {
         Method::Rule(rule) => Ok(rule),
         other => {
             let must = "have an exact region (name wilcoxon, product, disjunction or conjunction)";
-            Err(Unfit::new(format!("region.rules[{i}]"), must, other).into())
+            Err(OutOfRange::new(format!("region.rules[{i}]"), must, other).into())
         }
     };
     methods.into_iter().enumerate().map(rule).collect()

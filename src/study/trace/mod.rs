@@ -228,9 +228,10 @@ impl<'a> Ride<'a> {
     fn training(&self) -> std::ops::Range<usize> {
         let scenario = &self.config.scenario;
         let start = self.reference_start();
-        let end = match scenario.whitening.includes_reference() {
-            true => start + scenario.samples.reference(),
-            false => start,
+        let end = if scenario.whitening.includes_reference() {
+            start + scenario.samples.reference()
+        } else {
+            start
         };
         end - scenario.whitening.training()..end
     }
@@ -318,9 +319,10 @@ fn vibration(config: &Realisation, trace: &Trace) -> Vec<f64> {
     let normal = Noise::new(Law::Normal).expect("the normal law has no parameter");
     normal.fill(&mut generator, &mut vibration);
     for (value, (part, _)) in vibration.iter_mut().zip(samples(trace)) {
-        *value *= match part.phase.moves() {
-            true => trace.vibration,
-            false => 0.0,
+        *value *= if part.phase.moves() {
+            trace.vibration
+        } else {
+            0.0
         };
     }
     vibration

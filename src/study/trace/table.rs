@@ -1,7 +1,8 @@
 //! `[trace]`: a ride in phases, and how it is shown.
 
-use crate::config::{Conflict, Node, Unfit, Value};
+use crate::config::{Conflict, Node, Value};
 use crate::detect::Samples;
+use crate::rule::OutOfRange;
 use crate::scenario::Scenario;
 use crate::signal::Phase;
 use crate::values::{NonNegative, Positive, Size, number};
@@ -114,14 +115,14 @@ impl Trace {
         let length = lengths.fold(0usize, usize::saturating_add);
         if !(1..=LONGEST).contains(&length) {
             let rule = format!("hold 1 to {LONGEST} samples");
-            return Err(Unfit::new("trace.phases", rule, length).into());
+            return Err(OutOfRange::new("trace.phases", rule, length).into());
         }
         if self.unit.trim().is_empty() {
-            return Err(Unfit::new("trace.unit", "have a name", "\"\"").into());
+            return Err(OutOfRange::new("trace.unit", "have a name", "\"\"").into());
         }
         if self.drawn_from >= length {
             let rule = format!("lie in 0 to {}", length - 1);
-            return Err(Unfit::new("trace.drawn_from", rule, self.drawn_from).into());
+            return Err(OutOfRange::new("trace.drawn_from", rule, self.drawn_from).into());
         }
         Ok(())
     }
@@ -147,8 +148,8 @@ impl Trace {
         }
         const LENGTHEN: &str = " (lengthen them, or leave whitened out)";
         let refuse = |rule: String, got: usize, remedy| {
-            let unfit = Unfit::new("trace.phases", rule, got);
-            Err(Unfit { remedy, ..unfit }.into())
+            let unfit = OutOfRange::new("trace.phases", rule, got);
+            Err(unfit.explained(remedy).into())
         };
         let samples = &scenario.samples;
         let before = scenario.whitening.lead() + samples.reference();
