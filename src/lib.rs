@@ -32,15 +32,16 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | 0 | [`rng`]: coordinates → generator · [`stats`]: exact tails, intervals, tests · [`values`], [`rule`]: what a number must be · [`counts`]: sums by what they count, and of which trials · [`mod@format`], [`suggest`], [`fields`], [`files`]: text and files · [`simd`]: trials side by side |
-//! | 1 | [`signal`]: sensor, noise, impulses, motion, rides · [`whiten`]: filters · [`detect`]: W, T, their laws, regions · [`config`]: what a file says, with its places · [`claim`]: verdicts · [`plot`]: what a picture says |
-//! | 2 | [`monitor`]: one lift, sample by sample · [`scenario`]: what a point simulates, every parameter · [`report`]: the report |
-//! | 3 | [`chain`]: one trial, every stage · [`detection`]: what a monitor finds in a recording · [`experiment`]: what the author wrote |
-//! | 4 | [`schedule`]: blocks of trials in parallel · [`figure`]: PNG and SVG |
-//! | 5 | [`plan`]: every point with its scenario and region |
-//! | 6 | [`pilot`]: decisions that no law gives · [`gate`]: the false-alarm test · [`results`]: files |
-//! | 7 | [`run`]: what is wanted, what is there, what is missing |
-//! | 8 | [`study`]: what a config's table describes |
+//! | 0 | [`rng`]: coordinates → generator · [`stats`]: exact tails, intervals, tests · [`counts`]: sums by what they count, and of which trials · [`mod@format`], [`suggest`], [`fields`], [`files`]: text and files · [`simd`]: trials side by side |
+//! | 1, 2 | [`rule`], [`values`]: what a value must be |
+//! | 3 | [`signal`]: sensor, noise, impulses, motion, rides · [`whiten`]: filters · [`detect`]: W, T, their laws, regions · [`config`]: what a file says, with its places · [`claim`]: verdicts · [`plot`]: what a picture says |
+//! | 4 | [`monitor`]: one lift, sample by sample · [`scenario`]: what a point simulates, every parameter · [`report`]: the report |
+//! | 5 | [`chain`]: one trial, every stage · [`detection`]: what a monitor finds in a recording · [`experiment`]: what the author wrote |
+//! | 6 | [`schedule`]: blocks of trials in parallel · [`figure`]: PNG and SVG |
+//! | 7 | [`plan`]: every point with its scenario and region |
+//! | 8 | [`pilot`]: decisions that no law gives · [`gate`]: the false-alarm test · [`results`]: files |
+//! | 9 | [`run`]: what is wanted, what is there, what is missing |
+//! | 10 | [`study`]: what a config's table describes |
 //!
 //! # A walk
 //! From `delta = [0.0, 0.5, 1.0]` under `[axis]` to a row of `points.csv`, file by file:

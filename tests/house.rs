@@ -8,8 +8,11 @@ use std::path::{Path, PathBuf};
 const FLOORS: &[&[&str]] = &[
     // Numbers, text and files without a domain.
     &[
-        "rng", "simd", "stats", "values", "rule", "fields", "format", "files", "suggest", "counts",
+        "rng", "simd", "stats", "fields", "format", "files", "suggest", "counts",
     ],
+    // What a value must be.
+    &["rule"],
+    &["values"],
     // The world, and what config, claims and pictures say, each without the others.
     &["signal", "whiten", "detect", "config", "claim", "plot"],
     // Estimators; what a point simulates.
@@ -270,6 +273,26 @@ fn no_files_form_a_circle() {
         .map(|circle| circle.iter().cloned().collect::<Vec<_>>().join(", "))
         .collect();
     assert!(circles.is_empty(), "circles:\n{}", circles.join("\n"));
+}
+
+/// Pictures, verdicts and files are made of values, wherever these come from; a config is text and places, whatever
+/// these mean.
+#[test]
+fn configs_and_what_is_made_of_them_are_apart() {
+    let house = House::new();
+    for module in house.code.keys() {
+        let own = room(module);
+        for file in house.needs(module) {
+            let other = room(&file);
+            if ["plot", "figure", "claim", "results"].contains(&own) {
+                assert!(other != "config", "{module} imports {file}");
+            }
+            if own == "config" {
+                let known = ["config", "rule", "format", "suggest"];
+                assert!(known.contains(&other), "{module} imports {file}");
+            }
+        }
+    }
 }
 
 /// Terminals, argument lists and exit codes belong to the program, not to the library.
