@@ -2,7 +2,7 @@
 
 use super::any::{AnyStudy, DrawError, Output};
 use super::kind::Context;
-use super::registry::{STUDIES, parse};
+use super::{STUDIES, parse};
 use crate::claim::{Evidence, Narrative};
 use crate::counts::Counts;
 use crate::experiment::Experiment;

@@ -1,7 +1,7 @@
 //! The reference of every table and key, written from the types that read them: a JSON Schema for editors, and
 //! the same in words.
 
-use super::registry::STUDIES;
+use super::STUDIES;
 use crate::claim::Narrative;
 use crate::detection::RecordingTable;
 use crate::experiment::schema::properties;
