@@ -14,7 +14,7 @@ pub use parameters::{Caption, Cell, PARAMETERS, Parameter, Values, Words, column
 pub use sections::{NoiseSection, Sections};
 
 use crate::detect::{Alternative, Method, Rule, Samples, Ties};
-use crate::signal::{DeltaAt, Digitiser, Disturbance, Impulses, Motion, Noise, Profile, Sensor};
+use crate::signal::{Digitiser, Disturbance, Impulses, Motion, Noise, Sensor};
 use crate::values::{Level, number};
 use crate::whiten::Whitening;
 use schemars::JsonSchema;
@@ -95,11 +95,8 @@ impl Scenario {
     pub fn at_rest(&self) -> Self {
         Self {
             motion: Motion {
-                delta: 0.0,
-                delta_at: DeltaAt::Record,
-                profile: Profile::Rectangular,
                 duration: self.samples.acceleration(),
-                offset: 0,
+                ..Motion::default()
             },
             impulses: Impulses::none(),
             ..self.clone()

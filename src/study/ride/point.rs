@@ -7,7 +7,7 @@ use crate::monitor::Settings;
 use crate::rule::{OutOfRange, Rule};
 use crate::run::Identity;
 use crate::signal::{
-    Digitiser, Disturbance, Drive, During, Ending, Impulses, Pickup, Ride, RideError, Sensor, Trip,
+    Digitiser, Disturbance, Drive, Ending, Impulses, Pickup, Ride, RideError, Sensor, Trip,
 };
 
 /// All that a trial needs beside its draws.
@@ -190,7 +190,7 @@ impl RideKeys {
             impulses: Impulses {
                 nu: self.nu,
                 theta: self.theta,
-                during: During::Motion,
+                ..Impulses::default()
             },
             disturbance: Disturbance {
                 footfalls: self.footfalls,
