@@ -115,9 +115,15 @@ impl Simulation {
         let header = &mut config.header;
         header.set_trials(self.trials.unwrap_or(header.trials()));
         header.seed = self.seed.unwrap_or(header.seed);
-        // A study without pilots is known by the usual number of them.
-        if config.study() == SWEEP {
-            config.header.pilot = self.pilot.unwrap_or(config.header.pilot);
+        match self.pilot {
+            Some(pilot) if config.study() == SWEEP => config.header.pilot = pilot,
+            Some(_) => {
+                return Err(Failure::Input(anyhow::anyhow!(
+                    "--pilot: means nothing to [{}] (leave it out)",
+                    config.study()
+                )));
+            }
+            None => {}
         }
         Ok(config)
     }

@@ -179,15 +179,30 @@ fn every_config_runs() {
         }
         let directory = tempfile::tempdir().unwrap();
         let (path, out) = (path.to_str().unwrap(), directory.path().to_str().unwrap());
-        let short = ["--trials", "20", "--pilot", "2000"];
-        run(&[&["sweep", path, "--out", out], &short[..]].concat());
+        let is_sweep = study::load(path.as_ref()).unwrap().study() == SWEEP;
+        let short: &[&str] = if is_sweep {
+            &["--trials", "20", "--pilot", "2000"]
+        } else {
+            &["--trials", "20"]
+        };
+        run(&[&["sweep", path, "--out", out], short].concat());
         let rows = fs::read_to_string(directory.path().join("points.csv")).unwrap();
         assert!(rows.lines().count() > 1, "{path}");
-        if study::load(path.as_ref()).unwrap().study() == SWEEP {
-            run(&[&["plan", path], &short[..]].concat());
+        if is_sweep {
+            run(&[&["plan", path], short].concat());
             assert!(rows.contains(",H0,"), "{path}");
         }
     }
+}
+
+/// Pilots belong to sweeps; any other study says so.
+#[test]
+fn a_flag_that_means_nothing_is_refused() {
+    let arguments = ["sweep", "configs/fig1.toml", "--pilot", "7"];
+    let (code, _, err) = outcome(liftsim().args(arguments));
+    assert_eq!(code, 2, "{err}");
+    let message = "--pilot: means nothing to [autocorrelation] (leave it out)";
+    assert!(err.contains(message), "{err}");
 }
 
 #[test]
