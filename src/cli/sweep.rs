@@ -19,8 +19,9 @@ use std::time::Instant;
 /// The same config and seed give the same bytes on any machine, with any number of threads.
 ///
 /// Counts are saved in counts.json every few seconds. However a run ends, the same command continues it.
-/// Nothing that a directory holds is simulated again: for more trials, another curve or another claim
-/// only what is missing is run.
+/// Nothing that a finished sweep holds is simulated again: for more trials, another curve or another claim
+/// only what is missing is run. The rows of the other studies do not hold their counts (those of
+/// [impulse_law] do): for more trials these start over.
 #[derive(Debug, Args)]
 pub struct Sweep {
     #[command(flatten)]
