@@ -2,7 +2,7 @@
 
 use super::found;
 use super::monitor_options::{MonitorArguments, Setup, check_strength};
-use super::output::{Output, Ready};
+use super::output::{Output, Ready, apart};
 use super::progress;
 use super::reading::ReadingArguments;
 use super::{CommandResult, Failure, print, warn};
@@ -90,6 +90,8 @@ impl Detect {
 
     /// Refuses what is in the way before anything takes long.
     fn outputs(&self) -> Result<Outputs, Failure> {
+        let files = [&self.figure, &self.save_state, &self.csv];
+        apart(&self.recording, files.into_iter().flatten())?;
         let picture = |path: &PathBuf| Output::picture(path, self.force);
         let file = |path: &PathBuf| Output::new(path, self.force);
         Ok(Outputs {

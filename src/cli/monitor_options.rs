@@ -13,7 +13,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "The monitor")]
 pub struct MonitorArguments {
-    /// Settings, a TOML file; see README.md for its keys.
+    /// Settings, a TOML file; `liftsim keys` prints its keys.
     #[arg(long, value_name = "CONFIG")]
     config: Option<PathBuf>,
     /// Start from a state that `detect --save-state` wrote, settings included.

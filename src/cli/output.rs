@@ -18,6 +18,42 @@ pub struct Output {
     replaces: bool,
 }
 
+/// Refuses an output that is the input, or another output, by whatever name.
+pub fn apart<'a>(
+    input: &'a Path,
+    outputs: impl Iterator<Item = &'a PathBuf>,
+) -> Result<(), Failure> {
+    let mut known = vec![place(input)];
+    for output in outputs {
+        let place = place(output);
+        if known.contains(&place) {
+            return Err(Failure::Input(anyhow!(
+                "{}: is written to and used for something else too (give another name)",
+                output.display()
+            )));
+        }
+        known.push(place);
+    }
+    Ok(())
+}
+
+/// Where a name leads, links followed as far as there is anything.
+fn place(path: &Path) -> PathBuf {
+    let there = path.canonicalize();
+    there.unwrap_or_else(|_| match (path.parent(), path.file_name()) {
+        (Some(folder), Some(name)) => {
+            let folder = if folder.as_os_str().is_empty() {
+                Path::new(".")
+            } else {
+                folder
+            };
+            let folder = folder.canonicalize();
+            folder.map_or(path.to_owned(), |folder| folder.join(name))
+        }
+        _ => path.to_owned(),
+    })
+}
+
 /// A file that is complete but not yet in its place.
 #[derive(Debug)]
 pub struct Ready {

@@ -80,6 +80,11 @@ impl Error for Refusal {
     }
 
     fn invalid_length(length: usize, expected: &dyn Expected) -> Self {
+        // serde names the type, which only its author knows.
+        let expected = match expected.to_string().rsplit_once(" with ") {
+            Some((_, items)) => format!("a list of {}", items.trim_end_matches(" elements")),
+            None => expected.to_string(),
+        };
         Self::custom(format_args!("must be {expected}, got {length} of them"))
     }
 
@@ -167,7 +172,7 @@ impl<'de> Deserializer<'de> for &'de Node {
             Value::Float(number) => visitor.visit_f64(*number),
             Value::Text(text) => visitor.visit_borrowed_str(text),
             Value::Date(_) => Err(self.refused(&visitor)),
-            Value::List(list) => visitor.visit_seq(Items { list, next: 0 }),
+            Value::List(list) => every_item(list, visitor),
             Value::Table(table) => visitor.visit_map(Entries::new(table)),
         }
         .map_err(|refusal: Refusal| refusal.at(&self.span))
@@ -248,6 +253,21 @@ impl<'de> Deserializer<'de> for &'de Node {
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u128 f32 char str string bytes byte_buf unit unit_struct tuple
         tuple_struct map struct identifier ignored_any
+    }
+}
+
+/// A list of fixed length takes no more than it has names for.
+fn every_item<'de, V: Visitor<'de>>(list: &'de [Node], visitor: V) -> Result<V::Value, Refusal> {
+    let mut items = Items { list, next: 0 };
+    let value = visitor.visit_seq(&mut items)?;
+    match list.get(items.next) {
+        None => Ok(value),
+        Some(node) => Err(Refusal::custom(format_args!(
+            "must be a list of {}, got {} of them",
+            items.next,
+            list.len()
+        ))
+        .at(&node.span)),
     }
 }
 
@@ -349,6 +369,7 @@ impl<'de> VariantAccess<'de> for Choice<'de> {
     fn unit_variant(self) -> Result<(), Refusal> {
         match self.content {
             None => Ok(()),
+            Some(node) if node.table().is_some_and(Table::is_empty) => Ok(()),
             Some(node) => Err(Refusal::custom(format_args!(
                 "takes no parameters (write \"{}\")",
                 self.name

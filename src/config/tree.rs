@@ -104,23 +104,20 @@ impl Node {
             *self = above.clone();
             return;
         };
-        for (key, (key_span, node)) in entries {
-            let path = match path {
-                "" => key.clone(),
-                path => format!("{path}.{key}"),
-            };
-            for rival in choices
-                .iter()
-                .filter(|c| c.contains(&&path[..]))
-                .flat_map(|c| c.iter())
-            {
-                let own = path.rsplit_once('.').map_or("", |(own, _)| own);
-                if *rival != path
-                    && let Some(name) = rival.strip_prefix(own)
-                {
-                    table.remove(name.trim_start_matches('.'));
-                }
+        let full = |key: &str| match path {
+            "" => key.to_owned(),
+            path => format!("{path}.{key}"),
+        };
+        // Naming one of several alternatives drops the others below, but none that is named beside it.
+        for key in entries.keys() {
+            let named = full(key);
+            let rivals = choices.iter().filter(|choice| choice.contains(&&named[..]));
+            for rival in rivals.flat_map(|choice| choice.iter()) {
+                table.retain(|key, _| key == &named || full(key) != **rival);
             }
+        }
+        for (key, (key_span, node)) in entries {
+            let path = full(key);
             // A section is laid over key by key; a value, be it a table itself, is replaced.
             match table.get_mut(key) {
                 Some((_, below)) if !path.contains('.') => below.lay(node, choices, &path),
@@ -212,5 +209,16 @@ mod tests {
             (at("sensor.ar"), at("sensor.model")),
             (None, Some("\"adxl105\""))
         );
+    }
+
+    /// Alternatives that one table names together are all there, for whoever reads it to refuse.
+    #[test]
+    fn alternatives_of_one_table_stay() {
+        let text = "[sensor]\nar = [0.5]\n[curve]\nsensor = { ar = [0.1], model = \"adxl105\" }\n";
+        let root = Node::parse(text).unwrap();
+        for choice in [["sensor.ar", "sensor.model"], ["sensor.model", "sensor.ar"]] {
+            let laid = root.get("curve").unwrap().over(&root, &[&choice]);
+            assert_eq!(laid.get("sensor").unwrap().table().unwrap().len(), 2);
+        }
     }
 }

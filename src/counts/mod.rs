@@ -20,15 +20,32 @@ use std::ops::Range;
 
 /// The name of a counter: a hash of all that its sums depend on, but the trials.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(transparent)]
+#[serde(try_from = "String")]
 pub struct Key(String);
+
+/// Hexadecimal digits of a key.
+const DIGITS: usize = 24;
+
+/// A text that is no key.
+#[derive(Debug, thiserror::Error)]
+#[error("a counter's key must be {DIGITS} hexadecimal digits")]
+pub struct NoKey;
+
+impl TryFrom<String> for Key {
+    type Error = NoKey;
+
+    fn try_from(text: String) -> Result<Self, NoKey> {
+        let is_key = text.len() == DIGITS && text.bytes().all(|byte| byte.is_ascii_hexdigit());
+        if is_key { Ok(Self(text)) } else { Err(NoKey) }
+    }
+}
 
 impl Key {
     /// The key of what `text` tells from everything else.
     pub fn of(text: &str) -> Self {
         // 96 bits: a billion counters collide with a probability of 1e-11.
         let hash = Sha256::digest(text.as_bytes());
-        let digits = hash[..12].iter().map(|byte| format!("{byte:02x}"));
+        let digits = hash[..DIGITS / 2].iter().map(|byte| format!("{byte:02x}"));
         Self(digits.collect())
     }
 

@@ -82,7 +82,10 @@ impl SweepConfig {
             swept: &swept,
             is_parameter: &|key| SECTIONS.contains(&key),
             choices: CHOICES,
-            name: |label| label.trim().to_owned(),
+            name: |label| {
+                let is_blank = label.trim().is_empty();
+                String::from(if is_blank { "" } else { label })
+            },
         };
         let overlay =
             Overlay::read(&experiment.root, &keys).map_err(|error| experiment.conflict(error))?;

@@ -28,20 +28,39 @@ impl Axis {
         }
     }
 
-    /// `from` to `to` with about `count` ticks at 1, 2 or 5 times a power of ten.
+    /// `from` to `to` with about `count` ticks at 1, 2 or 5 times a power of ten. A single value stands in the
+    /// middle.
     pub fn linear(from: f64, to: f64, count: usize) -> Self {
+        if from >= to {
+            return Self::single(from);
+        }
         let (step, decimals) = tick_step((to - from) / count as f64);
         let first = (from / step - 1e-9).ceil() as i64;
         let last = (to / step + 1e-9).floor() as i64;
-        let values = (first..=last).map(|i| i as f64 * step);
-        let ticks = values.map(|value| (value, minus(&format!("{value:.decimals$}"))));
-        Self::new(from, to, ticks.collect())
+        let values: Vec<f64> = (first..=last).map(|i| i as f64 * step).collect();
+        let mut labels = plain(&values, decimals);
+        if labels.iter().any(|label| label.len() > LONGEST_LABEL) {
+            labels = scientific(&values, step);
+        }
+        let labels = labels.iter().map(|label| minus(label));
+        Self::new(from, to, values.into_iter().zip(labels).collect())
     }
 
     /// One value in the middle.
     pub fn single(value: f64) -> Self {
-        let tick = (value, minus(&value.to_string()));
-        Self::new(value - 0.5, value + 0.5, vec![tick])
+        let plain = value.to_string();
+        let label = if plain.len() > LONGEST_LABEL {
+            format!("{value:.2e}")
+        } else {
+            plain
+        };
+        // A half is lost beside a number of sixteen digits.
+        let room = if value.abs() < 1e15 {
+            0.5
+        } else {
+            0.5 * value.abs()
+        };
+        Self::new(value - room, value + room, vec![(value, minus(&label))])
     }
 
     /// Decimal logarithms, `from` to `to`, with ticks at the powers of ten, and at 2 and 5 times them
@@ -124,6 +143,27 @@ impl Axis {
     }
 }
 
+/// Of a tick: longer labels run over the edge of the sheet.
+const LONGEST_LABEL: usize = 8;
+
+fn plain(values: &[f64], decimals: usize) -> Vec<String> {
+    let label = |value: &f64| format!("{value:.decimals$}");
+    values.iter().map(label).collect()
+}
+
+/// With so many digits that values a `step` apart differ.
+fn scientific(values: &[f64], step: f64) -> Vec<String> {
+    let power = |value: f64| libm::floor(libm::log10(value.abs()) + 1e-9);
+    let label = |&value: &f64| {
+        if value == 0.0 {
+            return "0".to_owned();
+        }
+        let digits = (power(value) - power(step)).clamp(0.0, 15.0) as usize;
+        format!("{value:.digits$e}")
+    };
+    values.iter().map(label).collect()
+}
+
 /// Whether values span so much that their logarithms are drawn.
 pub fn is_long(values: &[f64]) -> bool {
     let (smallest, largest) = ends(values.iter().copied());
@@ -139,7 +179,8 @@ pub fn ends(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
 
 /// The next step of 1, 2 or 5 times a power of ten from `rough` on, and the decimals it takes.
 fn tick_step(rough: f64) -> (f64, usize) {
-    let mut decimals = 9i32;
+    let finer = -(libm::floor(libm::log10(rough)) as i32);
+    let mut decimals = finer.max(9);
     loop {
         let power = libm::pow(10.0, f64::from(-decimals));
         for factor in [1.0, 2.0, 5.0] {
@@ -160,4 +201,29 @@ pub fn power_of_ten(power: i32) -> String {
         None => '⁻',
     });
     format!("10{}", raised.collect::<String>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whatever the data, labels are short, differ, and stand where they say.
+    #[test]
+    fn labels_of_any_size() {
+        for exponent in -300..=300 {
+            let scale = libm::pow(10.0, f64::from(exponent));
+            for (from, to) in [(0.0, 1.0), (-3.0, 7.0), (1.0, 1.0), (-0.06, 0.34)] {
+                let axis = Axis::linear(from * scale, to * scale, 5);
+                for (at, label) in &axis.ticks {
+                    assert!(label.chars().count() <= LONGEST_LABEL, "{label}");
+                    let said: f64 = label.replace('−', "-").parse().unwrap();
+                    let step = (axis.to - axis.from).max(at.abs() * 1e-2);
+                    assert!((said - at).abs() <= 1e-2 * step, "{label} at {at:e}");
+                }
+                let mut labels: Vec<_> = axis.ticks.iter().map(|(_, label)| label).collect();
+                labels.dedup();
+                assert_eq!(labels.len(), axis.ticks.len());
+            }
+        }
+    }
 }

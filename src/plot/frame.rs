@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::canvas::{Align, Canvas};
-use super::picture::Panel;
+use super::picture::{Panel, WIDTH as SHEET};
 use super::style::Colour;
 use super::text::{NORMAL, SMALL, text_width};
 
@@ -63,6 +63,9 @@ impl Frame<'_> {
         for (value, label) in self.spaced_ticks(x) {
             let at = self.x(*value);
             canvas.line(&[(at, bottom), (at, bottom - TICK)], WIDTH, Colour::BLACK);
+            // The last label stays on the sheet.
+            let half = text_width(label, SMALL) / 2.0;
+            let at = at.min(SHEET - half).max(half);
             canvas.text(label, (at, bottom + SMALL + 3.0), SMALL, Align::Centre);
         }
         for (value, label) in &y.ticks {

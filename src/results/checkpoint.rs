@@ -52,8 +52,13 @@ impl Checkpoint {
     /// # Errors
     /// Where it is not as it was written.
     pub fn from_json(json: &[u8]) -> Result<Self, String> {
-        let sealed: Sealed<Self> =
-            serde_json::from_slice(json).map_err(|error| error.to_string())?;
+        let sealed: Sealed<Self> = serde_json::from_slice(json).map_err(|error| {
+            let it: Option<serde_json::Value> = serde_json::from_slice(json).ok();
+            match it.and_then(|it| it.get("counts").cloned()) {
+                Some(_) => "another version of liftsim wrote it".to_owned(),
+                None => error.to_string(),
+            }
+        })?;
         if sealed.checkpoint.seal() != sealed.sha256 {
             return Err("its counts are not those that its sha256 vouches for".to_owned());
         }

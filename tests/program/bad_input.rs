@@ -584,6 +584,14 @@ pub const RIDES: &[(&str, &str)] = &[
         "measure = \"rides\"\n[ride.axis]\nsigma = [0.1]\n[[ride.curve]]\ndensity = 0.1\n",
     ),
     (
+        "noise said twice in a curve",
+        "measure = \"rides\"\n[ride.axis]\nrate = [100]\n[[ride.curve]]\nsigma = 0.1\ndensity = 0.001\n",
+    ),
+    (
+        "three ends of a rest",
+        "measure = \"rides\"\nrest = [1, 2, 3]\n[ride.axis]\nrate = [100]\n",
+    ),
+    (
         "noise said twice",
         "measure = \"rides\"\nsigma = 0.1\ndensity = 0.1\n[ride.axis]\nrate = [100]\n",
     ),

@@ -5,6 +5,7 @@ use super::{liftsim, outcome, project};
 use liftsim::experiment::{SWEEP, SweepConfig};
 use liftsim::study;
 use std::fs;
+use std::path::Path;
 
 fn run(arguments: &[&str]) -> String {
     let (code, out, err) = outcome(liftsim().args(arguments));
@@ -203,6 +204,35 @@ fn a_flag_that_means_nothing_is_refused() {
     assert_eq!(code, 2, "{err}");
     let message = "--pilot: means nothing to [autocorrelation] (leave it out)";
     assert!(err.contains(message), "{err}");
+}
+
+/// No output may be the recording, or another output, by whatever name.
+#[test]
+fn an_output_is_one_file() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = |name: &str| directory.path().join(name).to_str().unwrap().to_owned();
+    let ride = at("ride.csv");
+    run(&["simulate", "--out", &ride]);
+    let recording = fs::read(&ride).unwrap();
+    std::os::unix::fs::symlink(&ride, at("link.csv")).unwrap();
+    let (link, dotted, both) = (at("link.csv"), at("./ride.csv"), at("both.csv"));
+    for files in [
+        [&ride, "--csv", &ride, "--json"],
+        [&link, "--csv", &ride, "--json"],
+        [&ride, "--save-state", &dotted, "--json"],
+        [&ride, "--csv", &both, "--save-state"],
+    ] {
+        let mut arguments = vec!["detect", "--force"];
+        arguments.extend(files);
+        if arguments.last() == Some(&"--save-state") {
+            arguments.push(&both);
+        }
+        let (code, _, err) = outcome(liftsim().args(&arguments));
+        assert_eq!(code, 2, "{err}");
+        assert!(err.contains("used for something else too"), "{err}");
+        assert_eq!(fs::read(&ride).unwrap(), recording);
+        assert!(!Path::new(&both).exists());
+    }
 }
 
 #[test]

@@ -40,13 +40,13 @@ pub enum PickupError {
     #[error("sigma must lie in [1e-12, 1e12] m/s², got {0}")]
     Sigma(f64),
     /// A bias that is no acceleration.
-    #[error("bias must be finite, got {0}")]
+    #[error("bias must lie in [-1e12, 1e12] m/s², got {0}")]
     Bias(f64),
     /// A cosine that is none.
     #[error("cosine must lie in [-1, 1], got {0}")]
     Cosine(f64),
     /// A deviation that is none.
-    #[error("vibration must be zero or positive, and finite, got {0}")]
+    #[error("vibration must lie in [0, 1e6] sigma, got {0}")]
     Vibration(f64),
 }
 
@@ -75,13 +75,13 @@ impl Pickup {
         if !(1e-12..=1e12).contains(&self.sigma) {
             return Err(PickupError::Sigma(self.sigma));
         }
-        if !self.bias.is_finite() {
+        if !(-1e12..=1e12).contains(&self.bias) {
             return Err(PickupError::Bias(self.bias));
         }
         if !(-1.0..=1.0).contains(&self.cosine) {
             return Err(PickupError::Cosine(self.cosine));
         }
-        if !(self.vibration >= 0.0 && self.vibration.is_finite()) {
+        if !(0.0..=1e6).contains(&self.vibration) {
             return Err(PickupError::Vibration(self.vibration));
         }
         Ok(self)
