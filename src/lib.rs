@@ -44,20 +44,26 @@
 //! | 10 | [`study`]: what a config's table describes |
 //!
 //! # A walk
-//! From `delta = [0.0, 0.5, 1.0]` under `[axis]` to a row of `points.csv`, file by file:
+//! From `delta = [0.0, 0.5, 1.0]` under `[axis]` to a row of `points.csv`, file by file. Down:
 //!
-//! 1. `config/tree.rs` reads the text as a tree in which every value keeps its place; `experiment/sweep.rs` lays
-//!    file, curve and axis over each other, and `config/read.rs` lets serde read the sections from that.
-//! 2. `scenario/parameters.rs` says that the axis' `delta` is `motion.delta`; `scenario/check.rs` asks what the
-//!    sections ask of each other. Here a wrong value is refused, with its place.
-//! 3. `plan.rs` makes the point, and the family of points that share its noise.
-//! 4. `study/sweep/trials.rs` tells `run` what to count; `run/session.rs` sees what the directory has and
-//!    `run/missing.rs` has the rest counted.
-//! 5. `schedule.rs` spreads blocks of trials over the threads; in each, `chain/trial.rs` adds Δ to the noise of
-//!    `chain/batch.rs`, whitens, ranks and decides.
-//! 6. `run/tally.rs` counts the decisions, and `counts` adds them up.
-//! 7. `study/sweep/mod.rs` makes the row (`results/row.rs`, `delta` by the same table as in 2), and
-//!    `results/directory.rs` writes it; `study/sweep/picture.rs` makes of the rows what `figure` draws.
+//! 1. `experiment/file.rs` has `config/tree.rs` read the text as a tree in which every value keeps its place, and
+//!    finds the one table that names a study; `study/mod.rs` has the list of studies.
+//! 2. `experiment/sweep.rs` reads this one: `experiment/overlay.rs` lays file, curve and axis value over each other.
+//!    `scenario/parameters.rs` says that the axis' `delta` is `motion.delta`.
+//! 3. `config/read.rs` lets serde read what is laid as `scenario/sections.rs`, whose types are the domain's;
+//!    `scenario/check.rs` asks what the sections ask of each other. Here a wrong value is refused, at its place.
+//! 4. `plan.rs` makes the point, how it decides, and by `schedule.rs` the points that share its noise.
+//! 5. `study/sweep/targets.rs` names its counter, a hash of every parameter (`run/identity.rs`).
+//!
+//! And up:
+//!
+//! 6. `run/session.rs` sees what the directory has (`run/existing.rs`); `pilot` finds the decisions that no law
+//!    gives; `run/missing.rs` spreads the missing blocks of trials over the threads.
+//! 7. In a block `study/sweep/trials.rs` has `schedule.rs` run trial after trial: `chain/trial.rs` takes noise from
+//!    `chain/batch.rs`, adds Δ by `chain/motion.rs`, whitens and ranks, and each point decides.
+//! 8. The decisions are counted as bits of words, and `counts` adds them up.
+//! 9. `study/sweep/mod.rs` makes the row (`results/row.rs`, `delta` by the table of step 2); `results/directory.rs`
+//!    writes it, and `study/sweep/picture.rs` makes of the rows a plot that `figure` draws.
 //!
 //! # Laws
 //! - A trial cannot fail: what can go wrong goes wrong when the plan is made.
