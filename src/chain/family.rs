@@ -76,7 +76,7 @@ impl Family {
     /// tells the draws of one run from those of another at the same seed.
     ///
     /// # Errors
-    /// Where a record would not fit in memory: the first such scenario, and how much it takes.
+    /// If a record would not fit in memory: the first such scenario, and how much it takes.
     pub fn arrange<'a>(
         scenarios: impl IntoIterator<Item = &'a Scenario>,
         seed: u64,

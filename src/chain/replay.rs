@@ -45,7 +45,7 @@ impl Replay {
     /// Trial `index` of `scenario`, as every run with this seed has it.
     ///
     /// # Errors
-    /// Where its record would not fit in memory.
+    /// If its record would not fit in memory.
     pub fn new(
         scenario: &Scenario,
         decision: &Decision,

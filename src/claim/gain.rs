@@ -70,7 +70,7 @@ mod tests;
 /// `gain_N_db` for the N-th claim (from 1), for each claim of a gain.
 ///
 /// # Errors
-/// Where a curve has no rows.
+/// If a curve has no rows.
 pub fn gains(claims: &[Claim], evidence: &Evidence) -> Result<Vec<Quantity>, ClaimError> {
     let mut quantities = Vec::new();
     for (number, claim) in (1..).zip(claims) {

@@ -62,7 +62,7 @@ pub use verdict::{ClaimError, Judgement, Verdict};
 /// Judges a claim, the `number`-th (from 1) of its config.
 ///
 /// # Errors
-/// Where the results have nothing of what the claim is about.
+/// If the results have nothing of what the claim is about.
 pub fn judge(claim: &Claim, number: usize, evidence: &Evidence) -> Result<Judgement, ClaimError> {
     match &claim.test {
         Test::Grows { curves } => growth::judge(claim, number, curves.as_deref(), evidence),

@@ -69,7 +69,7 @@ pub(super) fn judge(
 /// The quantity of this name.
 ///
 /// # Errors
-/// Where there is none.
+/// If there is none.
 pub fn named_quantity<'a>(
     name: &str,
     quantities: &'a [Quantity],

@@ -29,7 +29,7 @@ impl NullLaws {
     /// The laws at these sizes.
     ///
     /// # Errors
-    /// Where their counts would not fit in memory.
+    /// If their counts would not fit in memory.
     pub fn new(alternative: Alternative, samples: &Samples) -> Result<Self, NullLawError> {
         // Both before either is paid for.
         let (w, t) = (
@@ -65,7 +65,7 @@ impl NullLaws {
     /// The region of `rule` at level `alpha`.
     ///
     /// # Errors
-    /// Where `alpha` is no level, the rule cannot reach it, or a table exceeds it.
+    /// If `alpha` is no level, the rule cannot reach it, or a table exceeds it.
     pub fn region(&self, rule: &Rule, alpha: f64) -> Result<Region, RegionError> {
         if !(alpha > 0.0 && alpha < 1.0) {
             return Err(RegionError::Alpha(alpha));

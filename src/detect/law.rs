@@ -57,7 +57,7 @@ impl NullLaw {
     /// The law of the rank sum W.
     ///
     /// # Errors
-    /// Where its counts would not fit in memory.
+    /// If its counts would not fit in memory.
     pub fn rank_sum(samples: &Samples) -> Result<Self, NullLawError> {
         let (m1, others) = shift_and_others(samples);
         check_memory(samples, Self::rank_sum_bytes(samples))?;
@@ -70,7 +70,7 @@ impl NullLaw {
     /// The law of the exceedances T.
     ///
     /// # Errors
-    /// Where its counts would not fit in memory.
+    /// If its counts would not fit in memory.
     pub fn exceedances(samples: &Samples) -> Result<Self, NullLawError> {
         let (n, m2) = (samples.reference(), samples.scale());
         check_memory(samples, Self::exceedances_bytes(samples))?;

@@ -38,7 +38,7 @@ impl Samples {
     /// ones.
     ///
     /// # Errors
-    /// Where a size or the decimation is zero.
+    /// If a size or the decimation is zero.
     pub fn new(
         reference: usize,
         shift: usize,
@@ -58,7 +58,7 @@ impl Samples {
     /// Three samples side by side, every observation used.
     ///
     /// # Errors
-    /// Where a size is zero.
+    /// If a size is zero.
     pub fn contiguous(reference: usize, shift: usize, scale: usize) -> Result<Self, OutOfRange> {
         Self::new(reference, shift, scale, 0, 1)
     }

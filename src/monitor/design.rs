@@ -23,7 +23,7 @@ impl Settings {
     /// Whether they can be used, whatever the rate.
     ///
     /// # Errors
-    /// As [`Settings::at`].
+    /// Same as [`Settings::at`].
     pub fn check(&self) -> Result<(), SettingsError> {
         self.at(1.0 / self.monitor.block.clamp(1e-6, 1.0)).map(drop)
     }
@@ -31,7 +31,7 @@ impl Settings {
     /// The same at `rate` samples per second.
     ///
     /// # Errors
-    /// Where a value is out of its range, or no region has the level asked for.
+    /// If a value is out of its range, or no region has the level asked for.
     pub fn at(&self, rate: f64) -> Result<Design, SettingsError> {
         self.check_each()?;
         let (least, most) = (

@@ -55,7 +55,7 @@ impl SavedState {
     /// Reads a file.
     ///
     /// # Errors
-    /// Where it cannot be read, or its parts cannot be used together.
+    /// If it cannot be read, or its parts cannot be used together.
     pub fn load(path: &Path) -> Result<Self, SavedStateError> {
         let name = path.display().to_string();
         let mut text = String::new();
@@ -72,7 +72,7 @@ impl SavedState {
     /// Checks a file's text; `name` is what messages call it.
     ///
     /// # Errors
-    /// As [`SavedState::load`].
+    /// Same as [`SavedState::load`].
     pub fn from_json(name: &str, text: &str) -> Result<Self, SavedStateError> {
         Self::checked(text).map_err(|problem| SavedStateError {
             path: name.to_owned(),
@@ -120,7 +120,7 @@ impl SavedState {
     /// The settings at the rate.
     ///
     /// # Errors
-    /// As [`Settings::at`].
+    /// Same as [`Settings::at`].
     pub fn design(&self) -> Result<Design, SettingsError> {
         self.settings.at(self.rate)
     }

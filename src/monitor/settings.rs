@@ -132,10 +132,10 @@ impl Settings {
     /// The same but for these values, by the last words of their keys.
     ///
     /// # Errors
-    /// Where a value breaks its rule; its key is then called what `called` makes of its last word.
+    /// If a value breaks its rule; its key is then called what `called` makes of its last word.
     ///
     /// # Panics
-    /// Where a value is of another type than its key.
+    /// If a value is of another type than its key.
     pub fn with(
         &self,
         values: &toml::Table,

@@ -55,7 +55,7 @@ impl<'a> Pilots<'a> {
     /// What has to be run before the plan's points can decide.
     ///
     /// # Errors
-    /// Where a pilot's record does not fit in memory, or a pilot is too short to show anything.
+    /// If a pilot's record does not fit in memory, or a pilot is too short to show anything.
     pub fn new(plan: &'a Plan) -> Result<Self, PilotError> {
         let mut needs: Vec<Need> = Vec::new();
         let (mut motion, mut rest) = (Stage::default(), Stage::default());
@@ -117,7 +117,7 @@ impl<'a> Pilots<'a> {
     /// Runs the pilots and returns the decision of every point.
     ///
     /// # Errors
-    /// Where nothing keeps the level.
+    /// If nothing keeps the level.
     pub fn decide(&self, progress: impl Fn(u64) + Sync) -> Result<Vec<Decision>, PilotError> {
         let motion = self.motion.run(&progress);
         let rest = self.rest.run(&progress);

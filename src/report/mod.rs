@@ -51,7 +51,7 @@ impl Section {
     /// The verdict on each claim, and the paragraph with its numbers.
     ///
     /// # Errors
-    /// Where a claim or the text is about something that is not among the results.
+    /// If a claim or the text is about something that is not among the results.
     pub fn judge(&self) -> Result<(Vec<Judgement>, String), ReportError> {
         let judgements = (1..).zip(&self.narrative.claims).map(|(number, claim)| {
             claim::judge(claim, number, &self.evidence).map_err(|error| ReportError::Claim {
@@ -79,7 +79,7 @@ impl Section {
 /// comes before everything, in Markdown.
 ///
 /// # Errors
-/// Where a claim or a text is about something that is not among the results.
+/// If a claim or a text is about something that is not among the results.
 pub fn markdown(
     mut sections: Vec<Section>,
     configs: &str,

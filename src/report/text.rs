@@ -36,7 +36,7 @@ pub enum PlaceholderError {
 /// The text with every placeholder replaced.
 ///
 /// # Errors
-/// Where one names nothing that is there.
+/// If one names nothing that is there.
 pub fn fill(text: &str, evidence: &Evidence) -> Result<String, PlaceholderError> {
     let mut parts = text.split('{');
     let mut filled = parts.next().unwrap_or_default().to_owned();

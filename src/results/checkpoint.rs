@@ -50,7 +50,7 @@ impl Checkpoint {
     /// What the text says; what is wrong with it.
     ///
     /// # Errors
-    /// Where it is not as it was written.
+    /// If it is not as it was written.
     pub fn from_json(json: &[u8]) -> Result<Self, String> {
         let sealed: Sealed<Self> =
             serde_json::from_slice(json).map_err(|error| error.to_string())?;

@@ -41,7 +41,7 @@ impl Directory {
     /// Whether what a run would replace has been made by one, so far as its files tell.
     ///
     /// # Errors
-    /// Where files are of unknown origin.
+    /// If files are of unknown origin.
     pub fn admit_any(&self) -> Result<(), ResultsError> {
         match self.replaced() {
             Some(name) if !self.holds(MANIFEST) && !self.holds(COUNTS) => {
@@ -70,7 +70,7 @@ impl Directory {
     /// The counts so far of a run that is not over.
     ///
     /// # Errors
-    /// Where they are unreadable or damaged.
+    /// If they are unreadable or damaged.
     pub fn checkpoint(&self) -> Result<Option<Checkpoint>, ResultsError> {
         if !self.holds(COUNTS) {
             return Ok(None);
@@ -86,7 +86,7 @@ impl Directory {
     /// others.
     ///
     /// # Errors
-    /// Where they cannot be written.
+    /// If they cannot be written.
     pub fn save(&self, checkpoint: &Checkpoint) -> Result<bool, ResultsError> {
         let json = checkpoint.to_json();
         let is_new = !self.has(COUNTS, &json);
@@ -101,7 +101,7 @@ impl Directory {
     /// Whether a file can be made here, or a directory where this one is to be.
     ///
     /// # Errors
-    /// Where not.
+    /// If not.
     pub fn check_writable(&self) -> Result<(), ResultsError> {
         let existing = self.path.ancestors().find(|path| path.exists());
         let place = existing.unwrap_or(Path::new("."));
@@ -114,7 +114,7 @@ impl Directory {
     /// What made the results here.
     ///
     /// # Errors
-    /// Where `run.json` is missing or damaged.
+    /// If `run.json` is missing or damaged.
     pub fn manifest(&self) -> Result<Manifest, ResultsError> {
         let (path, bytes) = self.read(MANIFEST)?;
         serde_json::from_slice(&bytes).map_err(|error| ResultsError::Damaged {
@@ -134,7 +134,7 @@ impl Directory {
     /// The rows of `comparisons.csv`, none where `manifest` knows of no such file.
     ///
     /// # Errors
-    /// As [`Directory::points`].
+    /// Same as [`Directory::points`].
     pub fn comparisons(&self, manifest: &Manifest) -> Result<Vec<Comparison>, ResultsError> {
         self.table(COMPARISONS, manifest)
     }
@@ -142,7 +142,7 @@ impl Directory {
     /// The rows of `quantities.csv`, none where `manifest` knows of no such file.
     ///
     /// # Errors
-    /// As [`Directory::points`].
+    /// Same as [`Directory::points`].
     pub fn quantities(&self, manifest: &Manifest) -> Result<Vec<Quantity>, ResultsError> {
         self.table(QUANTITIES, manifest)
     }
@@ -172,7 +172,7 @@ impl Directory {
     /// The bytes of `points.csv`, which must be those that `manifest` vouches for.
     ///
     /// # Errors
-    /// Where it is missing or changed.
+    /// If it is missing or changed.
     pub fn points(&self, manifest: &Manifest) -> Result<Vec<u8>, ResultsError> {
         self.vouched(POINTS, manifest)
     }
@@ -219,7 +219,7 @@ impl Directory {
     /// Writes a file, whole or not at all. Says whether its bytes are new.
     ///
     /// # Errors
-    /// Where it cannot be written.
+    /// If it cannot be written.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<bool, ResultsError> {
         if self.has(name, bytes) {
             return Ok(false);
@@ -242,7 +242,7 @@ impl Directory {
     /// Takes away what an earlier run left and `manifest` does not vouch for.
     ///
     /// # Errors
-    /// Where a file is there and cannot be taken away.
+    /// If a file is there and cannot be taken away.
     pub fn remove_stale(&self, manifest: &Manifest) -> Result<(), ResultsError> {
         let is_stale = |name: &&str| !manifest.files.contains_key(*name);
         for name in FILES.into_iter().filter(is_stale) {

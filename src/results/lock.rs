@@ -31,7 +31,7 @@ impl Directory {
     /// file system that knows no locks nobody is kept out.
     ///
     /// # Errors
-    /// Where another run holds it, or it cannot be made.
+    /// If another run holds it, or it cannot be made.
     pub fn lock(&self) -> Result<Lock, ResultsError> {
         let unwritable = |error| self.unwritable(error);
         let paths = self.path().ancestors();

@@ -53,7 +53,7 @@ impl Sections {
     /// each other. `pilot` is the number of trials of a pilot, where one is needed.
     ///
     /// # Errors
-    /// Where two sections do not fit each other.
+    /// If two sections do not fit each other.
     pub fn scenario(self, pilot: u64) -> Result<Scenario, ScenarioError> {
         let Self {
             sensor,

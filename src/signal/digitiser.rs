@@ -29,7 +29,7 @@ impl Digitiser {
     /// A converter with step `quantum` and limits ± `range`, either of them absent.
     ///
     /// # Errors
-    /// Where one is out of its range.
+    /// If one is out of its range.
     pub fn new(quantum: Option<f64>, range: Option<f64>) -> Result<Self, OutOfRange> {
         Ok(Self {
             quantum: quantum.map(Quantum::new).transpose()?,

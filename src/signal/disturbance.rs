@@ -58,7 +58,7 @@ impl Disturbance {
     /// with this probability a raw sample after X, of ± `jolt` σ_ξ.
     ///
     /// # Errors
-    /// Where one is out of its range.
+    /// If one is out of its range.
     pub fn new(drift: f64, swell: f64, footfalls: f64, jolt: f64) -> Result<Self, OutOfRange> {
         Ok(Self {
             drift: Drift::new(drift)?,

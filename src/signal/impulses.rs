@@ -47,7 +47,7 @@ impl Impulses {
     /// Impulses of strength `theta`/σ_ξ with probability `nu` a sample.
     ///
     /// # Errors
-    /// Where `nu` is no probability or `theta` is negative.
+    /// If `nu` is no probability or `theta` is negative.
     pub fn new(nu: f64, theta: f64, during: During) -> Result<Self, OutOfRange> {
         Ok(Self {
             nu: Probability::new(nu)?,

@@ -101,7 +101,7 @@ impl Motion {
     /// Accepts a motion whose parts fit each other.
     ///
     /// # Errors
-    /// Where Δ is not finite, the duration is zero, or the rise does not fit.
+    /// If Δ is not finite, the duration is zero, or the rise does not fit.
     pub fn checked(self) -> Result<Self, MotionError> {
         if !self.delta.is_finite() {
             return Err(MotionError::Delta(self.delta));

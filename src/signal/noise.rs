@@ -89,7 +89,7 @@ impl Noise {
     /// Configures the sampler.
     ///
     /// # Errors
-    /// Where a parameter of the law is out of its range.
+    /// If a parameter of the law is out of its range.
     pub fn new(law: Law) -> Result<Self, LawError> {
         let unit = match law {
             Law::Normal | Law::Cauchy => 1.0,

@@ -159,7 +159,7 @@ impl Sensor {
     /// φ₁, φ₂, … as given; none for white noise.
     ///
     /// # Errors
-    /// Where a pole is not inside the unit circle, or so close to it that no record would be long
+    /// If a pole is not inside the unit circle, or so close to it that no record would be long
     /// enough.
     pub fn from_ar(ar: Vec<f64>) -> Result<Self, SensorError> {
         if ar.len() > MOST_COEFFICIENTS {
@@ -196,7 +196,7 @@ impl Sensor {
     /// By impulse invariance from the transfer function, eq. (1) → eq. (2).
     ///
     /// # Errors
-    /// Where a, c or the period is not positive, the poles are real, or the system is unstable.
+    /// If a, c or the period is not positive, the poles are real, or the system is unstable.
     pub fn from_transfer(transfer: Transfer) -> Result<Self, SensorError> {
         let Transfer { a, b, c, period } = transfer;
         for (name, value) in [("a", a), ("c", c), ("period", period)] {

@@ -37,7 +37,7 @@ impl Chosen {
     /// The best of the orders 0 … `most` for this record of rest, its coefficients by `fit`.
     ///
     /// # Errors
-    /// Where the record has fewer than five samples per coefficient of the highest order.
+    /// If the record has fewer than five samples per coefficient of the highest order.
     pub fn new(record: &[f64], most: usize, by: Fit) -> Result<Self, OrderError> {
         let needed = SAMPLES_PER_COEFFICIENT * most.max(1);
         if record.len() < needed {

@@ -149,7 +149,7 @@ impl Whitening {
     /// A known filter of a sensor of order `sensor_order` has no training.
     ///
     /// # Errors
-    /// Where the order is zero, the training too short for the fit or the choice of an order, the known
+    /// If the order is zero, the training too short for the fit or the choice of an order, the known
     /// filter too short for the sensor, or there is no fit to choose the order of.
     pub fn new(
         order: impl Into<Order>,
@@ -170,7 +170,7 @@ impl Whitening {
     /// The same, its parts checked against each other and against a sensor of order `sensor_order`.
     ///
     /// # Errors
-    /// As [`Whitening::new`].
+    /// Same as [`Whitening::new`].
     pub fn checked(self, sensor_order: usize) -> Result<Self, WhiteningError> {
         match self.order {
             Order::Fixed(order) => self.check_order(order, sensor_order)?,

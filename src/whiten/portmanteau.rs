@@ -49,7 +49,7 @@ impl LjungBox {
     /// Tests residuals of a filter of order `order`, by as many lags as their number allows.
     ///
     /// # Errors
-    /// Where a fifth of the residuals is no more than the order, or all are equal.
+    /// If a fifth of the residuals is no more than the order, or all are equal.
     pub fn of_residuals(residuals: &[f64], order: usize) -> Result<Self, PortmanteauError> {
         let lags = (order + LAGS_BEYOND_ORDER).min(residuals.len() / 5);
         Self::new(residuals, order, lags)
@@ -58,7 +58,7 @@ impl LjungBox {
     /// Tests residuals of a filter of order `order` by their first `lags` correlations.
     ///
     /// # Errors
-    /// Where `lags` is not between the order and the number of residuals, or all residuals are equal.
+    /// If `lags` is not between the order and the number of residuals, or all residuals are equal.
     pub fn new(residuals: &[f64], order: usize, lags: usize) -> Result<Self, PortmanteauError> {
         let length = residuals.len();
         if !(lags > order && lags < length) {

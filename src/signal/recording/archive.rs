@@ -14,7 +14,7 @@ use zip::{CompressionMethod, ZipArchive};
 /// The table to be read: the source itself, or a member of it.
 ///
 /// # Errors
-/// Where an archive is damaged, or has no table, or more than one that would do.
+/// If an archive is damaged, or has no table, or more than one that would do.
 pub(super) fn table(source: Source, reading: &Reading) -> Result<Source, RecordingError> {
     if is_archive(&source)? {
         return member(&source, reading);

@@ -57,7 +57,7 @@ impl Layout {
     /// Reads the first line.
     ///
     /// # Errors
-    /// Where there is none, or no column is what it should be.
+    /// If there is none, or no column is what it should be.
     pub fn find(source: &Source, reading: &Reading) -> Result<Self, RecordingError> {
         let mut lines = Lines::new(source.text()?);
         let first = first(&mut lines).map_err(|problem| {

@@ -133,7 +133,7 @@ impl<R: BufRead> LineReader<R> {
     /// The next reading; none at the end of the input.
     ///
     /// # Errors
-    /// Where a line is too long or holds anything but one or two finite numbers, or the reader fails.
+    /// If a line is too long or holds anything but one or two finite numbers, or the reader fails.
     #[expect(clippy::should_implement_trait, reason = "an error does not end it")]
     pub fn next(&mut self) -> Result<Option<LineReading>, LineError> {
         loop {

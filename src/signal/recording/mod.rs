@@ -94,7 +94,7 @@ impl Recording {
     /// Looks through a file.
     ///
     /// # Errors
-    /// Where it is no recording, or cannot be read as asked.
+    /// If it is no recording, or cannot be read as asked.
     pub fn open(path: &Path, reading: &Reading) -> Result<Self, RecordingError> {
         Self::look_through(Source::file(path)?, reading)
     }
@@ -102,7 +102,7 @@ impl Recording {
     /// The same of a file that is held in memory, under the name that messages give it.
     ///
     /// # Errors
-    /// Where it is no recording, or cannot be read as asked.
+    /// If it is no recording, or cannot be read as asked.
     pub fn from_bytes(
         name: &str,
         bytes: impl Into<Arc<[u8]>>,
@@ -193,7 +193,7 @@ impl Recording {
     /// The samples, from the first.
     ///
     /// # Errors
-    /// Where the file can no longer be opened.
+    /// If the file can no longer be opened.
     pub fn samples(&self) -> Result<Samples, RecordingError> {
         let series = Series::open(&self.source, &self.layout, &self.vertical.direction)?;
         Ok(Samples(match self.resample {

@@ -151,7 +151,7 @@ impl Unit {
     /// scale is given.
     ///
     /// # Errors
-    /// Where the name is none, counts have no scale, another unit has one, or a number is out of its range.
+    /// If the name is none, counts have no scale, another unit has one, or a number is out of its range.
     pub fn told(
         name: Option<&str>,
         scale: Option<f64>,
@@ -205,7 +205,7 @@ impl Unit {
     }
 
     /// # Errors
-    /// Where a scale or an offset is no number to calculate with.
+    /// If a scale or an offset is no number to calculate with.
     pub(super) fn check(self) -> Result<(), UnitError> {
         let Self::Counts { scale, offset } = self else {
             return Ok(());

@@ -47,7 +47,7 @@ impl<T: Read + Seek + Send> ReadSeek for T {}
 
 impl Source {
     /// # Errors
-    /// Where there is no such file, or it cannot be read twice.
+    /// If there is no such file, or it cannot be read twice.
     pub fn file(path: &Path) -> Result<Self, RecordingError> {
         let name = path.display().to_string();
         let refused = |problem| RecordingError::new(&name, None, problem);

@@ -28,7 +28,7 @@ impl ExportLayout {
 /// Writes three axes (m/s²) of equal length, without a final newline, as phyphox does.
 ///
 /// # Errors
-/// Where `out` does not take them.
+/// If `out` does not take them.
 pub fn write_phyphox(
     out: &mut impl Write,
     layout: ExportLayout,
@@ -53,7 +53,7 @@ pub fn write_phyphox(
 /// uniform motion begins and ends, the distance in m, up positive, the highest speed in m/s.
 ///
 /// # Errors
-/// Where `out` does not take them.
+/// If `out` does not take them.
 pub fn write_truth(out: &mut impl Write, ride: &Ride) -> io::Result<()> {
     writeln!(
         out,

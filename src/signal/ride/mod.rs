@@ -137,7 +137,7 @@ impl Ride {
     /// `trips` with `rests` (s) before, between and after them, sampled at `rate` Hz.
     ///
     /// # Errors
-    /// Where the rate or a rest is out of range, a trip cannot be made, the rests do not enclose the
+    /// If the rate or a rest is out of range, a trip cannot be made, the rests do not enclose the
     /// trips, or the whole has no samples or too many.
     pub fn new(rate: f64, rests: Vec<f64>, trips: Vec<Trip>) -> Result<Self, RideError> {
         if !(1e-3..=1e9).contains(&rate) {
@@ -174,7 +174,7 @@ impl Ride {
     /// A rest of so many seconds.
     ///
     /// # Errors
-    /// As [`Ride::new`].
+    /// Same as [`Ride::new`].
     pub fn still(rate: f64, seconds: f64) -> Result<Self, RideError> {
         Self::new(rate, vec![seconds], Vec::new())
     }

@@ -70,7 +70,7 @@ impl Pickup {
     /// Accepts a pickup whose numbers are such.
     ///
     /// # Errors
-    /// Where one is out of its range.
+    /// If one is out of its range.
     pub fn checked(self) -> Result<Self, PickupError> {
         if !(1e-12..=1e12).contains(&self.sigma) {
             return Err(PickupError::Sigma(self.sigma));

@@ -86,7 +86,7 @@ impl Trip {
     /// Works it out.
     ///
     /// # Errors
-    /// Where the distance is zero, a limit is not positive, or the jam is not in uniform motion.
+    /// If the distance is zero, a limit is not positive, or the jam is not in uniform motion.
     pub fn course(&self) -> Result<Course, TripError> {
         let Drive {
             speed,
