@@ -51,7 +51,7 @@ pub struct DecisionSummary {
     pub size: Option<f64>,
     /// The threshold of a score.
     pub threshold: Option<f64>,
-    /// The smallest level its rule can be held to.
+    /// The smallest level that its rule can reach.
     pub reachable: Option<f64>,
 }
 
