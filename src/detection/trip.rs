@@ -43,7 +43,7 @@ pub enum End {
     Recording,
 }
 
-/// Puts an event where it belongs.
+/// Adds an event to the trips.
 pub(super) fn take(trips: &mut Vec<Trip>, event: &Event) {
     if let Kind::Change {
         state: State::Known(Phase::Accelerating),
