@@ -1,4 +1,4 @@
-//! What is refused, and in which words; and what is passed with a warning.
+//! Refusals with their messages, and warnings.
 
 use super::*;
 use std::io::Write;
@@ -114,7 +114,7 @@ fn rows_of_another_kind() {
     assert!(
         refused("time;acc\n0,1;9,5\n0,2;9.5\n").contains(":3: column \"acc\": must be a number")
     );
-    // A separator at the end of a row is no cell.
+    // A separator at the end of a row does not add a cell.
     assert_eq!(read(&open("time,acc\n0,1,\n0.1,2,\n")).len(), 2);
 }
 
@@ -139,7 +139,7 @@ fn time() {
         once.warnings()[0].to_string(),
         "line 4: time repeats once (the first reading is kept)"
     );
-    // Milliseconds that nobody called so.
+    // Milliseconds without a stated unit.
     let counted = "time,acc\n0,1\n20,2\n40,1\n";
     assert!(refused(counted).contains(
         "column \"time\": counted in s it gives 0.05 readings a second (--time-unit ms)"
