@@ -61,7 +61,7 @@ pub enum Warning {
     )]
     Rate { learnt: f64, got: f64 },
     #[error(
-        "rest reads {0:.3} m/s^2, neither 0 nor the 9.8 of gravity (is the unit right? --unit g, mg, or counts \
+        "rest reads {0:.3} m/s^2, neither 0 nor the 9.8 of gravity (check the unit: --unit g, mg, or counts \
          with --scale)"
     )]
     Level(f64),

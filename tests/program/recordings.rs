@@ -453,7 +453,7 @@ fn warnings() {
     fs::write(path.join("counts.csv"), raised).unwrap();
     let (code, _, err) = detect(path, &["counts.csv"]);
     assert_eq!(code, 0);
-    assert!(err.contains("in which unit are the readings?"), "{err}");
+    assert!(err.contains("give the unit with --unit"), "{err}");
 }
 
 /// What the message is about, what comes through the pipe, and further arguments.

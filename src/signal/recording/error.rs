@@ -60,7 +60,7 @@ pub enum RecordingProblem {
     #[error("no zip archive, so it has no member \"{0}\" (leave out --member)")]
     NotAnArchive(String),
     /// A file named like an archive that is not one.
-    #[error("ends in .zip, but is no zip archive (was it downloaded whole?)")]
+    #[error("ends in .zip, but is not a zip archive (download it again)")]
     NotAZip,
     /// A damaged or unsupported archive.
     #[error("zip archive: {0} (export it anew)")]
@@ -85,22 +85,22 @@ pub enum RecordingProblem {
     #[error("zip archive: {0} are tables of accelerations (--member NAME)")]
     SeveralTables(Names),
     /// An empty file.
-    #[error("is empty (was it exported whole?)")]
+    #[error("is empty (export it again)")]
     Empty,
     /// A header without readings.
-    #[error("has a header and no readings (was it exported whole?)")]
+    #[error("has a header and no readings (export it again)")]
     HeaderOnly,
     /// Too few readings at different times.
     #[error("must have at least 2 readings of the acceleration at different times, got {0}")]
     TooFew(u64),
     /// All readings are equal.
-    #[error("every reading of the acceleration is {0} (is this the right column?)")]
+    #[error("every reading of the acceleration is {0} (choose another column with --acceleration)")]
     AllEqual(f64),
     /// A binary file.
-    #[error("holds bytes that are no text (is this a table? export as CSV)")]
+    #[error("holds bytes that are not text (export as CSV)")]
     Binary,
     /// A line that is too long.
-    #[error("must be at most {LONGEST_LINE} bytes long (is this a table of numbers?)")]
+    #[error("must be at most {LONGEST_LINE} bytes long (export a table of numbers)")]
     TooLong,
     /// An unknown column.
     #[error("no column \"{got}\" for the {role}{} (the columns are {found})", did_you_mean(.hint))]

@@ -46,7 +46,7 @@ pub struct LineReading {
 #[derive(Debug, thiserror::Error)]
 pub enum LineError {
     /// A line that is too long.
-    #[error("line {line}: must be at most {LONGEST_LINE} bytes long (is this a table of numbers?)")]
+    #[error("line {line}: must be at most {LONGEST_LINE} bytes long (send one reading per line)")]
     TooLong {
         /// From 1.
         line: u64,

@@ -181,8 +181,8 @@ impl Readings {
             (true, 1e12..1e13) => "--time-unit ms, if these are milliseconds since 1970",
             (true, 1e15..1e16) => "--time-unit us, if these are microseconds since 1970",
             (true, 1e18..1e19) => "--time-unit ns, if these are nanoseconds since 1970",
-            _ if is_clock => "is the unit right? --time-unit s, ms, us or ns",
-            _ => "is the unit right? --unit m/s^2, g, mg or counts",
+            _ if is_clock => "check the unit: --time-unit s, ms, us or ns",
+            _ => "check the unit: --unit m/s^2, g, mg or counts",
         };
         let column = self.layout.columns[column].name.clone();
         Err(self.table.error(RecordingProblem::OutOfRange {

@@ -224,7 +224,7 @@ impl fmt::Display for Warning {
             ),
             Self::PerhapsCounts { mean } => write!(
                 f,
-                "the mean is {mean:.1} m/s^2, that of gravity 9.8 (in which unit are the readings? --unit says it)"
+                "the mean is {mean:.1} m/s^2, that of gravity 9.8 (give the unit with --unit)"
             ),
             Self::PerhapsGravity { mean } => write!(
                 f,

@@ -16,7 +16,7 @@
 //! | D ≥ 2A³/J²: v² + (A²/J) v − AD = 0 | 2AD/(A²/J + √(A⁴/J² + 4AD)) |
 //! | below: D = 2 J t_j³ | J t_j², t_j = ∛(D/2J) |
 //!
-//! and a trip for which it exceeds V runs at V, and uniformly for D/V − T.
+//! A trip for which it exceeds V has speed V, with uniform motion for D/V − T.
 
 use libm::{cbrt, sqrt};
 

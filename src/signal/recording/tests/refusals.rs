@@ -5,7 +5,7 @@ use std::io::Write;
 
 #[test]
 fn no_table() {
-    assert_eq!(refused(""), "ride.csv: is empty (was it exported whole?)");
+    assert_eq!(refused(""), "ride.csv: is empty (export it again)");
     assert_eq!(refused("\n\n# nothing\n"), refused(""));
     assert!(refused("time,acc\n").contains("has a header and no readings"));
     assert!(
@@ -19,10 +19,10 @@ fn no_table() {
     );
     assert!(
         refused([0x7f, b'E', b'L', b'F', 2, 1, 1, 0])
-            .contains("ride.csv:1: holds bytes that are no text")
+            .contains("ride.csv:1: holds bytes that are not text")
     );
     assert!(
-        refused("time,acc\n0,1\n0.1,\0\n").contains("ride.csv:3: holds bytes that are no text")
+        refused("time,acc\n0,1\n0.1,\0\n").contains("ride.csv:3: holds bytes that are not text")
     );
     let long = "9".repeat(lines::LONGEST_LINE + 1);
     assert!(refused(&long).contains("ride.csv:1: must be at most 1048576 bytes long"));
