@@ -209,7 +209,7 @@ impl fmt::Display for Warning {
             ),
             Self::Held { repeats } => write!(
                 f,
-                "{:.0} % of the samples equal the one before (was a slow sensor read too often?)",
+                "{:.0} % of the samples equal the one before (a slow sensor was probably read too often)",
                 percent(*repeats)
             ),
             Self::NearTie(vertical) => write!(f, "vertical axis: {vertical} (--axis x, y or z)"),
