@@ -35,7 +35,7 @@ pub struct Replay {
     pub statistics: Statistics,
     /// Whether the trial decided H₁.
     pub is_h1: bool,
-    /// Where X, Y₁ and Y₂ lie among the whitened samples.
+    /// The positions of X, Y₁ and Y₂ among the whitened samples.
     pub samples: Samples,
     /// Observations before X.
     pub lead: usize,

@@ -168,7 +168,7 @@ struct Level {
     high: f64,
 }
 
-/// Where a curve reaches the power.
+/// The Δ at which a curve reaches the power.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Crossing {
     estimate: [f64; 2],

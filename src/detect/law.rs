@@ -209,8 +209,8 @@ fn gaussian_binomial(chosen: usize, others: usize) -> Vec<BigUint> {
     let mut counts = vec![BigUint::ZERO; half + 1];
     counts[0] = BigUint::from(1u8);
     for i in 1..=short {
-    // In place: ascending order divides by 1 − q^i, descending order multiplies by 1 − q^step.
-    for u in i..=half {
+        // In place: ascending order divides by 1 − q^i, descending order multiplies by 1 − q^step.
+        for u in i..=half {
             let (low, high) = counts.split_at_mut(u);
             high[0] += &low[u - i];
         }

@@ -29,7 +29,7 @@ pub struct Trip {
     pub stop_decision: Option<Decision>,
 }
 
-/// What ended a motion.
+/// The end of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum End {

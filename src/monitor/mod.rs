@@ -1,5 +1,5 @@
 //! Watching a lift, sample by sample: the state machine that [^1] was written for, with a decision at
-//! every moment, memory of constant size, and a whitening filter and reference X that are learnt anew at
+//! every moment, memory of constant size, and a whitening filter and reference X that are learnt again at
 //! every rest.
 //!
 //! # The flow

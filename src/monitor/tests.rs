@@ -504,7 +504,7 @@ fn a_constant_record_is_decided_by_keys() {
             (moves, decisions) = (moves + u64::from(moved), decisions + 1);
         }
     }
-    // Keys are drawn anew at every block, so that these decisions are independent.
+    // New keys are drawn at every block, so that these decisions are independent.
     let tail = binomial::upper_tail(moves, decisions, monitor.design().region.size());
     println!("{moves} of {decisions}, upper tail {tail:.2e}");
     assert!(tail > 1e-6);

@@ -98,8 +98,8 @@ pub enum WhiteningError {
         needed: usize,
         /// The samples given.
         training: usize,
-        },
-        /// The training record is too short to choose an order.
+    },
+    /// The training record is too short to choose an order.
     #[error(
         "training: order = \"auto\" needs at least {needed} samples, got {training} \
          (raise training or give order a number)"

@@ -204,7 +204,7 @@ fn refuses_a_record_that_does_not_fit() {
     assert!(refusal.to_string().contains("GB"), "{refusal}");
 }
 
-/// What a point counts does not depend on where it stands, with shared noise or without.
+/// The counts of a point do not depend on its position in the list, with shared noise or without.
 #[test]
 fn counts_do_not_depend_on_the_order_of_points() {
     for common_random_numbers in [true, false] {

@@ -11,9 +11,9 @@ use super::reading::{TimeUnit, Unit};
 pub(super) struct Column {
     pub name: String,
     pub role: Role,
-    /// As the name says.
+    /// The unit in the name, if any.
     pub time_unit: Option<TimeUnit>,
-    /// As the name says.
+    /// The unit in the name, if any.
     pub unit: Option<Unit>,
 }
 

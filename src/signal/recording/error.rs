@@ -47,7 +47,7 @@ impl fmt::Display for Report {
     }
 }
 
-/// What is wrong with a recording.
+/// Why a recording was refused.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordingProblem {
     /// The file cannot be read.
@@ -71,11 +71,11 @@ pub enum RecordingProblem {
     /// An unknown member.
     #[error("zip archive: no member \"{got}\"{} (it holds {found})", did_you_mean(.hint))]
     UnknownMember {
-        /// As asked.
+        /// The one asked for.
         got: String,
-        /// The nearest one.
+        /// The most similar one.
         hint: Option<String>,
-        /// All there are.
+        /// The known ones.
         found: Names,
     },
     /// An archive without a table of accelerations.
@@ -107,11 +107,11 @@ pub enum RecordingProblem {
     UnknownColumn {
         /// Time or acceleration.
         role: &'static str,
-        /// As asked.
+        /// The one asked for.
         got: String,
-        /// The nearest one.
+        /// The most similar one.
         hint: Option<String>,
-        /// All there are.
+        /// The known ones.
         found: Names,
     },
     /// A table without a header and with more than two columns.
@@ -136,9 +136,9 @@ pub enum RecordingProblem {
          (--acceleration COLUMN)"
     )]
     NoAxis {
-        /// As asked.
+        /// The one asked for.
         axis: Axis,
-        /// All there are.
+        /// The known ones.
         found: Names,
     },
     /// The direction of gravity cannot be found.
@@ -150,11 +150,11 @@ pub enum RecordingProblem {
     /// A cell that is not a number.
     #[error("column \"{column}\": must be a number, got \"{got}\"{remedy}")]
     NotANumber {
-        /// Its name.
+        /// The name of the column.
         column: String,
-        /// As written, shorten.
+        /// The text, shortened.
         got: String,
-        /// What to do, in brackets after a space; or nothing.
+        /// The remedy, in brackets after a space; may be empty.
         remedy: &'static str,
     },
     /// NaN or an infinity.
@@ -162,33 +162,33 @@ pub enum RecordingProblem {
         "column \"{column}\": must be finite, got \"{got}\" (leave the cell blank where nothing was read)"
     )]
     NotFinite {
-        /// Its name.
+        /// The name of the column.
         column: String,
-        /// As written, shorten.
+        /// The text, shortened.
         got: String,
     },
     /// A number that no lift gives and whose square might overflow.
     #[error("column \"{column}\": must lie within 1e{exponent} {unit}, got {got} ({remedy})")]
     OutOfRange {
-        /// Its name.
+        /// The name of the column.
         column: String,
-        /// Of the limit, a power of ten.
+        /// The limit as a power of ten.
         exponent: u8,
-        /// Of the limit.
+        /// The unit of the limit.
         unit: &'static str,
-        /// In that unit.
+        /// The value in that unit.
         got: f64,
-        /// What to do.
+        /// The remedy.
         remedy: &'static str,
     },
     /// A row with a different number of cells.
     #[error("must have {expected} cells as the first row has, got {got}{}", .hint.unwrap_or_default())]
     Cells {
-        /// Of the first row.
+        /// Cells in the first row.
         expected: usize,
-        /// Of this one.
+        /// Cells in this row.
         got: usize,
-        /// What may be the reason, in brackets after a space.
+        /// A possible reason, in brackets after a space.
         hint: Option<&'static str>,
     },
     /// A row with another separator.
@@ -196,17 +196,17 @@ pub enum RecordingProblem {
         "cells are parted by {expected} in the first row, here by {got} (write one of them throughout)"
     )]
     MixedSeparators {
-        /// Of the first row.
+        /// The separator in the first row.
         expected: &'static str,
-        /// Of this one.
+        /// The separator in this row.
         got: &'static str,
     },
     /// A time before that of the last reading.
     #[error("time must increase, got {to} s after {from} s (sort the rows, or split the file)")]
     TimeBack {
-        /// The reading before.
+        /// The time before, s.
         from: f64,
-        /// This one.
+        /// The time in this row, s.
         to: f64,
     },
     /// An impossible rate of the clock.
@@ -215,9 +215,9 @@ pub enum RecordingProblem {
         .likely.map_or("s, ms, us or ns".to_owned(), |unit| unit.to_string())
     )]
     Rate {
-        /// Its name.
+        /// The name of the column.
         column: String,
-        /// As named, or seconds.
+        /// The stated unit, or seconds.
         unit: TimeUnit,
         /// Hz.
         rate: f64,
@@ -276,7 +276,7 @@ pub(super) fn nearest(got: &str, known: &[String]) -> Option<String> {
         .map(|(_, name)| name.clone())
 }
 
-/// A hint in words.
+/// The hint as text.
 fn did_you_mean(hint: &Option<String>) -> String {
     hint.as_ref()
         .map_or(String::new(), |name| format!(", did you mean \"{name}\"?"))

@@ -48,17 +48,17 @@ pub enum LineError {
     /// A line that is too long.
     #[error("line {line}: must be at most {LONGEST_LINE} bytes long (send one reading per line)")]
     TooLong {
-        /// From 1.
+        /// The number of the line, from 1.
         line: u64,
     },
     /// A cell that is not a number.
     #[error("line {line}: must be {}, got \"{got}\"", layout(*.has_drum))]
     NotNumbers {
-        /// From 1.
+        /// The number of the line, from 1.
         line: u64,
         /// Whether lines end with the drum.
         has_drum: bool,
-        /// As written, shorten.
+        /// The text, shortened.
         got: String,
     },
     /// NaN or an infinity.
@@ -66,15 +66,15 @@ pub enum LineError {
         "line {line}: numbers must be finite, got \"{got}\" (leave the line out where nothing was read)"
     )]
     NotFinite {
-        /// From 1.
+        /// The number of the line, from 1.
         line: u64,
-        /// As written, shorten.
+        /// The text, shortened.
         got: String,
     },
     /// A line with a different number of cells.
     #[error("line {line}: must have {expected} as the first reading had, got {got}", expected = cells(*.expected), got = cells(*.got))]
     Cells {
-        /// From 1.
+        /// The number of the line, from 1.
         line: u64,
         /// Cells of the first reading.
         expected: usize,
@@ -84,7 +84,7 @@ pub enum LineError {
     /// The input cannot be read.
     #[error("line {line}: cannot be read: {error}")]
     Io {
-        /// From 1.
+        /// The number of the line, from 1.
         line: u64,
         /// The error of the system.
         error: io::Error,

@@ -12,7 +12,7 @@ use std::fmt;
 pub enum Warning {
     /// Samples are unevenly spaced.
     Uneven {
-        /// As in [`Facts`].
+        /// [`Facts::jitter`].
         jitter: f64,
     },
     /// Samples are missing.
@@ -43,7 +43,7 @@ pub enum Warning {
     },
     /// The sensor was at its limit.
     Saturated {
-        /// Of the samples.
+        /// The share of samples at the limit.
         share: f64,
         /// m/s².
         least: f64,
@@ -76,12 +76,12 @@ pub enum Warning {
     },
     /// The mean is far beyond gravity's.
     PerhapsCounts {
-        /// As read.
+        /// The mean as read.
         mean: f64,
     },
     /// The header names no unit, and the mean is 1.
     PerhapsGravity {
-        /// As read.
+        /// The mean as read.
         mean: f64,
     },
 }
