@@ -3,10 +3,10 @@
 use serde::de::value::Error;
 use serde::de::{DeserializeOwned, Deserializer, Error as _, Visitor};
 
-/// The names in their order: what a derived `Deserialize` asks for.
+/// The field names in order, as the derived `Deserialize` asks for them.
 pub fn names<T: DeserializeOwned>() -> &'static [&'static str] {
     let mut names = Names(&[]);
-    // It has nothing to give, so it always fails.
+    // The deserializer records the names and then always fails.
     let _ = T::deserialize(&mut names);
     names.0
 }

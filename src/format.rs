@@ -1,8 +1,8 @@
-//! Numbers as a typesetter writes them, and long texts cut short.
+//! Typeset numbers and shortened texts.
 
 use std::borrow::Cow;
 
-/// 200000 as 200 000, with thin spaces.
+/// Groups digits by thin spaces: 200 000.
 pub fn thousands(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();
@@ -15,20 +15,20 @@ pub fn thousands(number: u64) -> String {
     text
 }
 
-/// Eight significant digits: more than any count supports, fewer than the last bits of a bisection.
+/// Rounds to eight significant digits: more than any count supports, and free of the last bits of a bisection.
 pub fn eight_digits(value: f64) -> f64 {
     format!("{value:.7e}").parse().unwrap_or(value)
 }
 
-/// With a minus sign instead of the hyphen.
+/// Writes the hyphen of a number as a minus sign.
 pub fn minus(number: &str) -> String {
     number.replace('-', "−")
 }
 
-/// The most characters of what a user wrote that a message repeats.
+/// The most characters of user input that a message repeats.
 const MOST_SHOWN: usize = 200;
 
-/// `text`, or its two ends where it is too long to be repeated.
+/// `text`, or its two ends if it is too long for a message.
 pub fn shorten(text: &str) -> Cow<'_, str> {
     let length = text.chars().count();
     if length <= MOST_SHOWN {

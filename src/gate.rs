@@ -3,37 +3,38 @@
 //! Each scenario's hypothesis "the false-alarm rate is at most nominal" gets an exact one-sided
 //! binomial test; the p-values are corrected together by Holm's rule, so that a gate all of whose
 //! scenarios hold fails with probability at most [`FAMILY_LEVEL`]. A scenario that is not rejected
-//! passes only where the run could have told: where it had power [`POWER`] against [`EXCESS`] times
-//! nominal, computed at the strictest level that Holm's rule may use. Otherwise the run says nothing.
+//! passes only if the run could have detected an excess: if it had power [`POWER`] against [`EXCESS`]
+//! times nominal, computed at the strictest level that Holm's rule may use. Otherwise the run is
+//! inconclusive.
 //!
 //! # Rare events
-//! Brute force goes far: `scripts/rare` tests α = 10⁻⁵ with the fitted filter by 10⁸ trials in about a minute
-//! on two cores, and an hour would do for 10⁻⁸ at the same power. Importance sampling is not used, though
-//! with normal noise it would be unbiased (a decision is a function of the driving noise, whose density is
-//! known). Its weighted sums are no counts, so neither the exact test nor the integers that make a run the same on
-//! any machine would be left. And it would fail silently where it matters: a tilt of Y₁ and Y₂ samples
-//! the false alarms of an exact law, while those that break the promise come from one huge innovation that
-//! spoils the fit, which such a tilt hardly ever draws: a small estimate with a small, wrong interval.
-//! Splitting by levels of W has the same fault, and its chains are dependent.
+//! Plain simulation is enough: `scripts/rare` tests α = 10⁻⁵ with the fitted filter by 10⁸ trials in about a
+//! minute on two cores. Importance sampling would be unbiased with normal noise (a decision is a function of
+//! the driving noise, whose density is known), but it is not used, for two reasons. Its weighted sums are not
+//! counts, so neither the exact test nor results that agree bit for bit on every machine would be possible.
+//! And it would fail silently where it matters: a tilt of Y₁ and Y₂ samples the false alarms of the exact law,
+//! while an excess comes from single huge innovations that spoil the fit. Such a tilt hardly ever draws them,
+//! so the estimate would be small, with a small, wrong interval. Splitting by levels of W has the same fault,
+//! and its chains are dependent.
 
 use crate::plan::Point;
 use crate::stats::tally::{self, Tally};
 
-/// The probability that a gate fails although every scenario holds, at most.
+/// The largest probability that a gate fails although every scenario holds.
 pub const FAMILY_LEVEL: f64 = 1e-3;
 
 /// The excess over nominal that a run must be able to see.
 pub const EXCESS: f64 = 1.2;
 
-/// The probability of seeing it, at least.
+/// The smallest probability of detecting that excess.
 pub const POWER: f64 = 0.99;
 
-/// What became of one scenario.
+/// The result of one scenario.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finding {
     /// The level tested against.
     pub nominal: f64,
-    /// What was counted.
+    /// The false alarms and trials counted.
     pub tally: Tally,
     /// P(at least as many false alarms | rate = nominal).
     pub p_value: f64,
@@ -43,12 +44,12 @@ pub struct Finding {
     pub verdict: Verdict,
 }
 
-/// What may be concluded.
+/// The conclusion about one scenario or all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Not rejected, by a run that could have.
+    /// Not rejected, by a run with enough power.
     Pass,
-    /// Not rejected, by a run that was too short to tell.
+    /// Not rejected, by a run without enough power.
     Inconclusive,
     /// Rejected: the false-alarm rate is above nominal.
     Fail,
@@ -81,8 +82,8 @@ pub fn judge(points: &[Point], tallies: &[Tally], nominal: Option<f64>) -> Vec<F
         .collect()
 }
 
-/// How many trials would give every scenario the power to pass, rounded up to two digits; none where
-/// no run that anyone can make would do.
+/// The number of trials that gives every scenario enough power to pass, rounded up to two digits;
+/// `None` if it is beyond any practical run.
 pub fn trials_for_power(findings: &[Finding]) -> Option<u64> {
     let strictest = FAMILY_LEVEL / findings.len() as f64;
     let nominal = findings
@@ -98,7 +99,7 @@ pub fn trials_for_power(findings: &[Finding]) -> Option<u64> {
     })
 }
 
-/// The conclusion over all: the worst of them.
+/// The worst verdict of all findings.
 pub fn overall(findings: &[Finding]) -> Verdict {
     let any = |verdict| findings.iter().any(|finding| finding.verdict == verdict);
     if any(Verdict::Fail) {

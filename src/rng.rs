@@ -29,7 +29,7 @@ pub struct Stream {
 
 impl Stream {
     /// The stream of `seed` that serves `purpose` (noise, impulses, …) for `subject`, a text that
-    /// tells one simulated thing from another; equal subjects share their draws.
+    /// names what is simulated; equal subjects share their draws.
     pub fn new(seed: u64, purpose: &str, subject: &str) -> Self {
         let mut key = Sha256::new();
         key.update(seed.to_le_bytes());

@@ -1,4 +1,4 @@
-//! What a single value must be, and the refusal of one that is not.
+//! Rules for single values, and the error for a value that breaks one.
 
 use crate::format::shorten;
 use std::fmt::{self, Display};
@@ -11,7 +11,7 @@ pub enum Rule {
     Positive,
     /// Strictly between 0 and 1.
     Level,
-    /// From the first to the second, both included, of a unit.
+    /// In a closed interval: lower end, upper end, unit.
     Within(f64, f64, &'static str),
 }
 
@@ -19,13 +19,13 @@ pub enum Rule {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}must {rule}, got {got}{remedy}", prefix(key))]
 pub struct OutOfRange {
-    /// The key or the flag, as the user writes it; blank where whoever reads the value adds it.
+    /// The key or the flag, as the user writes it; blank if the caller adds it later.
     pub key: String,
-    /// After "must".
+    /// The text after "must".
     pub rule: String,
-    /// As the user wrote it.
+    /// The value as the user wrote it.
     pub got: String,
-    /// Why, or what to do, in brackets after a space; or nothing.
+    /// The reason or what to do, in brackets after a space; may be empty.
     pub remedy: &'static str,
 }
 
@@ -37,31 +37,31 @@ fn prefix(key: &str) -> String {
     }
 }
 
-/// A rule, and a remedy for who breaks it.
+/// A rule with a remedy for its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Explained(pub Rule, pub &'static str);
 
 impl Explained {
-    /// As [`Rule::check`].
+    /// Like [`Rule::check`], with the remedy in the error.
     ///
     /// # Errors
-    /// Where the value breaks the rule.
+    /// If the value breaks the rule.
     pub fn check(self, key: &str, value: &impl Checked) -> Result<(), OutOfRange> {
         (self.0.check(key, value)).map_err(|error| error.explained(self.1))
     }
 }
 
-/// A value with a rule; one that may be left out is checked where it is there.
+/// A value that can be checked; an optional one is checked if it is present.
 pub trait Checked {
-    /// The number, and how it is written.
+    /// The number and its text.
     fn written(&self) -> Option<(f64, String)>;
 }
 
 impl Rule {
-    /// Whether the value of `key` keeps the rule.
+    /// Checks the value of `key`.
     ///
     /// # Errors
-    /// Where it does not.
+    /// If the value breaks the rule.
     pub fn check(self, key: &str, value: &impl Checked) -> Result<(), OutOfRange> {
         match value.written() {
             Some((number, got)) if !self.holds(number) => Err(OutOfRange::new(key, self, got)),
@@ -90,7 +90,7 @@ impl Display for Rule {
 }
 
 impl OutOfRange {
-    /// `got` breaks a rule, which reads on after "must".
+    /// An error for the value `got` of `key`; `rule` is the text after "must".
     pub fn new(key: impl Into<String>, rule: impl Display, got: impl Display) -> Self {
         Self {
             key: key.into(),
@@ -100,13 +100,13 @@ impl OutOfRange {
         }
     }
 
-    /// The same of a value without a key; what stands in brackets behind the rule is the remedy.
+    /// The same for a value without a key; a bracketed text at the end of `rule` is the remedy.
     pub fn of(rule: &'static str, got: impl Display) -> Self {
         let (rule, remedy) = rule.split_at(rule.find(" (").unwrap_or(rule.len()));
         Self::new("", rule, got).explained(remedy)
     }
 
-    /// The same with a remedy.
+    /// Adds a remedy.
     #[must_use]
     pub fn explained(self, remedy: &'static str) -> Self {
         Self { remedy, ..self }

@@ -18,7 +18,7 @@ pub const LANES: usize = 8;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wide<const N: usize = LANES>(pub [f64; N]);
 
-/// What the linear stages of a trial compute with: the value of one trial, or of several side by side.
+/// A value in the linear stages of a trial: of one trial, or of several side by side.
 pub trait Value:
     Copy
     + Default
@@ -27,9 +27,9 @@ pub trait Value:
     + Mul<Output = Self>
     + Mul<f64, Output = Self>
 {
-    /// The values of each trial alone.
+    /// The value of each trial.
     fn lanes(&self) -> &[f64];
-    /// The same, to be written.
+    /// The value of each trial, mutable.
     fn lanes_mut(&mut self) -> &mut [f64];
 }
 
@@ -93,7 +93,7 @@ impl<const N: usize> Wide<N> {
         self.zip(other, greatest)
     }
 
-    /// Without the signs.
+    /// The absolute value of each lane.
     #[inline(always)]
     pub fn abs(self) -> Self {
         self.zip(
@@ -126,7 +126,7 @@ pub fn greatest(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
-/// Operators that act in each lane by itself.
+/// Implements operators lane by lane.
 macro_rules! lane_by_lane {
     ($($operator:ident, $method:ident: $symbol:tt;)*) => {$(
         impl<const N: usize> $operator for Wide<N> {
@@ -160,10 +160,10 @@ impl<const N: usize> Mul<f64> for Wide<N> {
     }
 }
 
-/// Vector instructions, narrow ones first.
+/// Vector instruction sets, from narrow to wide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Vectors {
-    /// What every processor of its family has.
+    /// The instructions that every processor of its family has.
     Baseline,
     /// 256 bits.
     Avx2,
@@ -172,7 +172,7 @@ pub enum Vectors {
 }
 
 impl Vectors {
-    /// Those that this processor has.
+    /// The instruction sets that this processor has.
     pub fn available() -> Vec<Self> {
         let all = [Self::Baseline, Self::Avx2, Self::Avx512].into_iter();
         all.filter(|vectors| vectors.is_available()).collect()
@@ -213,8 +213,8 @@ impl Vectors {
         *WIDEST
     }
 
-    /// Runs `kernel`, whose loops are compiled for these instructions where all of it is inlined. Where
-    /// the processor lacks them, for the widest narrower ones it has.
+    /// Runs `kernel`, whose loops are compiled for these instructions if all of it is inlined. If the
+    /// processor lacks them, the widest narrower ones it has are used.
     #[inline]
     pub fn run<R>(self, kernel: impl FnOnce() -> R) -> R {
         #[cfg(target_arch = "x86_64")]

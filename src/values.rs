@@ -1,4 +1,4 @@
-//! Numbers that hold one rule, wherever they stand: checked once, when they are made or read from a file.
+//! Numbers that satisfy a rule by construction: checked once, when they are made or read from a file.
 
 use crate::rule::OutOfRange;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -13,10 +13,10 @@ macro_rules! bounded_f64 {
         pub struct $name(f64);
 
         impl $name {
-            /// Takes a value that keeps the rule.
+            /// Checks a value.
             ///
             /// # Errors
-            /// Where it does not; NaN never does.
+            /// If the value breaks the rule, as NaN always does.
             pub fn new(value: f64) -> Result<Self, $crate::rule::OutOfRange> {
                 let holds: fn(f64) -> bool = $holds;
                 if holds(value) {
@@ -87,10 +87,10 @@ bounded_f64! {
 pub struct Size(usize);
 
 impl Size {
-    /// Takes 1 and above.
+    /// Checks a number, which must be at least 1.
     ///
     /// # Errors
-    /// Where it is 0.
+    /// If the number is 0.
     pub fn new(value: usize) -> Result<Self, OutOfRange> {
         if value > 0 {
             Ok(Self(value))
@@ -133,10 +133,10 @@ impl schemars::JsonSchema for Size {
     }
 }
 
-/// Reads a plain number that keeps the rule of `T`, for `deserialize_with`.
+/// Reads a plain number that satisfies the rule of `T`, for `deserialize_with`.
 ///
 /// # Errors
-/// Where it does not.
+/// If the number breaks the rule.
 pub fn number<'de, T, D>(deserializer: D) -> Result<f64, D::Error>
 where
     T: Deserialize<'de> + Into<f64>,

@@ -1,5 +1,5 @@
-//! No allocation inside a trial: a block of many trials allocates as often as a block of one. And a monitor
-//! holds as much memory after a day as after a minute.
+//! No allocation inside a trial: a block of many trials allocates as often as a block of one. A monitor holds
+//! as much memory after a day as after a minute.
 
 use liftsim::chain::{Observation, Trial};
 use liftsim::experiment::SweepConfig;
@@ -13,12 +13,12 @@ use std::cell::Cell;
 struct Counting;
 
 thread_local! {
-    // Of this thread alone: the test harness allocates on its own when it likes.
+    // Counted per thread, because the test harness allocates in its own threads.
     static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
     static HELD: Cell<i64> = const { Cell::new(0) };
 }
 
-/// Bytes that this thread has taken and not given back.
+/// Bytes allocated and not freed by this thread.
 fn held() -> i64 {
     HELD.with(Cell::get)
 }
@@ -30,7 +30,7 @@ fn allocations() -> u64 {
 // SAFETY: every call goes to the system's allocator unchanged.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        // A thread that is ending counts no more.
+        // A thread that is ending is not counted any more.
         let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
         let _ = HELD.try_with(|bytes| bytes.set(bytes.get() + layout.size() as i64));
         // SAFETY: the caller keeps `alloc`'s contract.
@@ -102,7 +102,7 @@ fn trials_do_not_allocate() {
     }
 }
 
-/// Rests, rides and learning from each rest: a minute of them again and again.
+/// A minute of rests and rides, repeated, with learning from each rest.
 #[test]
 fn a_monitor_does_not_grow() {
     let acceleration = |i: u32| match i % 6000 {
@@ -110,7 +110,7 @@ fn a_monitor_does_not_grow() {
         3200..3400 | 5400..5600 => -0.5,
         _ => 0.0,
     };
-    // Noise that differs from minute to minute.
+    // The noise differs from minute to minute.
     let noise = |i: u32| f64::from(i.wrapping_mul(2_654_435_761) >> 16) * 3e-7;
     let knowledge = Knowledge {
         begins_at_rest: true,

@@ -1,9 +1,9 @@
 //! Rides in recordings, real and simulated.
 //!
 //! Real recordings are not part of the project: `LIFTSIM_RECORDINGS` names a folder of them, with a README
-//! whose table says, file by file, what trips there are. The times in it were read off by hand, so
-//! this is agreement, not accuracy. Without the folder these tests say that they are skipped; the
-//! simulated ones always run.
+//! whose table lists the trips of each file. The times in it were read off by hand, so these tests show
+//! agreement, not accuracy. Without the folder they print that they are skipped; the simulated ones always
+//! run.
 
 use liftsim::detection::{Detection, End, Trip};
 use liftsim::monitor::{Direction, Event, Knowledge, Monitor, Settings, State};
@@ -19,7 +19,7 @@ use std::{env, fs};
 /// Largest distance of a start or a stop from the stated one, s.
 const TOLERANCE: f64 = 0.5;
 
-/// A trip as it is stated.
+/// A trip as stated in the table.
 #[derive(Clone, Copy, Debug)]
 struct Stated {
     start: f64,
@@ -33,14 +33,14 @@ struct Known {
     rate: f64,
     samples: Vec<Sample>,
     trips: Vec<Stated>,
-    /// Whether it is there to be warned about.
+    /// Whether a warning is expected.
     is_adverse: bool,
 }
 
-/// What was found in a recording, and how it compares.
+/// The detection in a recording compared with the table.
 struct Compared {
     detection: Detection,
-    /// The largest distance from a stated time, s; why there is none.
+    /// The largest distance from a stated time, s, or the reason why the trips differ.
     worst: Result<f64, String>,
 }
 
@@ -55,7 +55,7 @@ impl Known {
         Ok(Compared { detection, worst })
     }
 
-    /// Whether all is as stated.
+    /// Whether everything is as stated.
     fn agrees(&self, settings: &Settings) -> bool {
         match self.detect(settings) {
             Err(_) => false,
@@ -87,7 +87,7 @@ fn worst(trips: &[Stated], rides: &[Trip]) -> Result<f64, String> {
     Ok(worst)
 }
 
-/// The real recordings, where there are any.
+/// The real recordings, if available.
 fn real() -> Option<Vec<Known>> {
     let Some(folder) = env::var_os("LIFTSIM_RECORDINGS").map(PathBuf::from) else {
         println!("skipped: LIFTSIM_RECORDINGS names no folder of recordings");
@@ -169,7 +169,7 @@ fn real_rides_are_found_where_they_are_stated() {
     }
 }
 
-/// How often decisions at rest were for motion, at two levels.
+/// The rate of decisions for motion at rest, at two levels.
 #[test]
 fn false_alarms_on_real_rest_are_counted() {
     let Some(known) = real() else { return };
@@ -187,7 +187,7 @@ fn false_alarms_on_real_rest_are_counted() {
     }
 }
 
-/// A setting that can be chosen, from the smallest to the largest value tried.
+/// A setting with the smallest and the largest value tried.
 struct Choice {
     name: &'static str,
     values: Vec<f64>,
@@ -261,7 +261,7 @@ fn choices() -> Vec<Choice> {
 }
 
 impl Choice {
-    /// For each value whether the recordings agree, one by one.
+    /// For each value and recording, whether the trips are as stated.
     fn table(&self, known: &[Known]) -> Vec<Vec<bool>> {
         let judged = |value: &f64| {
             let mut settings = Settings::default();
@@ -288,9 +288,9 @@ impl Choice {
     }
 }
 
-/// Each setting in turn, the others as they are: where all agree, and whether the middle of what suits all
-/// recordings but one suits that one too. The settings were chosen with these files at hand, and this
-/// says how much room that left.
+/// Cross-validation of each setting, with the others at their defaults: the range in which all recordings agree,
+/// and whether the middle of the range of all recordings but one is right for that one too. The settings were
+/// chosen on these files, and this shows how tight that choice was.
 #[test]
 fn settings_chosen_on_all_but_one_hold_on_that_one() {
     let Some(known) = real() else { return };
@@ -327,7 +327,7 @@ fn settings_chosen_on_all_but_one_hold_on_that_one() {
     assert_eq!(held, tried);
 }
 
-/// A lift, a sensor, a rate.
+/// A lift, a sensor and a rate.
 struct Case {
     name: &'static str,
     rate: f64,
@@ -461,7 +461,7 @@ fn simulated_rides_are_found_where_they_are() {
     }
 }
 
-/// A phone that takes out gravity by a high-pass filter, time constant 1 s.
+/// A phone that removes gravity by a high-pass filter with a time constant of 1 s.
 #[test]
 fn high_pass_is_noticed() {
     let mut known = simulated(&cases()[0]);
@@ -476,7 +476,7 @@ fn high_pass_is_noticed() {
     assert!(found.detection.is_high_passed);
 }
 
-/// What a file's loop says is what the monitor says, sample by sample, whatever else it is asked between.
+/// Detection in a file gives the same events as the monitor sample by sample, whatever else it is asked between.
 #[test]
 fn detection_is_a_loop_over_the_monitor() {
     let recordings = real()
@@ -494,7 +494,7 @@ fn detection_is_a_loop_over_the_monitor() {
     }
 }
 
-/// The seconds in which a monitor said rest although the cage moved, later than `grace` s after a start.
+/// The seconds in which a monitor reported rest while the cage moved, later than `grace` s after a start.
 fn misled(ride: &Simulation, record: &[f64], mut monitor: Monitor, grace: f64) -> f64 {
     let journeys = ride.journeys();
     let moves = |time: f64| {
@@ -516,10 +516,10 @@ fn misled(ride: &Simulation, record: &[f64], mut monitor: Monitor, grace: f64) -
     wrong.count() as f64 / ride.rate()
 }
 
-/// ±1 for a draw.
+/// A sign, ±1, from a draw.
 type Directions = fn(u64) -> f64;
 
-/// Ten trips in chosen directions after one another, of chosen lengths and with chosen rests.
+/// Ten trips in given directions, with given lengths and rests.
 fn journey(index: u64, direction: Directions) -> Simulation {
     let part =
         |i: u64, salt: u64| (index * 131 + i * 17 + salt).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 40;
@@ -537,8 +537,8 @@ fn journey(index: u64, direction: Directions) -> Simulation {
     Simulation::new(100.0, rests.collect(), trips.collect()).unwrap()
 }
 
-/// The worst error there is: rest, while the cage moves. Smooth motion, as quiet as rest; a monitor that
-/// knows nothing, and one that is told, rightly, that the cage stands at first.
+/// The worst error: rest reported while the cage moves. With smooth motion, as quiet as rest; for a monitor
+/// without knowledge, and one that knows correctly that the cage stands at first.
 #[test]
 fn no_moving_cage_is_called_still() {
     let directions: [(&str, Directions); 3] = [
@@ -562,14 +562,15 @@ fn no_moving_cage_is_called_still() {
                 .collect();
             let worst = seconds.iter().copied().fold(0.0, f64::max);
             println!(
-                "{name}, told {begins_at_rest}: at most {worst} s in one of 60 records of ten trips"
+                "{name}, begins at rest {begins_at_rest}: at most {worst} s in one of 60 records of ten trips"
             );
             assert!(worst < 0.5, "{seconds:?}");
         }
     }
 }
 
-/// A record that begins in motion: its braking is no start, and nothing is known of it until the direction turns.
+/// A record that begins in motion: its braking is not a start, and the state stays unknown until the direction
+/// changes.
 #[test]
 fn a_record_that_begins_in_motion_is_not_read_upside_down() {
     let known = simulated(&cases()[0]);
@@ -603,7 +604,7 @@ fn a_record_that_begins_in_motion_is_not_read_upside_down() {
     }
 }
 
-/// 1.6 m/s, 0.3 m/s for the last 4 s: stopped when it stands, and not when it creeps.
+/// 1.6 m/s, then 0.3 m/s for the last 4 s: the stop is reported when the cage stands, not when it creeps.
 #[test]
 fn a_levelling_lift_has_not_stopped() {
     let rate = 100.0;

@@ -46,7 +46,7 @@ fn joint_counts_at_rest_follow_the_exact_law() {
         for &w in &w_edges[..8] {
             for &t in &t_edges[..6] {
                 if (w, t) == (78, 0) {
-                    continue; // The whole plane, whose size is no level.
+                    continue; // The whole plane, whose size 1 is not a level.
                 }
                 let entry = |column: u64| {
                     if column < t {
@@ -168,7 +168,7 @@ fn naive_decision(critical: &[(Option<u64>, Option<u64>)], w: u64, t: usize) -> 
     critical[t].1.is_some_and(|upper| w >= upper)
 }
 
-/// Box and Muller, one of the pair thrown away.
+/// Box and Muller's transformation, using one of each pair.
 fn normal(random: &mut impl Rng) -> f64 {
     let (u, v): (f64, f64) = (1.0 - random.random::<f64>(), random.random());
     (-2.0 * u.ln()).sqrt() * (2.0 * std::f64::consts::PI * v).cos()

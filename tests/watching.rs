@@ -1,4 +1,4 @@
-//! The monitor against cages made by hand, where it has been wrong or might be.
+//! The monitor on constructed cages in difficult cases.
 
 use liftsim::detection::{Detection, End};
 use liftsim::monitor::{Alarm, Design, Event, Kind, Knowledge, Monitor, Settings, State};
@@ -9,7 +9,7 @@ type Piece = (f64, f64);
 
 const BLOCK: f64 = 0.05;
 
-/// Blocks by themselves, a sample each, with a little noise: the quietest cage there is, its motion like its rest.
+/// Blocks of one sample with little noise: a very quiet cage whose motion looks like its rest.
 fn samples(pieces: &[Piece]) -> Vec<Sample> {
     let mut samples = Vec::new();
     let mut noise = 1u32;
@@ -30,7 +30,7 @@ fn design() -> Design {
     Settings::default().at(1.0 / BLOCK).unwrap()
 }
 
-/// What a minute of rest teaches.
+/// The knowledge from a minute of rest.
 fn knowledge(design: &Design) -> Knowledge {
     let rest = samples(&[(60.0, 0.0)]);
     let pass = || Ok::<_, ()>(rest.iter().copied().map(Ok));
@@ -43,7 +43,7 @@ fn events(design: &Design, knowledge: Knowledge, pieces: &[Piece]) -> Vec<Event>
     samples(pieces).into_iter().flat_map(step).collect()
 }
 
-/// When it was said that the cage stands.
+/// The times at which rest was reported.
 fn rests(events: &[Event]) -> Vec<f64> {
     let is_rest =
         |event: &&Event| matches!(event.kind, Kind::Change { state, .. } if state == State::REST);
@@ -54,7 +54,7 @@ fn rests(events: &[Event]) -> Vec<f64> {
         .collect()
 }
 
-/// A cage that was said to stand, and starts before that could be seen, is not said to stand while it moves.
+/// A cage that is known to stand and starts before a reference is learnt is not reported at rest while it moves.
 #[test]
 fn a_start_in_the_first_second() {
     let design = design();
@@ -81,7 +81,7 @@ fn a_start_in_the_first_second() {
     }
 }
 
-/// A braking that cuts the acceleration short ends the motion, however long either lasts.
+/// A braking that cuts the acceleration short ends the motion, for any length of either.
 #[test]
 fn no_uniform_motion() {
     let design = design();
@@ -113,7 +113,7 @@ fn no_uniform_motion() {
     }
 }
 
-/// A jam is one whatever the sizes of the samples are.
+/// A jam is detected for any sizes of the samples.
 #[test]
 fn a_jam_at_any_sizes() {
     for (reference, shift, scale, gap) in [
@@ -149,7 +149,7 @@ fn a_jam_at_any_sizes() {
     }
 }
 
-/// What is learnt while nothing is known does not cost the next pulse its beginning.
+/// Learning in the unknown state does not cut off the beginning of the next pulse.
 #[test]
 fn learning_does_not_cut_a_pulse() {
     let design = design();
@@ -177,7 +177,7 @@ fn learning_does_not_cut_a_pulse() {
     }
 }
 
-/// A gap renumbers the blocks, and nothing that was remembered by number survives it.
+/// A gap renumbers the blocks, and everything stored by block number is reset.
 #[test]
 fn gaps_anywhere() {
     let design = design();
@@ -200,7 +200,7 @@ fn gaps_anywhere() {
     }
 }
 
-/// From 1 Hz to 1 MHz, and where the clock's numbers are so large that they are coarse.
+/// From 1 Hz to 1 MHz, and with clock values so large that they are coarse.
 #[test]
 fn any_rate_at_any_time() {
     for rate in [2.0, 3.0, 3.7, 10.0, 100.0, 1e4, 1e6] {

@@ -1,7 +1,7 @@
 //! The noise of [`LANES`] trials side by side: drawn, coloured, observed, whitened.
 //!
-//! Trials whose indices have the same quotient by [`LANES`] are drawn together, from one stream. Which of
-//! them are asked for, in which order, makes no difference.
+//! Trials whose indices have the same quotient by [`LANES`] are drawn together, from one stream. The values
+//! do not depend on which of them are used or in which order.
 
 use super::family::{Branch, Family};
 use super::source::Source;
@@ -11,14 +11,14 @@ use crate::simd::{LANES, Value, Vectors, Wide};
 use crate::whiten::{Fitter, step};
 use rand::Rng;
 
-/// The noise of one batch of trials, and every branch's view of it.
+/// The noise of one batch of trials, as every branch observes it.
 pub(super) struct Batch<'a> {
     family: &'a Family,
-    /// Which batch is here.
+    /// The batch held now.
     index: Option<u64>,
     /// Raw samples, burn-in first.
     raw: Vec<Wide>,
-    /// Digitised block means of the branch that came last.
+    /// Digitised block means of the branch processed last.
     observed: Vec<Wide>,
     /// Whitened observations of that branch from the first of X.
     whitened: Vec<Wide>,
@@ -27,7 +27,7 @@ pub(super) struct Batch<'a> {
     impulses: Vec<[u8; 8]>,
 }
 
-/// Rest as one branch sees it, trial by trial.
+/// The rest as one branch observes it, trial by trial.
 struct Rest {
     fitter: Fitter<Wide>,
     coefficients: Vec<f64>,
@@ -61,7 +61,7 @@ impl<'a> Batch<'a> {
         }
     }
 
-    /// Draws the batch of `trial`, unless it is here, and says in which lane that trial lies.
+    /// Draws the batch of `trial` unless it is held already, and returns the lane of the trial.
     pub fn seek(&mut self, trial: u64) -> usize {
         let (index, lane) = (trial / LANES as u64, trial % LANES as u64);
         if self.index != Some(index) {
@@ -81,7 +81,7 @@ impl<'a> Batch<'a> {
         (part(coefficients, lane), part(whitened, lane))
     }
 
-    /// 64 random bits for each raw observation after X; none where nothing vibrates.
+    /// 64 random bits for each raw observation after X; empty without impulses.
     pub fn impulses(&self, lane: usize) -> &[[u8; 8]] {
         part(&self.impulses, lane)
     }
@@ -100,6 +100,7 @@ impl<'a> Batch<'a> {
             .fill(&mut family.noise.at(index), &mut self.raw);
         let impulses = self.impulses.as_flattened_mut();
         family.impulses.at(index).fill_bytes(impulses);
+        // Created on first use, because only footfalls draw from it.
         let mut footfalls: Option<Generator> = None;
         let footfall = || {
             let generator = footfalls.get_or_insert_with(|| family.footfalls.at(index));
@@ -130,7 +131,7 @@ impl<'a> Batch<'a> {
     }
 }
 
-/// Observes and whitens `record` in the way of `branch`.
+/// Observes and whitens `record` by the digitiser and filter of `branch`.
 #[inline(always)]
 fn see(
     source: &Source,
@@ -141,6 +142,7 @@ fn see(
     rest: &mut Rest,
 ) {
     let decimation = source.samples.decimation();
+    // Without a digitiser and block means the record is its own observation and needs no copy.
     let observed = if decimation == 1 && branch.digitiser.is_transparent() {
         record
     } else {
@@ -162,7 +164,7 @@ fn see(
     deal(whitened, &mut rest.whitened);
 }
 
-/// Digitises raw samples and takes block means: sums of codes, which are exact, then one scale.
+/// Digitises raw samples and takes block means: exact sums of integer codes, then one scale factor.
 #[inline(always)]
 pub(super) fn observe<V: Value>(
     digitiser: &Digitiser,
@@ -184,7 +186,7 @@ pub(super) fn observe<V: Value>(
     }
 }
 
-/// Lays the values of each trial side by side, one trial after the other.
+/// Transposes lanes into one run of values per trial.
 #[inline(always)]
 fn deal(wide: &[Wide], trials: &mut [f64]) {
     for (lane, trial) in trials.chunks_exact_mut(wide.len().max(1)).enumerate() {
@@ -194,7 +196,7 @@ fn deal(wide: &[Wide], trials: &mut [f64]) {
     }
 }
 
-/// What of `all` belongs to the trial of `lane`.
+/// The part of `all` that belongs to the trial of `lane`.
 fn part<T>(all: &[T], lane: usize) -> &[T] {
     let length = all.len() / LANES;
     &all[lane * length..(lane + 1) * length]

@@ -5,21 +5,21 @@ use super::score::Score;
 use crate::detect::{Region, Ties};
 use std::sync::Arc;
 
-/// What decides between H₀ and H₁ at a point.
+/// The decision rule of a point.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Decision {
     /// Whether (W, T) lies in ϑ.
     Region {
         /// ϑ.
         region: Arc<Region>,
-        /// What becomes of equal values.
+        /// The treatment of equal values.
         ties: Ties,
     },
     /// Whether a score lies above a threshold.
     Threshold {
         /// The score.
         score: Arc<Score>,
-        /// What it must exceed.
+        /// The value that the score must exceed for H₁.
         threshold: f64,
     },
 }
@@ -34,7 +34,7 @@ impl Decision {
         }
     }
 
-    /// Whether both are one and the same.
+    /// Whether both decide in the same way.
     pub fn is_same(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Region { region, ties }, Self::Region { region: r, ties: t }) => {
@@ -51,7 +51,7 @@ impl Decision {
         }
     }
 
-    /// P(H₁* | H₀) by the exact laws, where they say.
+    /// P(H₁* | H₀) by the exact laws, if they apply.
     pub fn size(&self) -> Option<f64> {
         match self {
             Self::Region { region, .. } => Some(region.size()),
@@ -59,7 +59,7 @@ impl Decision {
         }
     }
 
-    /// The smallest level that its rule can reach, where the exact laws say.
+    /// The smallest level that its rule can reach, if the exact laws apply.
     pub fn reachable(&self) -> Option<f64> {
         match self {
             Self::Region { region, .. } => region.reachable(),
@@ -67,7 +67,7 @@ impl Decision {
         }
     }
 
-    /// What a score must exceed.
+    /// The threshold of a score.
     pub fn threshold(&self) -> Option<f64> {
         match self {
             Self::Region { .. } => None,

@@ -28,8 +28,7 @@ pub(super) struct Branch {
     pub digitiser: Digitiser,
     pub whitening: Whitening,
     pub courses: Vec<Course>,
-    /// Whether the record itself has to be written down: a point looks at it, or it is digitised and so
-    /// not linear in Δ.
+    /// Whether the record itself is needed: a point uses it, or it is digitised and so not linear in Δ.
     pub needs_record: bool,
 }
 
@@ -43,9 +42,9 @@ pub(super) struct Course {
     pub observed_shape: Vec<f64>,
     /// In ascending order of Δ.
     pub stages: Vec<Stage>,
-    /// Whether a point here looks at more than W and T.
+    /// Whether a point here uses more than W and T.
     pub needs_samples: bool,
-    /// Whether a point here looks at the record itself.
+    /// Whether a point here uses the record itself.
     pub needs_record: bool,
 }
 
@@ -53,14 +52,14 @@ pub(super) struct Course {
 #[derive(Clone, Debug)]
 pub(super) struct Stage {
     pub delta: f64,
-    /// The points that look at it.
+    /// The points that use it.
     pub places: Vec<usize>,
 }
 
-/// What a run is for.
+/// The purpose of a run; every purpose has its own draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// What is reported.
+    /// The reported results.
     Results,
     /// Ordering the cells of the plane of W and T against an alternative.
     Ordering,
@@ -73,10 +72,10 @@ impl Family {
     /// Arranges `scenarios` into families; a scenario's place is its place in this list. With
     /// `common_random_numbers` points share noise wherever sensor, law, sizes and training length
     /// agree; without, every point that simulates anything different has noise of its own. `purpose`
-    /// tells the draws of one run from those of another at the same seed.
+    /// separates the draws of pilots from those of the results at the same seed.
     ///
     /// # Errors
-    /// Where a record would not fit in memory: the first such scenario, and how much it takes.
+    /// If a record does not fit in memory: the first such scenario and its memory.
     pub fn arrange<'a>(
         scenarios: impl IntoIterator<Item = &'a Scenario>,
         seed: u64,
@@ -127,17 +126,17 @@ impl Family {
         }
     }
 
-    /// How many (W, T) are computed in one trial.
+    /// The number of (W, T) computed in one trial.
     pub fn points_per_trial(&self) -> usize {
         self.courses().map(|(_, course)| course.stages.len()).sum()
     }
 
-    /// Memory of the buffers of its trials, in GB; every thread has its own.
+    /// Memory of the buffers of a trial, in GB per thread.
     pub fn gigabytes(&self) -> f64 {
         self.gigabytes
     }
 
-    /// Whether anything in it vibrates.
+    /// Whether any point has impulses.
     pub(super) fn has_impulses(&self) -> bool {
         (self.courses()).any(|(_, course)| !course.impulses.are_absent())
     }
@@ -149,7 +148,7 @@ impl Family {
             .flat_map(|stage| stage.places.iter().copied())
     }
 
-    /// Every course, after its branch.
+    /// Every course with its branch.
     pub(super) fn courses(&self) -> impl Iterator<Item = (&Branch, &Course)> {
         let branches = self.branches.iter();
         branches.flat_map(|branch| branch.courses.iter().map(move |course| (branch, course)))
@@ -195,7 +194,7 @@ impl Course {
         }
     }
 
-    /// The stage of this Δ, new where there is none.
+    /// The stage of this Δ, added if missing.
     fn stage(&mut self, delta: f64) -> &mut Stage {
         let index = self.stages.partition_point(|stage| stage.delta < delta);
         if self

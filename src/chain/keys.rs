@@ -1,9 +1,9 @@
-//! Keys that put equal samples in an order.
+//! Keys that break ties between equal samples.
 
 use crate::rng::Stream;
 use rand::Rng;
 
-/// Keys for a trial's ties; random ones are drawn when first asked for.
+/// Keys for a trial's ties; random keys are drawn on first use.
 pub(super) struct Keys<'a> {
     stream: &'a Stream,
     trial: u64,
@@ -13,7 +13,7 @@ pub(super) struct Keys<'a> {
 }
 
 impl<'a> Keys<'a> {
-    /// For trials that span so many samples.
+    /// Keys for trials of `span` samples.
     pub fn new(stream: &'a Stream, span: usize) -> Self {
         Self {
             stream,

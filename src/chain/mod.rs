@@ -6,11 +6,11 @@
 //!
 //! noise + Δ · (step response) + θ · (impulse response),
 //!
-//! a line in Δ: W and T at every Δ follow from where such lines cross, for little more than at one. A
-//! digitised record is not linear in Δ; it is written and whitened anew for each.
+//! a line in Δ. W and T at every Δ follow from the crossings of such lines, at little more than the cost of a
+//! single Δ. A digitised record is not linear in Δ, so it is computed and whitened again for each value.
 //!
-//! Noise is drawn, coloured and whitened for several trials side by side, which is what a processor's
-//! vectors are for; from there on each trial goes its own way.
+//! Noise is drawn, coloured and whitened for several trials side by side in vector instructions; from there
+//! on each trial is processed by itself.
 
 mod batch;
 mod decision;

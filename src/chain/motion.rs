@@ -1,4 +1,4 @@
-//! What a motion adds to the rest of a trial.
+//! The components that a motion adds to the rest of a trial.
 
 use super::batch::observe;
 use super::family::Course;
@@ -8,7 +8,7 @@ use crate::signal::Digitiser;
 use crate::whiten::whiten;
 use std::ops::Range;
 
-/// What a motion adds.
+/// The components that a motion adds.
 pub(super) struct Motion {
     /// λ/θ for each raw observation.
     pub pattern: Vec<f64>,
@@ -22,7 +22,7 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    /// For so many raw observations after X, and so many of their means.
+    /// Buffers for `raw` samples after X and `observed` block means of them.
     pub fn new(raw: usize, observed: usize) -> Self {
         Self {
             pattern: vec![0.0; raw],
@@ -34,7 +34,7 @@ impl Motion {
         }
     }
 
-    /// The pattern of this course from the trial's draws.
+    /// Sets the pattern of this course from the trial's draws.
     pub fn draw_impulses(&mut self, course: &Course, draws: &[[u8; 8]], source: &Source) {
         let first = course.first_impulse(&source.samples);
         let (silent, acting) = self.pattern.split_at_mut(first);
@@ -82,7 +82,7 @@ impl Motion {
         }
     }
 
-    /// W and T at every Δ of the course, unless a near tie leaves them in doubt.
+    /// W and T at every Δ of the course; `None` if a near tie makes one of them uncertain.
     pub fn count<'c>(
         &self,
         crossings: &'c mut Crossings,
@@ -100,7 +100,7 @@ impl Motion {
     }
 }
 
-/// X from the whitened rest, Y₁ and Y₂ from what follows it.
+/// X from the whitened rest, Y₁ and Y₂ from the whitened motion.
 pub(super) fn pool<'a>(samples: &Samples, rest: &'a [f64], motion: &'a [f64]) -> Pooled<'a> {
     let after = |range: Range<usize>| {
         &motion[range.start - samples.reference()..range.end - samples.reference()]

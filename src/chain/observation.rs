@@ -1,37 +1,37 @@
-//! What one trial gives at one point.
+//! The observation of one trial at one point.
 
 use super::keys::Keys;
 use crate::detect::{Forward, Pooled, Samples, Statistics, Ties};
 
-/// One trial of one point: whitened samples, and the record where it was asked for.
+/// One trial of one point: the whitened samples, and the record if a method needs it.
 pub struct Observation<'a, 'k> {
-    /// X, Y₁ and Y₂, whitened; empty where all points need is W and T, and these are known.
+    /// X, Y₁ and Y₂, whitened; empty if the points need only W and T and these are known.
     pub pooled: Pooled<'a>,
-    /// Where they lie.
+    /// Their sizes and positions.
     pub samples: &'a Samples,
     /// The observed record, up to the last of X; empty unless a method here needs it.
     pub rest: &'a [f64],
-    /// The same from there on, with the motion in it; likewise.
+    /// The observed record after X, with the motion in it; empty unless a method here needs it.
     pub motion: &'a [f64],
     pub(super) keys: &'a mut Keys<'k>,
     pub(super) statistics: Option<Statistics>,
     pub(super) scratch: &'a mut Scratch,
 }
 
-/// The space that statistics of the record work in.
+/// Scratch space for statistics of the record.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scratch {
     pub innovations: Vec<f64>,
     pub forward: Forward,
 }
 
-/// Who looks at a trial.
+/// A receiver of observations.
 pub trait View {
-    /// The point at `place` is shown what it sees.
+    /// Takes the observation of the point at `place`.
     fn look(&mut self, place: usize, observation: &mut Observation);
 
-    /// Points along Δ are shown what they see, all of whom look at W and T alone: each place comes after
-    /// the number of its `statistics`.
+    /// Takes the statistics of points along Δ that use only W and T: pairs of an index into `statistics` and
+    /// a place.
     fn look_along(
         &mut self,
         points: &[[u32; 2]],
@@ -52,7 +52,7 @@ impl<F: FnMut(usize, &mut Observation)> View for F {
 }
 
 impl<'a, 'k> Observation<'a, 'k> {
-    /// Nothing seen yet.
+    /// An observation whose statistics have not been computed yet.
     pub(super) fn new(
         samples: &'a Samples,
         keys: &'a mut Keys<'k>,
@@ -79,7 +79,7 @@ impl<'a, 'k> Observation<'a, 'k> {
                     .statistics
                     .get_or_insert_with(|| pooled.statistics(|| keys.random()))
             }
-            // Studies of ties ask once a stage, so that these need not be remembered.
+            // Only studies of ties ask for these, once per stage, so they are not cached.
             Ties::ByPosition => self.pooled.statistics(|| self.keys.positions()),
             Ties::Strict => self.pooled.statistics_strictly(),
         }

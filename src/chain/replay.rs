@@ -1,4 +1,4 @@
-//! One trial of one point, every stage of it laid open.
+//! One trial of one point with the values of every stage.
 
 use super::batch::observe;
 use super::decision::Decision;
@@ -11,41 +11,41 @@ use crate::scenario::Scenario;
 use crate::simd::{LANES, Wide};
 use crate::whiten::Order;
 
-/// Every stage of a trial, in the order of its computation. Raw samples run from the first of the record
+/// Every stage of a trial, in the order of computation. Raw samples run from the first of the record
 /// to the last of Y₂; observations are their block means.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replay {
-    /// ξ, the draws behind the noise; in front those of the burn-in, if there is one.
+    /// ξ, the driving noise, with the burn-in in front if there is one.
     pub innovations: Vec<f64>,
-    /// x with what disturbs it: one for each raw sample.
+    /// x with its disturbance: one value for each raw sample.
     pub noise: Vec<f64>,
-    /// Δ times the shape of the acceleration: one for each raw sample.
+    /// Δ times the shape of the acceleration: one value for each raw sample.
     pub acceleration: Vec<f64>,
-    /// λ: one for each raw sample.
+    /// λ: one value for each raw sample.
     pub impulses: Vec<f64>,
-    /// r as it was written down: digitised, and averaged over blocks. One for each observation.
+    /// r as recorded, digitised and averaged over blocks: one value for each observation.
     pub record: Vec<f64>,
     /// a_1 … a_m.
     pub coefficients: Vec<f64>,
     /// y, from the first observation of X on.
     pub whitened: Vec<f64>,
-    /// The rank of each of these among X, Y₁ and Y₂, from 1; none in a gap.
+    /// The rank of each whitened sample among X, Y₁ and Y₂, from 1; `None` in a gap.
     pub ranks: Vec<Option<usize>>,
     /// W and T.
     pub statistics: Statistics,
-    /// Whether it decided H₁.
+    /// Whether the trial decided H₁.
     pub is_h1: bool,
-    /// Where X, Y₁ and Y₂ lie among the whitened samples.
+    /// The positions of X, Y₁ and Y₂ among the whitened samples.
     pub samples: Samples,
     /// Observations before X.
     pub lead: usize,
 }
 
 impl Replay {
-    /// Trial `index` of `scenario`, as every run with this seed has it.
+    /// Trial `index` of `scenario`, the same as in any run with this seed.
     ///
     /// # Errors
-    /// Where its record would not fit in memory.
+    /// If its record does not fit in memory.
     pub fn new(
         scenario: &Scenario,
         decision: &Decision,
@@ -91,7 +91,7 @@ impl Replay {
         whitened.extend_from_slice(&trial.motion.whitened);
         let chosen = match scenario.whitening.order() {
             Order::Fixed(order) => order,
-            // What was not chosen is zero.
+            // Coefficients beyond the chosen order are zero.
             Order::Auto => {
                 (coefficients.iter().rposition(|a| *a != 0.0)).map_or(0, |last| last + 1)
             }

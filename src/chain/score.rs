@@ -11,23 +11,23 @@ use crate::whiten::{step, whiten};
 /// A statistic that replaces W and T, ready for one scenario: large values speak for H₁.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Score {
-    /// Of the whitened samples.
+    /// Student's t of the whitened samples.
     StudentT(Alternative),
-    /// Of the whitened samples.
+    /// The variance ratio of the whitened samples.
     VarianceRatio,
-    /// Of the record.
+    /// The standardised block mean of the record.
     BlockMeans(Alternative),
-    /// Of the record, whitened with the filter `ar`.
+    /// The likelihood ratio of the record, whitened with the filter `ar`.
     Clairvoyant {
         /// The sensor's autoregression.
         ar: Vec<f64>,
-        /// The statistic of its innovations.
+        /// The statistic of the innovations.
         statistic: Clairvoyant,
     },
 }
 
 impl Score {
-    /// That of the scenario's method, if it is one.
+    /// The score of the scenario's method; `None` for a region.
     pub fn new(scenario: &Scenario) -> Option<Self> {
         let detector = &scenario.detector;
         match detector.method {
@@ -42,7 +42,7 @@ impl Score {
         }
     }
 
-    /// Its value; negative infinity where it has none, as in a record of one value.
+    /// The value of the score; −∞ where it is undefined, as for a constant record.
     #[inline(never)]
     pub fn of(&self, observation: &mut Observation) -> f64 {
         let Pooled {
@@ -70,7 +70,7 @@ impl Score {
                 statistic.log_likelihood_ratio(innovations, forward)
             }
         };
-        // The sign of a NaN is the machine's own, so it must not be sorted.
+        // The sign of a NaN depends on the machine, so NaNs must not be sorted.
         if value.is_nan() {
             f64::NEG_INFINITY
         } else {
@@ -79,7 +79,7 @@ impl Score {
     }
 }
 
-/// The clairvoyant of the scenario's stated motion.
+/// The clairvoyant statistic of the scenario's stated motion.
 fn clairvoyant(scenario: &Scenario) -> Option<Clairvoyant> {
     let (motion, impulses) = scenario.detector.stated?;
     let stated = Scenario {
@@ -103,7 +103,7 @@ fn innovate(ar: &[f64], rest: &[f64], motion: &[f64], innovations: &mut Vec<f64>
     let past = &rest[rest.len() - ar.len()..];
     innovations.clear();
     for i in 0..motion.len() {
-        // The first few look back into the rest.
+        // The filter of the first samples reaches back into the rest.
         let (near, far) = ar.split_at(i.min(ar.len()));
         let near = step(near, &motion[..i], motion[i]);
         innovations.push(step(far, past, near));

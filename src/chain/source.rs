@@ -1,11 +1,11 @@
-//! What the noise of a trial depends on.
+//! The parameters that the noise of a trial depends on.
 
 use crate::detect::Samples;
 use crate::scenario::Scenario;
 use crate::signal::{Disturbance, Noise, Sensor};
 use crate::simd::LANES;
 
-/// What the noise of a trial depends on, and how much of it there is.
+/// The parameters of a trial's noise, and its length.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Source {
     pub sensor: Sensor,
@@ -25,9 +25,9 @@ pub(super) struct Source {
 pub struct RecordTooLong {
     /// Raw samples in one trial.
     pub samples: f64,
-    /// Its memory.
+    /// Memory of the trial, in GB.
     pub gigabytes: f64,
-    /// What is allowed.
+    /// The limit, in GB.
     pub limit: f64,
 }
 
@@ -45,8 +45,8 @@ impl Source {
         }
     }
 
-    /// What tells the noise of one source from another's, in the words of the results: a disturbed rest
-    /// is the same rest disturbed. Part of every draw's coordinates: changing it changes results.
+    /// The identity of a source's noise in words. It leaves out disturbances: a disturbed rest is the same rest
+    /// disturbed. It is part of every draw's coordinates, so changing it changes results.
     pub fn subject(&self) -> String {
         let Self {
             sensor,
@@ -59,8 +59,8 @@ impl Source {
         format!("{sensor} {noise} lead {lead} samples {samples} gap {gap} decimation {decimation}")
     }
 
-    /// The same with everything else a scenario simulates, decisions apart: the subject of noise that
-    /// nothing shares.
+    /// The subject with everything else that a scenario simulates, except the decision: for points that do
+    /// not share noise.
     pub fn subject_of_all(&self, scenario: &Scenario) -> String {
         let (motion, impulses) = (&scenario.motion, &scenario.impulses);
         let (whitening, digitiser) = (&scenario.whitening, &scenario.digitiser);
@@ -83,7 +83,7 @@ impl Source {
         )
     }
 
-    /// Raw samples before the record proper: none where the noise starts out stationary.
+    /// Raw samples before the record proper: 0 if the noise starts out stationary.
     pub fn burn_in(&self) -> usize {
         if self.noise.is_normal() {
             0
@@ -112,8 +112,8 @@ impl Source {
         self.samples.span() - self.samples.reference()
     }
 
-    /// Refuses a trial whose buffers would not fit in memory: raw noise, what is observed and whitened
-    /// of it, the same again for the motion, and the fit.
+    /// Refuses a trial whose buffers do not fit in memory: the raw, observed and whitened noise, the same
+    /// again for the motion, and the fit. Returns their size in GB.
     pub fn check_memory(&self, scenario: &Scenario) -> Result<f64, RecordTooLong> {
         let decimation = self.samples.decimation() as f64;
         let span = self.samples.span() as f64;

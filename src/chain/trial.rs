@@ -1,5 +1,5 @@
-//! One trial of a family: from the noise of its batch to what every point sees, in buffers that are
-//! allocated once.
+//! One trial of a family: from the noise of its batch to the observation of every point, in buffers that
+//! are allocated once.
 
 use super::batch::{Batch, observe};
 use super::family::{Branch, Course, Family};
@@ -11,24 +11,24 @@ use crate::detect::Crossings;
 use crate::simd::Vectors;
 use crate::whiten::whiten;
 
-/// The buffers of a trial. Times run from the first observation of the record, or, where named
-/// `motion`, from the first after X.
+/// The buffers of a trial. Records start at the first observation, or, if named `motion`, at the first
+/// after X.
 pub struct Trial<'a> {
     family: &'a Family,
     pub(super) batch: Batch<'a>,
     record: Record,
     pub(super) motion: Motion,
-    /// Of every course of every branch, where W and T are worth counting along Δ.
+    /// One for every course of every branch; `None` where counting along Δ does not apply or does not pay.
     curves: Vec<Option<Curve>>,
     pub(super) keys: Keys<'a>,
     scratch: Scratch,
 }
 
-/// The record itself, where it has to be looked at.
+/// The record itself, if a point needs it.
 struct Record {
     /// Raw samples at rest.
     raw: Vec<f64>,
-    /// Observations at rest; from the first after X on, those that were written last.
+    /// Observations at rest, followed by the last observations in motion.
     observed: Vec<f64>,
     /// The raw record with the motion in it, from the first sample after X.
     raw_motion: Vec<f64>,
@@ -36,15 +36,14 @@ struct Record {
     motion: Vec<f64>,
 }
 
-/// What counts W and T along Δ, and who is to see them.
+/// Counts W and T along Δ, with the points that use them.
 struct Curve {
     crossings: Crossings,
-    /// Each place, after the number of its stage: on a fine grid there are many, so they are kept short
-    /// and together.
+    /// Pairs of stage and place, in 32 bits each because a fine grid has many.
     places: Vec<[u32; 2]>,
 }
 
-/// From how many values of Δ on crossings are cheaper than comparing the samples at each.
+/// The number of values of Δ from which crossings are cheaper than comparing the samples at each.
 const CROSSINGS_PAY: usize = 4;
 
 impl<'a> Trial<'a> {
@@ -73,8 +72,8 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// Draws the noise of trial `index` and shows every point of the family, by its place, what it
-    /// gives there. Consecutive trials are cheapest.
+    /// Draws the noise of trial `index` and passes the observation of every point to `view`. Consecutive
+    /// trials are cheapest.
     pub fn run(&mut self, index: u64, view: &mut impl View) {
         let lane = self.batch.seek(index);
         let Self {
@@ -133,7 +132,7 @@ impl<'a> Trial<'a> {
 }
 
 impl Curve {
-    /// Where the whitened samples are lines in Δ, there are enough values of it, and nobody looks at more
+    /// `Some` if the whitened samples are lines in Δ, there are enough values of it, and no point uses more
     /// than W and T.
     fn new(branch: &Branch, course: &Course) -> Option<Self> {
         let pays = course.stages.len() >= CROSSINGS_PAY;
@@ -158,14 +157,14 @@ impl Curve {
 }
 
 impl Record {
-    /// Writes down the rest as the branch's sensor does.
+    /// Observes the rest by the branch's digitiser.
     fn observe(&mut self, raw: impl Iterator<Item = f64>, branch: &Branch, source: &Source) {
         self.raw.iter_mut().zip(raw).for_each(|(x, raw)| *x = raw);
         let decimation = source.samples.decimation();
         observe(&branch.digitiser, decimation, &self.raw, &mut self.observed);
     }
 
-    /// Writes the motion down anew, and digitises it.
+    /// Adds the motion to the raw record and digitises it.
     fn write(
         &mut self,
         branch: &Branch,
@@ -184,7 +183,7 @@ impl Record {
         observe(&branch.digitiser, decimation, &self.raw_motion, observed);
     }
 
-    /// Keeps the observed record of this stage: already written by the direct path, a sum on the linear one.
+    /// Keeps the observed record of this stage: already there on the direct path, a sum on the linear one.
     fn keep(
         &mut self,
         is_linear: bool,

@@ -1,8 +1,8 @@
-//! `comparisons.csv`: what a config's claims compare, one row per pair of points.
+//! `comparisons.csv`: the comparisons of a config's claims, one row per pair of points.
 //!
-//! Where both points share their noise the row keeps the discordant counts: in how many trials only the
-//! one, only the other decided for H₁. Their difference is that of the rates, without the trials on
-//! which both agree, which is what makes a paired interval narrow.
+//! If both points share their noise, the row keeps the discordant counts: the numbers of trials in which only
+//! one or only the other decided H₁. The difference of the rates depends on these counts alone, which makes a
+//! paired interval narrow.
 
 use crate::format::eight_digits;
 use crate::stats::tally::{Tally, difference_interval};
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// One row of `comparisons.csv`: the rate at the first point minus that at the second.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Comparison {
-    /// Which claim of the config asks for it, from 1.
+    /// The number of the claim in the config, from 1.
     pub claim: usize,
     /// Label of the first point's curve.
     pub first_curve: String,
@@ -27,21 +27,21 @@ pub struct Comparison {
     pub first: u64,
     /// Detections at the second.
     pub second: u64,
-    /// Trials in which the first alone decided H₁; none where the points do not share their noise.
+    /// Trials in which only the first decided H₁; `None` if the points do not share their noise.
     pub first_only: Option<u64>,
-    /// Trials in which the second alone did.
+    /// Trials in which only the second decided H₁.
     pub second_only: Option<u64>,
-    /// Of the rates.
+    /// The difference of the rates.
     pub difference: f64,
     /// Its interval.
     pub low: f64,
     /// Its interval.
     pub high: f64,
-    /// Of the interval: the claim's level, shared by all its comparisons.
+    /// The confidence of the interval, from the claim's level shared by all its comparisons.
     pub confidence: f64,
 }
 
-/// Where a compared point stands: its curve's label and its value on the axis.
+/// The position of a compared point: its curve's label and its value on the axis.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
     /// The curve's label.
@@ -51,8 +51,8 @@ pub struct Place {
 }
 
 impl Comparison {
-    /// The row of a claim (from 1) for two points and their counts; `discordant` where they share
-    /// their noise: trials that the first alone, the second alone decided for H₁.
+    /// The row of a claim (from 1) for two points and their counts. If they share their noise, `discordant`
+    /// has the trials in which only the first and only the second decided H₁.
     pub fn new(
         claim: usize,
         places: [Place; 2],

@@ -1,10 +1,10 @@
-//! One curve against another, value by value: above it, or equivalent to it?
+//! The tests `exceeds` and `equals`: one curve against another, value by value.
 
 use super::scope::Contrast;
 use super::words::{compared, counter_examples, curve as named, interval};
 use super::{Claim, ClaimError, Comparison, Contrasts, Evidence, Judgement, Verdict};
 
-/// What is sure of a difference.
+/// What an interval shows about a difference.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Side {
     Greater,
@@ -13,12 +13,12 @@ enum Side {
     Open,
 }
 
-/// Two curves, series or panels, and what was counted of them for a claim.
+/// Two curves, series or panels, and their comparisons for a claim.
 struct Compared<'a> {
     claim: &'a Claim,
     names: &'a Contrasts,
     contrasts: Vec<Contrast<'a>>,
-    /// Of the claim, at least one.
+    /// The claim's comparisons, at least one.
     comparisons: &'a [Comparison],
     evidence: &'a Evidence,
 }
@@ -113,7 +113,7 @@ impl<'a> Compared<'a> {
             && comparison.second_curve == *label(contrast.second)
     }
 
-    /// The verdict on a claim that is refuted somewhere and shown where the difference is on this side.
+    /// The verdict on a claim that is refuted somewhere, and shown where the difference is on this side.
     fn where_on(&self, side: Side) -> Verdict {
         Verdict::where_shown(self.contrasts.iter().map(|contrast| {
             let of_it = self.comparisons.iter().filter(|c| self.is_of(contrast, c));

@@ -8,17 +8,17 @@ use crate::stats::tally::Tally;
 /// The results that claims are judged by.
 #[derive(Clone, Debug, Default)]
 pub struct Evidence {
-    /// Of the sweep, if it is one.
+    /// The curves and axis, if the experiment is a sweep.
     pub scope: Scope,
-    /// Of `points.csv`.
+    /// The rows of `points.csv`.
     pub outcomes: Vec<Outcome>,
-    /// `comparisons.csv`, claim by claim.
+    /// The rows of `comparisons.csv`, claim by claim.
     pub comparisons: Vec<Comparison>,
-    /// `quantities.csv`
+    /// The rows of `quantities.csv`.
     pub quantities: Vec<Quantity>,
 }
 
-/// A rate, where it stands, and what its rule promises.
+/// A rate, its position, and the exact size of its rule.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs, reason = "the columns of points.csv")]
 pub struct Outcome {
@@ -37,8 +37,8 @@ pub struct Outcome {
 impl Evidence {
     /// The outcomes of a curve, in motion or at rest, each with its value on the axis.
     ///
-    /// A curve with one for each value is placed by the values themselves, which a row need not repeat; at
-    /// rest equal points are simulated once, and what their rows say must do.
+    /// A curve with an outcome for each value of the axis takes the values in order. At rest equal points are
+    /// simulated once, so there may be fewer outcomes, and the values are those of their rows.
     pub fn along(&self, label: &str, is_at_rest: bool) -> Vec<(&str, &Outcome)> {
         let outcomes: Vec<&Outcome> = (self.outcomes.iter())
             .filter(|outcome| outcome.label == label && outcome.is_at_rest == is_at_rest)

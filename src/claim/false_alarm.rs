@@ -1,4 +1,4 @@
-//! Are the false-alarm rates at or below α, as far as trials can tell?
+//! The test `alpha_held`: whether the false-alarm rates are at most α.
 
 use super::words::{count, curve as named, exact, interval};
 use super::{Claim, ClaimError, Evidence, Judgement, Outcome, Verdict};
@@ -9,7 +9,7 @@ struct Rest<'a> {
     label: &'a str,
     value: &'a str,
     outcome: &'a Outcome,
-    /// Exact, of "the rate is at most α".
+    /// The exact p-value of "the rate is at most α".
     p_value: f64,
     is_rejected: bool,
     /// Whether the rate is surely at most excess · α.
@@ -97,7 +97,7 @@ fn rests<'a>(
         .collect())
 }
 
-/// How many pass, and the row that is worst for its level.
+/// The number of rows that pass and the worst row for its level, in words.
 fn worst(rests: &[Rest], evidence: &Evidence) -> String {
     let excess = |rest: &Rest| rest.outcome.tally.rate() / rest.outcome.alpha;
     let worst = rests.iter().max_by(|a, b| excess(a).total_cmp(&excess(b)));
@@ -116,7 +116,7 @@ fn worst(rests: &[Rest], evidence: &Evidence) -> String {
     )
 }
 
-/// Two digits, as a power of ten where they are small.
+/// A p-value with two digits, as a power of ten if it is small.
 fn in_short(p_value: f64) -> String {
     match p_value {
         p if p < 1e-300 => "< 1e−300".to_owned(),

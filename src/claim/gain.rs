@@ -1,27 +1,25 @@
-//! How many decibels of Δ does one curve save over another at the same power?
+//! The test `gain`: the decibels of Δ that one curve saves over another at the same power.
 //!
 //! # Where a curve reaches the power
-//! Let p be the power and Δ* the smallest Δ ≥ 0 at which a curve has it. Assumption: the true power does not
-//! fall along the axis v₁ < … < vₙ. Then a value whose upper limit lies below p lies below Δ*, and one whose
-//! lower limit is p or more does not, which brackets Δ* = [low, high]:
-//! - low is the last value before the upper limits first reach p; nothing (0) where they do at v₁, and vₙ where
-//!   they never do;
-//! - high is the first value after the lower limits were last below p; v₁ where they never are, and nothing (∞)
-//!   where they still are at vₙ.
+//! Let p be the power and Δ* the smallest Δ ≥ 0 at which a curve reaches it. Assume that the true power does
+//! not fall along the axis v₁ < … < vₙ. Then a value whose upper limit is below p lies below Δ*, and a value
+//! whose lower limit is at least p does not, which gives a bracket [low, high] of Δ*:
+//! - low is the last value before the upper limits first reach p; 0 if they do at v₁, and vₙ if they never do;
+//! - high is the first value after the lower limits were last below p; v₁ if they never are, and ∞ if they
+//!   still are at vₙ.
 //!
-//! The estimate joins neighbouring rates by a straight line. Before v₁ and beyond vₙ there is no line, and it
-//! is a bracket too: [0, v₁] or [vₙ, ∞].
+//! The estimate interpolates linearly between neighbouring rates. Before v₁ and beyond vₙ it is a bracket too:
+//! [0, v₁] or [vₙ, ∞].
 //!
 //! # The gain
 //! 20 log₁₀(b/a) grows with b and falls with a, so for a in [a₋, a₊] and b in [b₋, b₊] it lies in
-//! [20 log₁₀(b₋/a₊), 20 log₁₀(b₊/a₋)]. An end that is nothing (0 below, ∞ above) makes an infinite side, and the
-//! other side stays as good as it is; 0/0 says nothing. The estimate is the same of two estimates: a number
-//! where both curves cross within the axis, a bound where that is all there is, else unknown.
+//! [20 log₁₀(b₋/a₊), 20 log₁₀(b₊/a₋)]. An open end (0 below, ∞ above) makes that side infinite and leaves the
+//! other as it is; 0/0 gives no bound. The estimate follows from the two estimates in the same way: a number if
+//! both curves cross within the axis, a bound if only one does, else unknown.
 //!
 //! A bracket misses only if a limit fails at one of the two values around the crossing: two upper limits and
 //! two lower ones. Two curves make eight such events, so limits at level/8 each, that is two-sided intervals of
-//! confidence 1 − level/4, keep the claim's level. The narrower the steps around the crossing, the narrower
-//! the bracket.
+//! confidence 1 − level/4, keep the claim's level. Smaller steps around the crossing give a narrower bracket.
 
 use super::words::{curve as named, decimals, exact, fixed};
 use super::{Claim, ClaimError, Evidence, Judgement, Quantity, Test, Verdict};
@@ -67,10 +65,10 @@ pub(super) fn judge(
 #[cfg(test)]
 mod tests;
 
-/// `gain_N_db` for the N-th claim (from 1), for each claim of a gain.
+/// The quantity `gain_N_db` of each claim of a gain, where N is the number of the claim from 1.
 ///
 /// # Errors
-/// Where a curve has no rows.
+/// If a curve lacks a row for a value of the axis.
 pub fn gains(claims: &[Claim], evidence: &Evidence) -> Result<Vec<Quantity>, ClaimError> {
     let mut quantities = Vec::new();
     for (number, claim) in (1..).zip(claims) {
@@ -94,7 +92,7 @@ pub fn gains(claims: &[Claim], evidence: &Evidence) -> Result<Vec<Quantity>, Cla
     Ok(quantities)
 }
 
-/// Of b over a, in decibels.
+/// The range of 20 log₁₀(b/a).
 fn gain([a_low, a_high]: [f64; 2], [b_low, b_high]: [f64; 2]) -> [f64; 2] {
     let decibels = |b: f64, a: f64| 20.0 * (libm::log10(b) - libm::log10(a));
     let or_nothing = |side: f64, nothing| if side.is_nan() { nothing } else { side };
@@ -104,7 +102,7 @@ fn gain([a_low, a_high]: [f64; 2], [b_low, b_high]: [f64; 2]) -> [f64; 2] {
     ]
 }
 
-/// The number, or the bound, that an estimate is; NaN where it is unknown.
+/// The number or bound of an estimate; NaN if it is unknown.
 fn bound([low, high]: [f64; 2]) -> f64 {
     if low == high || low.is_finite() && high.is_infinite() {
         low
@@ -115,7 +113,7 @@ fn bound([low, high]: [f64; 2]) -> f64 {
     }
 }
 
-/// An estimate in words; `equals` comes before a number.
+/// An estimate in words, with `equals` before a number.
 fn estimated([low, high]: [f64; 2], equals: &str, digits: usize) -> String {
     if low == high {
         format!("{equals}{}", fixed(low, digits))
@@ -170,7 +168,7 @@ struct Level {
     high: f64,
 }
 
-/// Where a curve reaches the power.
+/// The Δ at which a curve reaches the power.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Crossing {
     estimate: [f64; 2],
@@ -178,7 +176,7 @@ struct Crossing {
 }
 
 impl Crossing {
-    /// Of at least one level along the axis.
+    /// The crossing of at least one level along the axis.
     fn new(levels: &[Level], power: f64) -> Self {
         let (start, end) = (levels[0].delta, levels[levels.len() - 1].delta);
         let estimate = match levels.iter().position(|level| level.rate >= power) {

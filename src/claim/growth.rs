@@ -1,4 +1,4 @@
-//! Does each curve grow along the axis?
+//! The test `grows`: whether each curve grows along the axis.
 
 use super::place::named_ranges;
 use super::words::{compared, counter_examples, curve as named, interval};
@@ -9,12 +9,12 @@ struct Climb<'a> {
     label: &'a str,
     /// Each value of the axis against the one before.
     steps: &'a [Comparison],
-    /// The last against the first.
+    /// The last value against the first.
     overall: &'a Comparison,
     margin: f64,
 }
 
-/// What is sure of a curve.
+/// What the intervals show about a curve.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum State {
     Grows,
@@ -60,14 +60,14 @@ pub(super) fn judge(
 
 impl<'a> Climb<'a> {
     fn new(label: &'a str, comparisons: &'a [Comparison], margin: f64) -> Result<Self, ClaimError> {
-        // A claim's comparisons stand curve by curve.
+        // The comparisons of a claim are sorted by curve.
         let mut of_curve = comparisons.chunk_by(|a, b| a.first_curve == b.first_curve);
         let all = of_curve
             .find(|chunk| chunk[0].first_curve == label)
             .ok_or_else(|| ClaimError::NotCompared(label.to_owned()))?;
         Ok(Self {
             label,
-            // Between two values the one step is also the whole.
+            // With two values the single step is also the overall comparison.
             steps: &all[..(all.len() - 1).max(1)],
             overall: &all[all.len() - 1],
             margin,
@@ -85,13 +85,13 @@ impl<'a> Climb<'a> {
         }
     }
 
-    /// Whether a step is surely no fall.
+    /// Whether a step is shown not to fall.
     fn is_sound(&self, step: &Comparison) -> bool {
         step.low >= -self.margin
     }
 
-    /// Where it is shown to grow: the whole curve, or ranges without a fall in which the lower limits of the
-    /// steps add up to growth.
+    /// The ranges in which growth is shown, in words: the whole curve, or ranges without a fall in which the lower
+    /// limits of the steps add up to growth.
     fn place(&self, axis: &Axis) -> Option<String> {
         if self.state() == State::Grows {
             return Some(named(self.label));
@@ -123,7 +123,7 @@ fn lowest_of(climbs: &[Climb], axis: &Axis) -> String {
     )
 }
 
-/// The one that decides: with the lowest limit, but of a sure fall before one that is only wide.
+/// The deciding comparison: the one with the lowest limit, but certain falls come before wide intervals.
 fn lowest<'a>(comparisons: impl Iterator<Item = &'a Comparison>) -> &'a Comparison {
     comparisons
         .min_by(|a, b| {

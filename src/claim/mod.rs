@@ -1,9 +1,9 @@
-//! Claims: what a config says of its results, which points are compared for it, and what the verdict is.
+//! Claims: a config's statements about its results, the points compared for them, and the verdicts.
 //!
 //! The rule is written in the config before the run. Each claim has a family-wise `level`, spread over
-//! all its comparisons, and a `margin` below which a difference does not count. "Holds" takes a test
-//! of superiority, non-inferiority or equivalence; a difference that is merely not visible proves
-//! nothing and ends undecided.
+//! all its comparisons, and a `margin` below which a difference does not count. "Holds" requires a test
+//! of superiority, non-inferiority or equivalence; a difference that is merely not significant proves
+//! nothing and leaves the claim undecided.
 //!
 //! | test | holds | is refuted by | shown in a range |
 //! |---|---|---|---|
@@ -14,20 +14,20 @@
 //! | `quantity` | its interval lies in [from, to] | an interval that misses [from, to] | |
 //! | `gain` | its interval lies above `from` | an interval that ends at `from` or below | |
 //!
-//! A step *falls* where its interval ends below −margin; a curve is *flat* where that of last − first
-//! ends at margin or below. `alpha_held` does not say that a rate is at most α, which no number of trials
-//! can show of a rate that is α: a rate of 1.08 α passes where the excess is 1.2.
+//! A step *falls* if its interval ends below −margin; a curve is *flat* if that of last − first ends at
+//! margin or below. `alpha_held` does not show that a rate is at most α, which no number of trials can show
+//! of a rate equal to α: a rate of 1.08 α passes if the excess is 1.2.
 //!
-//! A claim is about all its curves. One that is refuted *does not hold*, and its counter-examples are
-//! counted, unless it is shown in a stated range of the axis for every curve (pair of curves): two
-//! neighbouring values at least of an axis of numbers. Then it *holds where*; for growth some curve must grow
-//! throughout, too. A single value is no range: curves that cross are equal where they cross. What is neither shown nor refuted is undecided: it takes more
-//! trials.
+//! A claim is about all its curves. A refuted claim *does not hold*, and its counter-examples are counted,
+//! unless it is shown in a range of the axis for every curve (pair of curves): at least two neighbouring
+//! values of an axis of numbers. Then it *holds where*; for growth some curve must also grow throughout. A
+//! single value does not count as a range, because curves that cross are equal where they cross. A claim that
+//! is neither shown nor refuted is undecided and needs more trials.
 //!
 //! # Why the level is kept
 //! - `grows`, `exceeds`, `equals`: each of n intervals has confidence 1 − level/n (Bonferroni), so with
-//!   probability 1 − level at least all of them cover. Every word of a verdict follows from "all cover"
-//!   and nothing else, however it was selected.
+//!   probability 1 − level at least all of them cover. A verdict follows from "all cover" alone, whichever
+//!   comparison it names.
 //! - `alpha_held`: Holm's rule on exact p-values of "the rate is at most α" rejects any true one with
 //!   probability at most level/2; n two-sided intervals of confidence 1 − level/n have upper limits that
 //!   all hold with probability 1 − level/2 at least.
@@ -62,7 +62,7 @@ pub use verdict::{ClaimError, Judgement, Verdict};
 /// Judges a claim, the `number`-th (from 1) of its config.
 ///
 /// # Errors
-/// Where the results have nothing of what the claim is about.
+/// If the results lack what the claim is about.
 pub fn judge(claim: &Claim, number: usize, evidence: &Evidence) -> Result<Judgement, ClaimError> {
     match &claim.test {
         Test::Grows { curves } => growth::judge(claim, number, curves.as_deref(), evidence),

@@ -1,4 +1,4 @@
-//! What a config says of itself and what it claims: `title`, `text`, `order` and any number of `[[claim]]`.
+//! The narrative of a config: `title`, `text`, `order` and any number of `[[claim]]`.
 //!
 //! The rule behind a verdict (what is tested, the margin, the family-wise level) stands in the config,
 //! so it is fixed before the run and its hash is part of the result.

@@ -6,22 +6,22 @@ use crate::stats::tally::Tally;
 /// Two points to compare for a claim; the first is the one expected to be greater.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pair {
-    /// Which claim of the config, from 0.
+    /// The index of the claim in the config, from 0.
     pub claim: usize,
     /// Index of the first point in the plan.
     pub first: usize,
     /// Index of the second.
     pub second: usize,
-    /// Where the two stand.
+    /// The positions of both points.
     pub places: [Place; 2],
 }
 
-/// Every pair that claims ask for, claim by claim; `points` has of each curve the index of its point at each
-/// value of the axis, if there is one.
+/// The pairs compared for all claims, claim by claim; `points` has, for each curve, the index of its point at
+/// each value of the axis, if there is one.
 ///
-/// For growth these are, curve by curve, each value of the axis against the one before and then the
-/// last against the first (the same pair where there are but two values); for a contrast of curves,
-/// both at each value of the axis.
+/// For growth the pairs are, curve by curve, each value of the axis against the one before and then the
+/// last against the first (the same pair if there are only two values); for a contrast of curves, both at
+/// each value of the axis.
 pub fn pairs(claims: &[Claim], scope: &Scope, points: &[Vec<Option<usize>>]) -> Vec<Pair> {
     let mut pairs = Vec::new();
     for (claim, Claim { test, .. }) in claims.iter().enumerate() {
@@ -44,7 +44,7 @@ pub fn pairs(claims: &[Claim], scope: &Scope, points: &[Vec<Option<usize>>]) -> 
     pairs
 }
 
-/// How many pairs claims ask for at most.
+/// An upper bound of the number of pairs.
 pub fn number_of_pairs(claims: &[Claim], scope: &Scope) -> usize {
     claims
         .iter()
@@ -52,7 +52,7 @@ pub fn number_of_pairs(claims: &[Claim], scope: &Scope) -> usize {
         .sum()
 }
 
-/// What a test compares, each a curve and a value of the axis.
+/// The pairs of a test, each point as a curve and a value of the axis.
 fn compared(test: &Test, scope: &Scope) -> Vec<[(usize, usize); 2]> {
     let values = scope.axis.values.len();
     match test {
@@ -73,13 +73,14 @@ fn compared(test: &Test, scope: &Scope) -> Vec<[(usize, usize); 2]> {
     }
 }
 
-/// Of each of `pairs` comparisons, so that all intervals cover with probability 1 − level at least.
+/// The confidence of each of `pairs` comparisons, so that all intervals cover with probability 1 − level at
+/// least.
 pub fn confidence(claim: &Claim, pairs: usize) -> f64 {
     1.0 - claim.level.get() / pairs as f64
 }
 
 /// The rows of `comparisons.csv`: one per pair. `discordant` has, for each pair that shares its noise,
-/// the trials in which the first alone and the second alone decided for H₁.
+/// the trials in which only the first and only the second decided H₁.
 pub fn comparisons(
     claims: &[Claim],
     pairs: &[Pair],
@@ -99,7 +100,7 @@ pub fn comparisons(
                 second,
                 places,
             } = pair;
-            // Two curves may share a point, which never differs from itself.
+            // Two curves may share a point, which does not differ from itself.
             let itself = (first == second).then_some([0, 0]);
             let confidence = confidence(&claims[*claim], numbers[*claim]);
             Comparison::new(

@@ -1,4 +1,4 @@
-//! Where results stand on the axis, and the places where a claim is shown.
+//! Positions on the axis in words, and the ranges where a claim is shown.
 
 use super::Axis;
 use crate::format::minus;
@@ -17,8 +17,8 @@ impl Axis {
         format!("{} in [{}, {}]", self.symbol, minus(first), minus(last))
     }
 
-    /// Where a curve, or a pair of curves, called `name` is shown to be as claimed, given whether it is at each
-    /// value: by its name if everywhere, else the ranges of neighbouring numbers, if there are any.
+    /// The ranges in which a claim is shown for a curve or pair of curves called `name`, given at which values it
+    /// is shown: the name alone if everywhere, else the ranges of neighbouring numbers, if any.
     pub(super) fn shown(&self, name: &str, values: &[(&str, bool)]) -> Option<String> {
         let is_everywhere = values.iter().all(|(_, is_shown)| *is_shown);
         if is_everywhere && !name.is_empty() {
@@ -39,7 +39,7 @@ impl Axis {
     }
 }
 
-/// `"a": Δ/σ_ξ in [0, 0.3], Δ/σ_ξ in [1, 2]`; none where there are no ranges.
+/// `"a": Δ/σ_ξ in [0, 0.3], Δ/σ_ξ in [1, 2]`; `None` without ranges.
 pub(super) fn named_ranges(name: &str, ranges: &[String]) -> Option<String> {
     let ranges = ranges.join(", ");
     match (ranges.is_empty(), name.is_empty()) {

@@ -1,8 +1,8 @@
 //! `quantities.csv`, the single numbers of an experiment, and the claim that one lies in a range.
 //!
-//! An interval may be open: where a search ends before what it looks for, only a bound is known. Then `value`
-//! is that bound, and the side beyond it is infinite. A range is compared with what is known alone: an open
-//! side lies in no range that ends there, and outside none, so the other side decides or nothing does.
+//! An interval may be open: if a search ends without a crossing, only a bound is known. Then `value` is that
+//! bound, and the side beyond it is infinite. An open side neither lies inside a range that ends on that side
+//! nor outside it, so only the other side can decide.
 
 use super::words::{exact, interval};
 use super::{ClaimError, Judgement, Verdict};
@@ -11,13 +11,13 @@ use serde::{Deserialize, Serialize};
 /// A named number with its interval; an exact one is its own interval.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Quantity {
-    /// In snake case.
+    /// The name, in snake case.
     pub name: String,
-    /// The estimate, or the bound of what is known on one side only.
+    /// The estimate, or the bound if only one side is known.
     pub value: f64,
-    /// Of the interval; −∞ where it is open.
+    /// Lower end of the interval; −∞ if it is open.
     pub low: f64,
-    /// Of the interval; +∞ where it is open.
+    /// Upper end of the interval; +∞ if it is open.
     pub high: f64,
 }
 
@@ -69,7 +69,7 @@ pub(super) fn judge(
 /// The quantity of this name.
 ///
 /// # Errors
-/// Where there is none.
+/// If there is no such quantity.
 pub fn named_quantity<'a>(
     name: &str,
     quantities: &'a [Quantity],

@@ -1,9 +1,9 @@
-//! What claims may refer to, the check that they refer to nothing else, and whom a name means.
+//! The names that claims may refer to: checks, and the curves that a name stands for.
 
 use super::narrative::{Contrasts, Narrative, Test};
 use crate::suggest::among;
 
-/// The curves and the axis of a sweep; nothing for any other experiment.
+/// The curves and the axis of a sweep; empty for any other experiment.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[allow(missing_docs, reason = "a sweep has both")]
 pub struct Scope {
@@ -25,9 +25,9 @@ pub struct Curve {
 pub struct Axis {
     /// The key in a config.
     pub name: &'static str,
-    /// As the paper writes it.
+    /// The symbol in the paper.
     pub symbol: &'static str,
-    /// Each as it is written, and as a number where it is one.
+    /// Each value as written, and as a number if it is one.
     pub values: Vec<(String, Option<f64>)>,
 }
 
@@ -39,7 +39,7 @@ pub(super) struct Contrast<'a> {
     pub place: &'a str,
 }
 
-/// What is wrong with a claim, given what it may refer to.
+/// Why a claim does not fit the sweep it refers to.
 #[derive(Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "the messages say it")]
 pub enum ClaimProblem {
@@ -63,7 +63,7 @@ pub enum ClaimProblem {
     NoSweep,
 }
 
-/// A problem and the path of the value that has it.
+/// A problem, after the path of the value at fault.
 type Placed = (String, ClaimProblem);
 
 impl Narrative {
@@ -103,7 +103,7 @@ impl Scope {
         }
     }
 
-    /// What is wrong with a test whose curves are known.
+    /// The problem of a test whose curves exist, if it has one.
     fn problem(&self, test: &Test) -> Option<ClaimProblem> {
         let numbers = self.axis.ascending().unwrap_or_default();
         match *test {
@@ -146,7 +146,7 @@ impl Scope {
         self.check_labels(paths.into_iter())
     }
 
-    /// Whether each is the label of a curve, and of another than those before.
+    /// Checks that each label is that of a curve and occurs only once.
     fn check_labels<'a>(
         &self,
         labels: impl Iterator<Item = (String, &'a str)>,
@@ -174,7 +174,7 @@ impl Scope {
         self.curves.iter().position(|curve| curve.label == label)
     }
 
-    /// The curves of these labels, all where there are none.
+    /// The curves of these labels; all curves without labels.
     pub(super) fn named(&self, labels: Option<&[String]>) -> Vec<usize> {
         match labels {
             Some(labels) => labels
@@ -185,8 +185,8 @@ impl Scope {
         }
     }
 
-    /// For two series a contrast in each panel that has both, for two panels one of each series that is in
-    /// both, else the two curves.
+    /// For two series a contrast in each panel that has both, for two panels a contrast of each series that is in
+    /// both, else a contrast of the two curves.
     pub(super) fn contrasts<'a>(&'a self, contrasts: &Contrasts) -> Vec<Contrast<'a>> {
         let shared = self.shared(contrasts);
         if !shared.is_empty() {
@@ -237,7 +237,7 @@ impl Scope {
 type NamesOf = fn(&Curve) -> (Option<&str>, Option<&str>);
 
 impl Axis {
-    /// The values, where each is a number above the one before.
+    /// The values, if they are numbers in ascending order.
     fn ascending(&self) -> Option<Vec<f64>> {
         let numbers: Option<Vec<f64>> = self.values.iter().map(|(_, number)| *number).collect();
         numbers.filter(|numbers| numbers.is_sorted_by(|a, b| a < b))

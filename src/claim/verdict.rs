@@ -1,4 +1,4 @@
-//! What may be concluded of a claim.
+//! Verdicts on claims.
 
 /// The verdict on a claim.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,7 +11,7 @@ pub struct Judgement {
     pub how: String,
 }
 
-/// What may be concluded.
+/// The conclusion on a claim.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Shown everywhere.
@@ -20,13 +20,13 @@ pub enum Verdict {
     HoldsWhere(String),
     /// Refuted.
     DoesNotHold,
-    /// The trials were too few to tell.
+    /// Neither shown nor refuted: the trials were too few.
     Undecided,
 }
 
 impl Verdict {
-    /// On a claim that is refuted somewhere: it holds where it is shown, if there is such a place for each of
-    /// its curves.
+    /// The verdict on a claim that is refuted somewhere: it holds where it is shown, if it is shown in some range
+    /// for each of its curves.
     pub(super) fn where_shown(places: impl Iterator<Item = Option<String>>) -> Self {
         match places.collect::<Option<Vec<String>>>() {
             Some(places) => Self::HoldsWhere(places.join("; ")),

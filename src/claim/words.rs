@@ -14,7 +14,7 @@ pub fn interval(value: f64, low: f64, high: f64) -> String {
     format!("{value} [{low}, {high}]")
 }
 
-/// Six significant digits, without noughts at the end; what is tiny as a power of ten.
+/// Six significant digits without trailing zeros; tiny numbers as a power of ten.
 pub fn exact(value: f64) -> String {
     if !value.is_finite() {
         return fixed(value, 0);
@@ -37,7 +37,7 @@ pub fn decimals(low: f64, high: f64) -> usize {
     }
 }
 
-/// A number with so many decimals; what rounds to nought has no sign.
+/// A number with `decimals` decimals; a number that rounds to zero has no sign.
 pub fn fixed(value: f64, decimals: usize) -> String {
     if value.is_nan() {
         return "unknown".to_owned();
@@ -60,7 +60,7 @@ pub fn count(number: usize, noun: &str) -> String {
     }
 }
 
-/// How many comparisons, and whether trial by trial: `7 paired comparisons`.
+/// The number of comparisons and whether they are paired: `7 paired comparisons`.
 pub fn compared(comparisons: &[Comparison]) -> String {
     let paired = comparisons
         .iter()
@@ -84,7 +84,7 @@ pub fn curve(label: &str) -> String {
     }
 }
 
-/// `; 14 of 32 comparisons are counter-examples`, or nothing where there are none.
+/// `; 14 of 32 comparisons are counter-examples`, or an empty text without counter-examples.
 pub fn counter_examples(number: usize, all: usize, noun: &str) -> String {
     match number {
         0 => String::new(),

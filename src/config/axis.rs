@@ -8,20 +8,20 @@ use serde::Deserialize;
 use std::fmt;
 use std::ops::Range;
 
-/// A key and its values, each with its place.
+/// A swept key and its values, with their positions in the text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// What is swept.
+    /// The swept key.
     pub name: String,
     /// At least one.
     pub values: Vec<AxisValue>,
-    /// Where the key stands.
+    /// The position of the key.
     pub key_span: Range<usize>,
-    /// Where all of them stand.
+    /// The position of all values.
     pub span: Range<usize>,
 }
 
-/// One value of an axis, as the file has it.
+/// One value of an axis, as written in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AxisValue(pub Node);
 
@@ -64,7 +64,7 @@ impl Axis {
     /// Reads an axis table, whose one key must be `known`.
     ///
     /// # Errors
-    /// Where there is not one key, an unknown one, or no values.
+    /// If there is not one key, an unknown one, or no values.
     pub fn read<'a>(
         table: &Node,
         known: impl IntoIterator<Item = &'a str> + Clone,
@@ -92,7 +92,7 @@ impl Axis {
 }
 
 impl Axis {
-    /// What is wrong with a key that is swept and set.
+    /// The error message for a key that is both swept and set.
     pub fn swept_and_set(&self) -> String {
         let name = &self.name;
         format!(
@@ -102,7 +102,7 @@ impl Axis {
 }
 
 impl AxisValue {
-    /// The number, where it is one.
+    /// The value as a number, if it is one.
     pub fn number(&self) -> Option<f64> {
         self.0.number()
     }
@@ -158,7 +158,7 @@ fn range(name: &str, &Steps { from, to, step }: &Steps) -> Result<Vec<Value>, Ax
     if from > to {
         return Err(AxisError::Reversed { name, from, to });
     }
-    // A billionth of a step forgives the rounding of (to − from)/step.
+    // A billionth of a step absorbs the rounding of (to − from)/step.
     let points = ((to - from) / step + 1e-9).floor() + 1.0;
     if points > MOST_POINTS as f64 {
         return Err(AxisError::TooMany { name, points });
@@ -166,7 +166,7 @@ fn range(name: &str, &Steps { from, to, step }: &Steps) -> Result<Vec<Value>, Ax
     let is_whole = from.fract() == 0.0 && step.fract() == 0.0;
     let value = |i: usize| {
         let value = from + i as f64 * step;
-        // What rounding leaves of a zero is a zero.
+        // A rounding error around zero becomes an exact zero.
         let value = if value.abs() < 1e-9 * step {
             0.0
         } else {
@@ -214,7 +214,7 @@ mod tests {
         assert_eq!(numbers("[1, 2.5]"), [1.0, 2.5]);
     }
 
-    /// Points that would fall on each other are refused, those that would not are all there.
+    /// A step that twelve digits cannot resolve is refused; any larger step gives all points.
     #[test]
     fn a_step_is_not_lost() {
         for (from, step, is_lost) in [(1e11, 1.0, false), (1e12, 1.0, true), (1e15, 1e5, false)] {

@@ -1,5 +1,5 @@
-//! Configs as text: a tree of keys and values with their places, laid over each other, read by serde into
-//! whatever the domain has, refused with a file, a line and a column. Nothing here knows what a key means.
+//! Configs as text: trees of keys and values with their positions, merged, read by serde into the types of the
+//! domain, and refused with file, line and column. Nothing here depends on the meaning of a key.
 
 mod axis;
 mod read;
@@ -14,10 +14,10 @@ pub use tree::{Node, Table, Value};
 use serde::de::DeserializeOwned;
 use std::path::Path;
 
-/// Reads a file that describes no experiment.
+/// Reads a TOML file that is not an experiment.
 ///
 /// # Errors
-/// Where it cannot be read, is no TOML, or holds something that does not belong there.
+/// If the file cannot be read, is not TOML, or has an unknown key or a wrong value.
 pub fn read<T: DeserializeOwned>(path: &Path) -> Result<T, ConfigError> {
     let source = Source::load(path)?;
     source.read(&source.parse()?, "")

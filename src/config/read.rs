@@ -1,4 +1,4 @@
-//! From a tree to any type that serde can read, so that every refusal knows its path and its place.
+//! A serde deserializer over the tree, so that every error has the path and position of its value.
 
 use super::tree::{Node, Table, Value};
 use crate::format::shorten;
@@ -15,9 +15,9 @@ use std::ops::Range;
 /// Why a value was refused.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refusal {
-    /// From the value that was read, such as `impulses.nu`; blank for itself.
+    /// The path from the value that was read, such as `impulses.nu`; blank for that value itself.
     pub path: String,
-    /// Where it stands.
+    /// Its position in the text.
     pub span: Option<Range<usize>>,
     message: String,
 }
@@ -28,7 +28,7 @@ impl Refusal {
         self
     }
 
-    /// The same, of a value that stands under `prefix`.
+    /// Prepends `prefix` to the path.
     pub fn within(self, prefix: &str) -> Self {
         if prefix.is_empty() {
             self
@@ -67,7 +67,7 @@ impl Error for Refusal {
     }
 
     fn invalid_type(got: Unexpected, expected: &dyn Expected) -> Self {
-        // serde names the type, which only its author knows.
+        // serde gives the name of the Rust type, which means nothing to a user.
         let expected = match expected.to_string() {
             name if name.starts_with("struct ") => "a table".to_owned(),
             words => words,
@@ -436,7 +436,7 @@ mod tests {
         ratio: Option<f64>,
     }
 
-    /// What is refused, with the text that is pointed at.
+    /// The error for `text`, and the text it points at.
     fn refused(text: &str) -> (String, &str) {
         let root = Node::parse(text).unwrap();
         let refusal = File::deserialize(&root).unwrap_err();

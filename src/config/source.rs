@@ -1,4 +1,4 @@
-//! A config's text, and errors that point at it: file, line and column, what is wrong, what to do.
+//! A config's text, and errors that point into it: file, line and column, the problem and the remedy.
 
 use super::read::Refusal;
 use super::tree::Node;
@@ -22,14 +22,14 @@ struct Report {
     error: Box<dyn Error + Send + Sync>,
 }
 
-/// What a check of values against each other refuses: the error, and where it stands or what is to blame.
+/// An error from checking values against each other, with its position or the keys to blame.
 #[derive(Debug)]
 pub struct Conflict {
-    /// Where it stands, if that is known.
+    /// The position in the text, if known.
     pub span: Option<Range<usize>>,
     /// Paths that may be to blame, the likeliest first.
     pub keys: Vec<String>,
-    /// What is wrong.
+    /// The error itself.
     pub error: Box<dyn Error + Send + Sync>,
 }
 
@@ -40,7 +40,7 @@ impl From<OutOfRange> for Conflict {
 }
 
 impl Conflict {
-    /// An error at a place.
+    /// An error at a position.
     pub fn at(span: &Range<usize>, error: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
         Self {
             span: Some(span.clone()),
@@ -49,7 +49,7 @@ impl Conflict {
         }
     }
 
-    /// An error that the values at some paths may be to blame for.
+    /// An error caused by a value at one of these paths.
     pub fn of(
         keys: impl IntoIterator<Item = impl Into<String>>,
         error: impl Into<Box<dyn Error + Send + Sync>>,
@@ -71,7 +71,7 @@ struct Place {
     width: usize,
 }
 
-/// A file that is no config.
+/// Why a file cannot be a config.
 #[derive(Debug, thiserror::Error)]
 enum Unreadable {
     #[error("cannot be read: {0} (check the path)")]
@@ -80,10 +80,10 @@ enum Unreadable {
     TooLarge,
 }
 
-/// A config is written by hand.
+/// Configs are written by hand, so a larger file is a mistake.
 const MOST_BYTES: u64 = 1_000_000;
 
-/// A config's text and the name its messages give it.
+/// A config's text and its name in messages.
 #[derive(Clone, Debug)]
 pub struct Source {
     name: String,
@@ -91,7 +91,7 @@ pub struct Source {
 }
 
 impl Source {
-    /// A text; `name` is what messages call it.
+    /// A text with its name in messages.
     pub fn new(name: &str, text: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -102,7 +102,7 @@ impl Source {
     /// A file's text.
     ///
     /// # Errors
-    /// Where it cannot be read, is no UTF-8 or is too large.
+    /// If the file cannot be read, is not UTF-8 or is too large.
     pub fn load(path: &Path) -> Result<Self, ConfigError> {
         let name = path.display().to_string();
         match read(path) {
@@ -111,29 +111,28 @@ impl Source {
         }
     }
 
-    /// What messages call it.
+    /// The name in messages.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// All of it.
+    /// The whole text.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// The tree of its keys and values.
+    /// Parses the text into a tree of keys and values.
     ///
     /// # Errors
-    /// Where it is no TOML.
+    /// If the text is not TOML.
     pub fn parse(&self) -> Result<Node, ConfigError> {
         Node::parse(&self.text).map_err(|error| self.at(error.span(), first_line(error.message())))
     }
 
-    /// What a tree of this text says, as any type that serde reads; its path in messages starts with
-    /// `prefix`.
+    /// Reads a tree of this text into any type that serde reads; paths in messages start with `prefix`.
     ///
     /// # Errors
-    /// Where a key is unknown or missing, or a value does not fit.
+    /// If a key is unknown or missing, or a value does not fit.
     pub fn read<T: DeserializeOwned>(&self, tree: &Node, prefix: &str) -> Result<T, ConfigError> {
         T::deserialize(tree).map_err(|refusal: Refusal| {
             let span = refusal.span.clone().unwrap_or(tree.span.clone());
@@ -154,7 +153,7 @@ impl Source {
         }))
     }
 
-    /// A conflict of values of `tree`; `otherwise` is where it stands if nothing to blame is written there.
+    /// An error for a conflict of values of `tree`; `otherwise` is its position if no key to blame is written.
     pub fn conflict(
         &self,
         tree: &Node,
@@ -215,7 +214,7 @@ impl fmt::Display for Report {
     }
 }
 
-/// Characters of a line that are shown, and how many of them before the place.
+/// The most characters of a line that a message shows.
 const MOST_SHOWN: usize = 200;
 const BEFORE: usize = 120;
 

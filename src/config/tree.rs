@@ -1,20 +1,20 @@
-//! A config's text as a tree in which every key and value keeps its place, and trees laid over each other.
+//! A config's text as a tree whose keys and values keep their positions, and the merging of trees.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// A value and where it stands in the text.
+/// A value and its position in the text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
-    /// Bytes of the text.
+    /// The byte range in the text.
     pub span: Range<usize>,
-    /// What stands there.
+    /// The value.
     pub value: Value,
 }
 
-/// What a TOML file can hold.
+/// A TOML value.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs, reason = "the words are TOML's own")]
 pub enum Value {
@@ -28,11 +28,11 @@ pub enum Value {
     Table(Table),
 }
 
-/// Keys in alphabetical order, each with its place.
+/// Keys in alphabetical order, each with its position.
 pub type Table = BTreeMap<String, (Range<usize>, Node)>;
 
 impl Node {
-    /// Reads a text.
+    /// Parses a text.
     pub(super) fn parse(text: &str) -> Result<Self, toml::de::Error> {
         let root = DeTable::parse(text)?;
         Ok(Self {
@@ -64,7 +64,7 @@ impl Node {
         }
     }
 
-    /// What stands under a path such as `impulses.nu` or `claim[2].test`.
+    /// The node at a path such as `impulses.nu` or `claim[2].test`.
     pub fn get(&self, path: &str) -> Option<&Self> {
         path.split(['.', '['])
             .filter(|part| !part.is_empty())
@@ -75,8 +75,8 @@ impl Node {
             })
     }
 
-    /// The entries whose keys `is_wanted`, as a table of its own. What is no table stays as it is, for the
-    /// reader of a table to refuse.
+    /// A table with only the entries whose keys are selected. Anything but a table stays as it is, so that the
+    /// reader refuses it.
     pub fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {
         let Some(entries) = self.table() else {
             return self.clone();
@@ -91,8 +91,8 @@ impl Node {
         }
     }
 
-    /// This tree where it says something, `base` where it does not. The keys of one of `choices` are
-    /// alternatives: naming any of them drops the others of `base`.
+    /// Merges this tree over `base`: its values replace those of `base`. The keys within one of `choices` are
+    /// alternatives: setting one drops the others of `base`.
     pub fn over(&self, base: &Self, choices: &[&[&str]]) -> Self {
         let mut laid = base.clone();
         laid.lay(self, choices, "");
@@ -118,7 +118,7 @@ impl Node {
         }
         for (key, (key_span, node)) in entries {
             let path = full(key);
-            // A section is laid over key by key; a value, be it a table itself, is replaced.
+            // A section is merged key by key; a value is replaced, even if it is a table.
             match table.get_mut(key) {
                 Some((_, below)) if !path.contains('.') => below.lay(node, choices, &path),
                 _ => drop(table.insert(key.clone(), (key_span.clone(), node.clone()))),
@@ -126,7 +126,7 @@ impl Node {
         }
     }
 
-    /// Puts `node` under a path of at most two keys.
+    /// Sets the node at a path of at most two keys.
     pub fn set(&mut self, path: &str, node: Self) {
         let Value::Table(table) = &mut self.value else {
             return;
@@ -142,7 +142,7 @@ impl Node {
         }
     }
 
-    /// Every key of every section that is written, as a path, with the place of its value.
+    /// The paths of all keys written in the sections, with the positions of their values.
     pub fn written(&self) -> Vec<(String, Range<usize>)> {
         let sections = self.table().into_iter().flatten();
         sections
@@ -179,7 +179,7 @@ fn table(entries: DeTable<'_>) -> Result<Value, toml::de::Error> {
     ))
 }
 
-/// The TOML reader knows how numbers are written.
+/// Leaves the syntax of numbers to the TOML reader.
 fn number_of(span: Range<usize>, number: DeValue<'_>) -> Result<Value, toml::de::Error> {
     use serde::Deserialize;
     let reader = toml::de::ValueDeserializer::from(Spanned::new(span, number));

@@ -1,10 +1,10 @@
-//! What has been counted so far, and of which trials: counters that add.
+//! Counters that add: what has been counted so far, and in which trials.
 //!
-//! A counter is known by what it counts, never by its place in a plan: see [`Key`]. It holds the trials
-//! that were counted and their sums, nothing derived. Two sets of counts add up to those of a run that did the
-//! trials of both; trials that are in both are refused, so nothing is ever counted twice. To checkpoint is to
-//! write counts, to resume is to count what is missing, to run in shards is to add the counts of many
-//! machines, to raise the number of trials is to want more of the same counters.
+//! A counter is identified by what it counts, never by its place in a plan: see [`Key`]. It holds the indices
+//! of the counted trials and their sums, nothing derived. Adding two sets of counts gives the counts of a run
+//! of all their trials; overlapping trials are refused, so nothing is counted twice. A checkpoint is a file of
+//! counts, resuming a run counts the missing trials, merging shards adds their counts, and raising the number
+//! of trials extends the same counters.
 
 mod ranges;
 mod sums;
@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
 
-/// The name of a counter: a hash of all that its sums depend on, but the trials.
+/// The identity of a counter: a hash of everything its sums depend on except the trials.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String")]
 pub struct Key(String);
@@ -41,7 +41,7 @@ impl TryFrom<String> for Key {
 }
 
 impl Key {
-    /// The key of what `text` tells from everything else.
+    /// The key of a counter that `text` identifies.
     pub fn of(text: &str) -> Self {
         // 96 bits: a billion counters collide with a probability of 1e-11.
         let hash = Sha256::digest(text.as_bytes());
@@ -49,7 +49,7 @@ impl Key {
         Self(digits.collect())
     }
 
-    /// The key of two counters compared trial by trial.
+    /// The key of a trial-by-trial comparison of two counters.
     pub fn pair([first, second]: [&Self; 2]) -> Self {
         Self::of(&format!("{first} against {second}"))
     }
@@ -61,19 +61,19 @@ impl fmt::Display for Key {
     }
 }
 
-/// How a point decides, as `points.csv` tells it.
+/// How a point decides, as in `points.csv`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DecisionSummary {
     /// Exact probability of deciding H₁ at rest, where it is known.
     pub size: Option<f64>,
-    /// Of a score.
+    /// The threshold of a score.
     pub threshold: Option<f64>,
-    /// The part of the scores' range that can be reached.
+    /// The smallest level that its rule can reach.
     pub reachable: Option<f64>,
 }
 
 impl DecisionSummary {
-    /// The first thing in which another differs.
+    /// The first difference from `other`, in words.
     fn difference(&self, other: &Self) -> Option<String> {
         let word = |value: Option<f64>| value.map_or("none".to_owned(), |value| value.to_string());
         let each = [
@@ -86,15 +86,15 @@ impl DecisionSummary {
     }
 }
 
-/// Counters by what they count.
+/// Counters by their keys.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counts {
     counters: BTreeMap<Key, Counter>,
-    /// How the points decide, as far as that takes pilot runs.
+    /// The decisions that pilot runs have found.
     pub decisions: BTreeMap<Key, DecisionSummary>,
 }
 
-/// Why counts do not add.
+/// Why counts cannot be added or used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[allow(missing_docs, reason = "the messages say it")]
 pub enum CountsError {
@@ -128,7 +128,7 @@ impl Counts {
         self.counters.get(key)
     }
 
-    /// Makes sure of a counter, of nothing yet where it is new.
+    /// Adds an empty counter unless it exists.
     pub fn expect(&mut self, key: &Key, shape: &Shape) {
         let counter = self.counters.entry(key.clone());
         counter.or_insert_with(|| shape.empty());
@@ -137,7 +137,7 @@ impl Counts {
     /// Adds the sums of further trials.
     ///
     /// # Errors
-    /// Where some of them were counted before, or the sums are not of one shape.
+    /// If some of them were counted before, or the shapes of the sums differ.
     pub fn add(&mut self, key: &Key, trials: Range<u64>, sums: &Sums) -> Result<(), CountsError> {
         let counter = self.counters.entry(key.clone());
         let counter = counter.or_insert_with(|| sums.shape().empty());
@@ -152,14 +152,14 @@ impl Counts {
         Ok(())
     }
 
-    /// Adds other counts. Takes time in proportion to those.
+    /// Adds other counts, in time proportional to their number.
     ///
     /// # Errors
-    /// Where a trial is in both, or a point decides differently; some counters may have been added then.
+    /// If a trial is in both, or a point decides differently; some counters may already have been added.
     pub fn merge(&mut self, other: &Self) -> Result<(), CountsError> {
         for (key, Counter { trials, sums }) in other.iter() {
             self.expect(key, &sums.shape());
-            // The sums are those of all stretches together.
+            // The sums belong to all ranges together, so they are added once, with the first range.
             let nothing = sums.shape().empty().sums;
             let each = std::iter::once(sums).chain(std::iter::repeat(&nothing));
             for (range, sums) in trials.iter().zip(each) {
@@ -176,7 +176,7 @@ impl Counts {
         Ok(())
     }
 
-    /// What of the wanted trials a counter has not.
+    /// The wanted trials that a counter lacks.
     pub fn missing(&self, key: &Key, wanted: Range<u64>) -> Ranges {
         match self.get(key) {
             Some(counter) => counter.trials.missing(wanted),
@@ -184,7 +184,7 @@ impl Counts {
         }
     }
 
-    /// Whether every trial of every counter of `other` is here too.
+    /// Whether every trial of every counter of `other` is also in this one.
     pub fn covers(&self, other: &Self) -> bool {
         other.iter().all(|(key, there)| {
             let here = self.get(key).map(|here| &here.trials);
@@ -193,17 +193,17 @@ impl Counts {
         })
     }
 
-    /// Drops the counters that are not wanted.
+    /// Keeps only the selected counters.
     pub fn retain(&mut self, is_wanted: impl Fn(&Key) -> bool) {
         self.counters.retain(|key, _| is_wanted(key));
         self.decisions.retain(|key, _| is_wanted(key));
     }
 
-    /// Whether a counter can be what it says, where a `share` of `wanted` trials is counted: as many sums as its
-    /// shape has, nothing that comes more often than the trials can bring it, no trial that is not wanted here.
+    /// Checks that a counter is plausible for a `share` of `wanted` trials: its sums have the given shape, no
+    /// count is larger than its trials allow, and it has no trial from outside the share.
     ///
     /// # Errors
-    /// Where not.
+    /// If the counter is not plausible.
     pub fn check(
         &self,
         key: &Key,
@@ -274,7 +274,7 @@ mod tests {
         }
     }
 
-    /// Nobody's decision wins by coming last.
+    /// Merging never overwrites a decision by a different one.
     #[test]
     fn decisions_that_differ_do_not_add() {
         let key = Key::of("a");

@@ -1,23 +1,23 @@
-//! Sets of trials as disjoint stretches.
+//! Sets of trials as disjoint ranges.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Trials by their index, as the fewest stretches that hold them.
+/// A set of trial indices, as the fewest disjoint ranges.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(into = "Vec<[u64; 2]>", try_from = "Vec<[u64; 2]>")]
 pub struct Ranges {
-    /// The end of each stretch by its start; no two touch.
+    /// The end of each range by its start; no two ranges touch.
     ends: BTreeMap<u64, u64>,
 }
 
-/// Trials that are there twice.
+/// Trials that were counted twice.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("trials {} to {} are counted twice", .0.start, .0.end - 1)]
 pub struct Overlap(pub Range<u64>);
 
-/// Stretches that are no set of trials.
+/// Why a list of ranges is not a set of trials.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[allow(missing_docs, reason = "the messages say it")]
 pub enum StretchError {
@@ -38,20 +38,20 @@ impl Ranges {
         self.ends.is_empty()
     }
 
-    /// The trial after the last.
+    /// The index after the last trial.
     pub fn end(&self) -> Option<u64> {
         self.ends.last_key_value().map(|(_, &end)| end)
     }
 
-    /// The stretches, first to last.
+    /// The ranges in ascending order.
     pub fn iter(&self) -> impl Iterator<Item = Range<u64>> + '_ {
         self.ends.iter().map(|(&start, &end)| start..end)
     }
 
-    /// Adds trials, none of which may be here.
+    /// Adds trials, none of which may be in the set.
     ///
     /// # Errors
-    /// The first of them that are; nothing is added then.
+    /// The first trials that are in the set already; then nothing is added.
     pub fn add(&mut self, range: Range<u64>) -> Result<(), Overlap> {
         if range.is_empty() {
             return Ok(());
@@ -69,7 +69,7 @@ impl Ranges {
         Ok(())
     }
 
-    /// The first stretch of `range` that is here.
+    /// The first part of `range` that is in the set.
     pub fn overlap(&self, range: &Range<u64>) -> Option<Range<u64>> {
         let before = self.ends.range(..=range.start).next_back();
         let within = self.ends.range(range.start..range.end).next();
@@ -80,7 +80,7 @@ impl Ranges {
         })
     }
 
-    /// What of `wanted` is not here.
+    /// The part of `wanted` that is not in the set.
     pub fn missing(&self, wanted: Range<u64>) -> Self {
         let mut missing = Self::default();
         let mut from = wanted.start;
@@ -98,7 +98,7 @@ impl Ranges {
         missing
     }
 
-    /// What of these is not in `other`.
+    /// The trials of this set that are not in `other`.
     pub fn without(&self, other: &Self) -> Self {
         let each = self.iter().flat_map(|range| other.missing(range).ends);
         Self {
@@ -156,7 +156,7 @@ mod tests {
         })
     }
 
-    /// Adds what can be added, in ranges and in a plain set.
+    /// Adds the ranges that do not overlap, to `Ranges` and to a plain set.
     fn both(stretches: &[Range<u64>]) -> (Ranges, BTreeSet<u64>) {
         let (mut ranges, mut set) = (Ranges::default(), BTreeSet::new());
         for stretch in stretches {
@@ -194,7 +194,7 @@ mod tests {
             prop_assert_eq!(left, set.difference(&other).copied().collect::<Vec<_>>());
         }
 
-        /// The order of additions leaves no trace, nor does a file.
+        /// Neither the order of additions nor a round trip through a file changes the set.
         #[test]
         fn order_does_not_matter(added in stretches()) {
             let (ranges, _) = both(&added);

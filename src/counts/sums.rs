@@ -1,15 +1,15 @@
-//! What a counter adds up: whole numbers alone, so that any order of adding gives the same.
+//! The sums of a counter: integers only, so that the order of additions does not matter.
 
 use super::ranges::Ranges;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Sums, and the trials that they are of.
+/// Sums and the trials they were taken over.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counter {
-    /// Every trial that was counted.
+    /// The counted trials.
     pub trials: Ranges,
-    /// Of all of them together.
+    /// The sums over all of them.
     pub sums: Sums,
 }
 
@@ -17,30 +17,30 @@ pub struct Counter {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Sums {
-    /// How often each of several things happened.
+    /// How often each kind of event happened.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub counts: Vec<u64>,
     /// Sums of real numbers.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub lengths: Vec<Fixed>,
-    /// Real numbers one by one, for quantiles.
+    /// Collections of real numbers, for quantiles.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub values: Vec<Values>,
 }
 
-/// How many of each kind a counter adds up.
+/// The number of sums of each kind in a counter.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Shape {
-    /// The most of each count that one trial can bring, where there is a limit.
+    /// The most that one trial can add to each count, if there is a limit.
     pub most: Vec<Option<u64>>,
-    /// Sums of real numbers.
+    /// The number of sums of real numbers.
     pub lengths: usize,
-    /// The most real numbers of each collection that one trial can bring.
+    /// The most real numbers that one trial can add to each collection.
     pub values: Vec<u64>,
 }
 
 impl Sums {
-    /// Counts alone.
+    /// Counts without other sums.
     pub fn of(counts: &[u64]) -> Self {
         Self {
             counts: counts.to_vec(),
@@ -48,8 +48,8 @@ impl Sums {
         }
     }
 
-    /// Adds those of other trials. What files say may be anything: a sum stops at the largest number, which no
-    /// trials can bring, and is refused as such.
+    /// Adds the sums of other trials. Sums saturate: a file may hold any number, and the largest number is
+    /// refused later because no trials can give it.
     pub fn add(&mut self, more: &Self) {
         let counts = self.counts.iter_mut().zip(&more.counts);
         counts.for_each(|(sum, more)| *sum = sum.saturating_add(*more));
@@ -59,7 +59,7 @@ impl Sums {
         values.for_each(|(sum, more)| sum.add(more));
     }
 
-    /// How many there are.
+    /// The number of sums of each kind.
     pub fn shape(&self) -> Shape {
         Shape {
             most: vec![None; self.counts.len()],
@@ -70,7 +70,7 @@ impl Sums {
 }
 
 impl Shape {
-    /// So many counts, of which a trial brings one at most.
+    /// `count` counts, each raised by at most one in a trial.
     pub fn events(count: usize) -> Self {
         Self {
             most: vec![Some(1); count],
@@ -78,7 +78,7 @@ impl Shape {
         }
     }
 
-    /// Sums over no trials.
+    /// A counter of no trials.
     pub fn empty(&self) -> Counter {
         Counter {
             trials: Ranges::default(),
@@ -95,7 +95,7 @@ impl Shape {
             == [sums.counts.len(), sums.lengths.len(), sums.values.len()]
     }
 
-    /// A count, or a number of values, that so many trials cannot bring, and what they can.
+    /// A count, or a number of values, that is too large for so many trials, and the largest possible.
     pub(super) fn excess(&self, sums: &Sums, trials: u64) -> Option<[u64; 2]> {
         let counts = sums.counts.iter().zip(&self.most);
         let counts = counts.filter_map(|(count, most)| Some((*count, (*most)?)));
@@ -108,7 +108,7 @@ impl Shape {
     }
 }
 
-/// A real number as a multiple of 2⁻⁶⁰: sums of up to 10²⁰ with an error of 10⁻¹⁸ for each number.
+/// A real number as a multiple of 2⁻⁶⁰: sums up to 10²⁰, with an error of 10⁻¹⁸ for each term.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub struct Fixed(i128);
@@ -133,7 +133,7 @@ impl std::ops::AddAssign for Fixed {
     }
 }
 
-/// JSON has no whole numbers of this size.
+/// As a string, because JSON has no integers of this size.
 impl From<Fixed> for String {
     fn from(fixed: Fixed) -> Self {
         fixed.0.to_string()
@@ -148,21 +148,21 @@ impl TryFrom<String> for Fixed {
     }
 }
 
-/// Real numbers, infinite ones among them, and how often each came.
+/// Real numbers, possibly infinite, and how often each occurred.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Values {
-    /// By the bits of the number, so that nothing is lost.
+    /// Keyed by the bits of the number, so that nothing is lost.
     times: BTreeMap<u64, u64>,
 }
 
 impl Values {
-    /// One more.
+    /// Adds one number.
     pub fn push(&mut self, value: f64) {
         *self.times.entry(value.to_bits()).or_default() += 1;
     }
 
-    /// Those of other trials.
+    /// Adds the numbers of other trials.
     pub fn add(&mut self, more: &Self) {
         for (bits, times) in &more.times {
             let sum = self.times.entry(*bits).or_default();
@@ -170,13 +170,13 @@ impl Values {
         }
     }
 
-    /// How many of them are of a kind.
+    /// How many numbers satisfy a condition.
     pub fn count(&self, is_one: impl Fn(f64) -> bool) -> u64 {
         let each = self.each().filter(|(value, _)| is_one(*value));
         each.fold(0, |sum, (_, times)| sum.saturating_add(times))
     }
 
-    /// Every different one of them, the smallest first, and how many are at most that.
+    /// The distinct numbers in ascending order, each with the number of values up to it.
     pub fn ascending(&self) -> Vec<(f64, u64)> {
         let mut values: Vec<(f64, u64)> = self.each().collect();
         values.sort_by(|(a, _), (b, _)| a.total_cmp(b));
@@ -198,7 +198,7 @@ impl Values {
 mod tests {
     use super::*;
 
-    /// Else two counts that no trials can bring would add up to one that they can.
+    /// With wrapping, two impossible counts could add up to a possible one.
     #[test]
     fn no_sum_wraps() {
         let mut sum = Sums::of(&[u64::MAX - 5]);
@@ -207,7 +207,7 @@ mod tests {
         assert_eq!(shape.excess(&sum, 3000), Some([u64::MAX, 3000]));
     }
 
-    /// A file may say that a value came as often as it likes: it is counted, not written out.
+    /// A file may claim any number of occurrences of a value, because they are stored as a count.
     #[test]
     fn values_are_bounded_by_the_trials() {
         let file = format!("[{{\"{}\":1000000000000000000,\"0\":3}}]", 1f64.to_bits());

@@ -1,6 +1,6 @@
-//! Statistics that one might use in place of W and T, to be held against thresholds.
+//! Statistics that replace W and T, compared with thresholds.
 //!
-//! None of them has a law that is free of the noise's: their thresholds are measured.
+//! None of them is distribution-free, so their thresholds are measured.
 
 /// Student's t of `shift` against `others`, with the pooled variance.
 pub fn student_t(shift: &[f64], others: [&[f64]; 2]) -> f64 {
@@ -20,8 +20,8 @@ pub fn variance_ratio(reference: &[f64], scale: &[f64]) -> f64 {
     variance(scale) / variance(reference)
 }
 
-/// The mean of `shift` minus that of all of `rest`, in deviations of the means of as many samples as
-/// `shift` has, side by side in `rest`. So it knows the colour of the noise without any filter.
+/// The mean of `shift` minus that of all of `rest`, in standard deviations of the means of adjacent blocks of
+/// `rest` as long as `shift`. So it allows for the colour of the noise without a filter.
 pub fn block_means(rest: &[f64], shift: &[f64]) -> f64 {
     let mean = |sample: &[f64]| sample.iter().sum::<f64>() / sample.len() as f64;
     let means = moments(rest.chunks_exact(shift.len()).map(mean));
@@ -55,7 +55,7 @@ fn moments(sample: impl Iterator<Item = f64> + Clone) -> Moments {
 mod tests {
     use super::*;
 
-    /// Textbook samples, worked by hand: means 4 and 2, Σ squares 8 + 2 + 2 on 6 degrees of freedom.
+    /// Small samples, computed by hand: means 4 and 2, Σ squares 8 + 2 + 2 on 6 degrees of freedom.
     #[test]
     fn student_t_by_hand() {
         let t = student_t(&[2.0, 4.0, 6.0], [&[1.0, 2.0, 3.0], &[1.0, 3.0]]);

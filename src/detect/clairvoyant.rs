@@ -1,9 +1,8 @@
-//! The ceiling: the Neyman–Pearson detector of one who knows Δ, ν, θ and the filter, and that the
-//! noise is normal.
+//! An upper bound on power: the Neyman–Pearson detector for known Δ, ν, θ and filter, and normal noise.
 //!
 //! With the true filter the record becomes z_i = ξ_i + d_i + θ Σ_p c_p l_{i−p}, c = (1, −φ₁, −φ₂, …),
-//! where d is the whitened acceleration and l = λ/θ the impulses. At rest z is white, so what precedes
-//! the motion says nothing, and the best statistic is
+//! where d is the whitened acceleration and l = λ/θ the impulses. At rest z is white, so samples before
+//! the motion carry no information, and the best statistic is
 //!
 //! ln Σ_l P(l) ∏_i φ(z_i − d_i − θ Σ_p c_p l_{i−p}) / φ(z_i),
 //!
@@ -22,7 +21,7 @@ pub struct Clairvoyant {
     states: usize,
 }
 
-/// One way from state to state: what S does, what that adds to the mean, how probable it is.
+/// A transition between states: its effect on the mean and its probability.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Step {
     from: usize,
@@ -31,7 +30,7 @@ struct Step {
     probability: f64,
 }
 
-/// The space that an evaluation works in.
+/// Scratch space of an evaluation.
 #[derive(Clone, Debug, Default)]
 pub struct Forward {
     now: Vec<f64>,
@@ -39,8 +38,8 @@ pub struct Forward {
 }
 
 impl Clairvoyant {
-    /// For a whitened acceleration `shift`, impulses of probability `nu` and strength `theta` from
-    /// sample `first_impulse` on, and a sensor with the autoregression `ar`.
+    /// The statistic for a whitened acceleration `shift`, impulses of probability `nu` and strength `theta`
+    /// from sample `first_impulse` on, and a sensor with the autoregression `ar`.
     pub fn new(shift: Vec<f64>, first_impulse: usize, nu: f64, theta: f64, ar: &[f64]) -> Self {
         let states = states(ar.len());
         let mut steps = Vec::new();
@@ -66,14 +65,14 @@ impl Clairvoyant {
         }
     }
 
-    /// The logarithm of the likelihood ratio of `innovations`, the record from the first sample of the
-    /// motion on, whitened with the true filter.
+    /// The log likelihood ratio of `innovations`: the record from the first sample of the motion on, whitened
+    /// with the true filter.
     pub fn log_likelihood_ratio(&self, innovations: &[f64], forward: &mut Forward) -> f64 {
         let Forward { now, next } = forward;
         now.clear();
         now.resize(self.states, 0.0);
         next.resize(self.states, 0.0);
-        // Before the first impulse every sum is zero: the first state.
+        // Before the first impulse every sum is zero, which is the first state.
         now[0] = 1.0;
         let mut logarithm = 0.0;
         for (i, (z, shift)) in innovations.iter().zip(&self.shift).enumerate() {
@@ -87,7 +86,7 @@ impl Clairvoyant {
                 mean * (z - mean / 2.0)
             };
             let possible = || self.steps.iter().filter(|step| now[step.from] > 0.0);
-            // The largest goes in front of the sum, so that nothing overflows.
+            // The largest exponent is factored out of the sum, so that nothing overflows.
             let largest = possible().map(exponent).fold(f64::NEG_INFINITY, f64::max);
             for step in possible() {
                 let likelihood = libm::exp(exponent(step) - largest);
@@ -103,7 +102,7 @@ impl Clairvoyant {
     }
 }
 
-/// Every path (S_{i−m}, …, S_i) that impulses may take, all zeros first.
+/// All possible paths (S_{i−m}, …, S_i), all zeros first.
 fn states(order: usize) -> Vec<Vec<i8>> {
     let mut paths: Vec<Vec<i8>> = vec![vec![0], vec![1], vec![-1]];
     for _ in 0..order {
@@ -121,7 +120,7 @@ fn extended(path: &[i8], sum: i8) -> Vec<i8> {
     [path, &[sum]].concat()
 }
 
-/// What S may become, and with what probability.
+/// The possible next values of S, with their probabilities.
 fn next_sums(sum: i8, nu: f64) -> Vec<(i8, f64)> {
     match sum {
         0 => vec![(0, 1.0 - nu), (1, nu / 2.0), (-1, nu / 2.0)],

@@ -1,4 +1,4 @@
-//! Filling regions: from the exact laws at one set of sizes to the critical values of each rule.
+//! The construction of regions: from the exact laws at given sizes to the critical values of each rule.
 
 use super::law::{NullLaw, NullLawError, check_memory, ratio};
 use super::region::{NEVER, Region, RegionError};
@@ -11,13 +11,13 @@ use std::sync::Arc;
 #[cfg(test)]
 mod tests;
 
-/// The exact laws that all rules at one set of sizes and one alternative share.
+/// The exact laws shared by all rules at given sizes and alternative.
 #[derive(Clone, Debug)]
 pub struct NullLaws {
     samples: Samples,
     alternative: Alternative,
     rank_sum: Arc<NullLaw>,
-    /// Of what the alternative looks at.
+    /// The law of the score of the alternative.
     pub(super) score: Arc<NullLaw>,
     pub(super) exceedances: NullLaw,
 }
@@ -29,9 +29,9 @@ impl NullLaws {
     /// The laws at these sizes.
     ///
     /// # Errors
-    /// Where their counts would not fit in memory.
+    /// If their counts do not fit in memory.
     pub fn new(alternative: Alternative, samples: &Samples) -> Result<Self, NullLawError> {
-        // Both before either is paid for.
+        // Both sizes are checked before either law is computed.
         let (w, t) = (
             NullLaw::rank_sum_bytes(samples),
             NullLaw::exceedances_bytes(samples),
@@ -65,7 +65,7 @@ impl NullLaws {
     /// The region of `rule` at level `alpha`.
     ///
     /// # Errors
-    /// Where `alpha` is no level, the rule cannot reach it, or a table exceeds it.
+    /// If `alpha` is not a level, the rule cannot reach it, or a table exceeds it.
     pub fn region(&self, rule: &Rule, alpha: f64) -> Result<Region, RegionError> {
         if !(alpha > 0.0 && alpha < 1.0) {
             return Err(RegionError::Alpha(alpha));
@@ -124,7 +124,7 @@ impl NullLaws {
         }
     }
 
-    /// What the alternative looks at in a rank sum.
+    /// The score of a rank sum under the alternative.
     pub(super) fn score_of(&self, rank_sum: u64) -> u64 {
         self.alternative.score(rank_sum, self.twice_mean())
     }
@@ -135,7 +135,7 @@ impl NullLaws {
         critical.map(|&score| self.score.tail(score)).collect()
     }
 
-    /// Eq. (15) by integers: Σ_T cases(T) · cases(score ≥ C(T)) over all cases.
+    /// Eq. (15) in integers: Σ_T cases(T) · cases(score ≥ C(T)), divided by the number of all cases.
     pub(super) fn size(&self, critical: &[u64]) -> f64 {
         let mut cases = BigUint::ZERO;
         for (t, &c) in (0..).zip(critical) {
@@ -144,21 +144,21 @@ impl NullLaws {
         ratio(&cases, &(self.exceedances.total() * self.score.total()))
     }
 
-    /// The table `below` t and `from` t on.
+    /// A table with the entry `below` for values less than t and `from` otherwise.
     fn corner(&self, t: u64, below: u64, from: u64) -> Vec<u64> {
         (0..self.columns() as u64)
             .map(|column| if column < t { below } else { from })
             .collect()
     }
 
-    /// The largest of a family of regions that shrink as w grows, of size at most α. One past the
-    /// last score is the empty choice.
+    /// The largest region of size at most α in a family that shrinks as w grows. One past the last score gives
+    /// the empty region.
     fn largest(&self, alpha: f64, table: impl Fn(u64) -> Vec<u64>) -> Vec<u64> {
         let scores = self.score.first()..self.score.last() + 1;
         table(first(scores, |w| self.size(&table(w)) <= alpha))
     }
 
-    /// Entries of a given table as scores.
+    /// The entries of a table as scores.
     fn table(&self, entries: &[Option<u64>], alpha: f64) -> Result<Vec<u64>, RegionError> {
         if entries.len() != self.columns() {
             return Err(RegionError::TableLength {

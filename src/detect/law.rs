@@ -5,16 +5,16 @@
 //!
 //! ∏_{i=1}^{M₁} (1 − q^{N+M₂+i}) / (1 − q^i),
 //!
-//! built one factor at a time: a division is a running sum, a multiplication a running difference,
-//! and in integers neither loses a digit. For T, N − 1 gaps between the ordered X and the two ends
-//! outside them give P(T = t) = (t+1)·C(N+M₂−t−2, N−2)/C(N+M₂, N); for N = 1 nothing can lie between
-//! min X and max X, so T = M₂.
+//! built one factor at a time: a division is a running sum, a multiplication a running difference, and both
+//! are exact in integers. For T, the N − 1 gaps between the ordered X and the two ends outside them give
+//! P(T = t) = (t+1)·C(N+M₂−t−2, N−2)/C(N+M₂, N). For N = 1 nothing lies between min X and max X.
+//! The formula does not apply, and the law is computed separately.
 //!
 //! # W and T are independent: (14)
-//! W depends only on *which* positions of the pooled order belong to Y₁. T depends only on the order
-//! in which X and Y₂ follow each other once Y₁ is struck out. Under exchangeability, given any set
-//! of positions for Y₁, every way of dealing the remaining positions to X and Y₂ is equally likely,
-//! so the second does not depend on the first. The tests enumerate all rank vectors of small sizes.
+//! W depends only on *which* positions of the pooled order belong to Y₁. T depends only on the relative
+//! order of X and Y₂ with Y₁ left out. Under exchangeability, given any set of positions for Y₁, every
+//! assignment of the remaining positions to X and Y₂ is equally likely, so T does not depend on W. The tests
+//! enumerate all rank vectors of small sizes.
 //!
 //! [^1]: see [`crate::signal`].
 
@@ -25,11 +25,11 @@ use num_bigint::BigUint;
 #[cfg(test)]
 mod tests;
 
-/// The law of an integer statistic whose values are counted by equally likely cases.
+/// The law of an integer statistic, as counts of equally likely cases.
 #[derive(Clone, Debug)]
 pub struct NullLaw {
     first: u64,
-    /// How many cases reach `first + i` or more.
+    /// The number of cases with `first + i` or more.
     tails: Vec<BigUint>,
 }
 
@@ -43,21 +43,21 @@ pub enum NullLawError {
         limit = MEMORY_LIMIT / 1e6
     )]
     TooLarge {
-        /// Their sizes.
+        /// The sizes asked for.
         samples: Samples,
-        /// What it would take.
+        /// The memory needed, in MB.
         megabytes: f64,
     },
 }
 
-/// The most memory that counts may take, in bytes: they are minutes of work.
+/// The most memory for counts, in bytes; so many take minutes to compute.
 const MEMORY_LIMIT: f64 = 1e8;
 
 impl NullLaw {
     /// The law of the rank sum W.
     ///
     /// # Errors
-    /// Where its counts would not fit in memory.
+    /// If its counts do not fit in memory.
     pub fn rank_sum(samples: &Samples) -> Result<Self, NullLawError> {
         let (m1, others) = shift_and_others(samples);
         check_memory(samples, Self::rank_sum_bytes(samples))?;
@@ -70,7 +70,7 @@ impl NullLaw {
     /// The law of the exceedances T.
     ///
     /// # Errors
-    /// Where its counts would not fit in memory.
+    /// If its counts do not fit in memory.
     pub fn exceedances(samples: &Samples) -> Result<Self, NullLawError> {
         let (n, m2) = (samples.reference(), samples.scale());
         check_memory(samples, Self::exceedances_bytes(samples))?;
@@ -103,11 +103,12 @@ impl NullLaw {
         bytes(m2 as f64 + 1.0, n, m2)
     }
 
-    /// The law of |2S − 2E S| for this S, which must be symmetric: what a two-sided rule looks at.
+    /// The law of |2S − 2E S|, the score of a two-sided rule. S must be symmetric.
     pub fn doubled_deviation(&self) -> Self {
         let last = 2 * self.first + self.tails.len() as u64 - 1;
         let mut counts = vec![BigUint::ZERO; self.tails.len()];
         for (i, count) in self.counts().enumerate() {
+            // By symmetry 2E S = first + last, a whole number, so doubling avoids fractions.
             let doubled = 2 * (self.first + i as u64);
             counts[doubled.abs_diff(last) as usize] += count;
         }
@@ -138,7 +139,7 @@ impl NullLaw {
         &self.tails[0]
     }
 
-    /// How many cases reach `value` or more.
+    /// The number of cases with `value` or more.
     pub fn tail_count(&self, value: u64) -> BigUint {
         match value.checked_sub(self.first) {
             None => self.total().clone(),
@@ -146,7 +147,7 @@ impl NullLaw {
         }
     }
 
-    /// How many cases give `value`.
+    /// The number of cases with exactly `value`.
     pub fn count(&self, value: u64) -> BigUint {
         self.tail_count(value) - self.tail_count(value + 1)
     }
@@ -161,7 +162,7 @@ impl NullLaw {
         ratio(&self.count(value), self.total())
     }
 
-    /// The smallest value v with P(S ≥ v) ≤ `level`; one past the last if there is none.
+    /// The smallest value v with P(S ≥ v) ≤ `level`; at most one past the last value.
     pub fn critical(&self, level: f64) -> u64 {
         let reached = self
             .tails
@@ -185,8 +186,8 @@ pub(super) fn ratio(numerator: &BigUint, denominator: &BigUint) -> f64 {
     if *numerator == BigUint::ZERO {
         return 0.0;
     }
-    // 66 or 67 bits of quotient, and a last bit that remembers whether anything was left over, so
-    // that the one rounding is that of the conversion.
+    // 66 or 67 bits of quotient, and a last bit set if there is a remainder, so that the conversion to f64
+    // rounds correctly and only once.
     let shift = (denominator.bits() + 66).saturating_sub(numerator.bits());
     let scaled = numerator << shift;
     let mut quotient = &scaled / denominator;
@@ -208,6 +209,7 @@ fn gaussian_binomial(chosen: usize, others: usize) -> Vec<BigUint> {
     let mut counts = vec![BigUint::ZERO; half + 1];
     counts[0] = BigUint::from(1u8);
     for i in 1..=short {
+        // In place: ascending order divides by 1 − q^i, descending order multiplies by 1 − q^step.
         for u in i..=half {
             let (low, high) = counts.split_at_mut(u);
             high[0] += &low[u - i];
@@ -234,8 +236,8 @@ pub(super) fn check_memory(samples: &Samples, bytes: f64) -> Result<(), NullLawE
     })
 }
 
-/// Memory for `values` counts, none above C(chosen + others, chosen): their digits, and what a vector of digits costs
-/// beside them.
+/// Memory for `values` counts up to C(chosen + others, chosen): their digits, and the overhead of a vector
+/// of digits.
 fn bytes(values: f64, chosen: usize, others: usize) -> f64 {
     let n = chosen as f64 + others as f64;
     let entropy = [chosen, others].map(|part| {

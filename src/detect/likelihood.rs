@@ -1,13 +1,12 @@
-//! The `likelihood-ratio` rule: what (W, T) can give at best against one alternative.
+//! The `likelihood-ratio` rule: the most powerful region of (W, T) against one alternative.
 //!
 //! By the lemma of Neyman and Pearson the most powerful region of a size takes the cells (w, t) in the
 //! order of P(w, t | H₁) / P(w, t | H₀). The denominator is exact. The numerator is counted in a pilot
-//! run, with noise: ordering thousands of cells by raw counts would pick those that were lucky. So the
-//! ratio is first made monotone in the score at every t: among all functions that never fall as the
-//! score grows, it is the one of greatest likelihood, which pools neighbouring cells wherever their
-//! counts contradict the order (isotonic regression by pooling adjacent violators [^1]). That larger W speaks for
-//! a shift is what every rule here assumes, and what makes the region one of the form W ≥ C_W(T). No
-//! order is imposed along t.
+//! run, with sampling noise: ordering thousands of cells by raw counts would select cells by chance. So the
+//! ratio is first made monotone in the score at every t, by the maximum-likelihood fit among non-decreasing
+//! functions, which pools neighbouring cells whose counts contradict the order (isotonic regression by
+//! pooling adjacent violators [^1]). Every rule here assumes that a larger W indicates a shift, which gives
+//! regions of the form W ≥ C_W(T). No order is imposed along t.
 //!
 //! [^1]: R. E. Barlow et al., "Statistical inference under order restrictions", Wiley, 1972.
 
@@ -42,14 +41,14 @@ impl Histogram {
         *self.counts.entry(cell).or_default() += 1;
     }
 
-    /// Adds all of another.
+    /// Adds another histogram.
     pub fn merge(&mut self, other: &Self) {
         for (cell, count) in &other.counts {
             *self.counts.entry(*cell).or_default() += count;
         }
     }
 
-    /// In how many trials `is_inside` held.
+    /// The number of trials with `is_inside`.
     pub fn count(&self, is_inside: impl Fn(Statistics) -> bool) -> u64 {
         let inside = self.counts.iter().filter(|((rank_sum, exceedances), _)| {
             is_inside(Statistics {
@@ -78,7 +77,7 @@ pub struct LikelihoodOrder {
 }
 
 impl LikelihoodOrder {
-    /// From the trials of a pilot under the alternative.
+    /// The order found in the trials of a pilot under the alternative.
     pub fn new(laws: &NullLaws, pilot: &Histogram) -> Self {
         let mut counts: BTreeMap<(usize, u64), f64> = BTreeMap::new();
         for (&(rank_sum, exceedances), &count) in &pilot.counts {
@@ -109,9 +108,9 @@ impl LikelihoodOrder {
         }
     }
 
-    /// The critical scores of the region of size at most `alpha`: pools from the top, the last one
-    /// from its highest score on, as far as the level allows. What level the pilot's cells leave goes to
-    /// cells that it never saw.
+    /// The critical scores of the region of size at most `alpha`: pools from the largest ratio down, the last
+    /// one from its highest score down as far as the level allows. The remaining level goes to cells that the
+    /// pilot never saw.
     fn critical(&self, laws: &NullLaws, alpha: f64) -> Vec<u64> {
         let mut critical = vec![NEVER; laws.columns()];
         let mut size = 0.0;
@@ -121,7 +120,7 @@ impl LikelihoodOrder {
             for score in (pool.score..top).rev() {
                 let index = (score - laws.score.first()) as usize;
                 let mass = self.scores[index] * self.exceedances[t];
-                // Rounding must not let in a cell that the exact size would refuse.
+                // Rounding must not admit a cell that the exact size would exclude.
                 if size + mass > alpha * (1.0 - 1e-12) {
                     return critical;
                 }
@@ -132,8 +131,8 @@ impl LikelihoodOrder {
         self.fill(laws, alpha, &critical)
     }
 
-    /// The region with the cells of the largest product of tails P(S ≥ s) · P(T ≥ t) ≤ k added that the
-    /// level allows: where a pilot says nothing, the order of the `product` rule does.
+    /// Adds the cells with P(S ≥ s) · P(T ≥ t) ≤ k, for the largest k that the level allows: without pilot
+    /// counts the order is that of the `product` rule.
     fn fill(&self, laws: &NullLaws, alpha: f64, critical: &[u64]) -> Vec<u64> {
         let tails = |masses: &[f64]| {
             let mut tails = masses.to_vec();
@@ -164,14 +163,14 @@ impl LikelihoodOrder {
 }
 
 impl NullLaws {
-    /// The most powerful region of size at most `alpha` for what the order was made for; empty where
-    /// no cell fits the level.
+    /// The most powerful region of size at most `alpha` against the alternative of the order; empty if no
+    /// cell fits the level.
     pub fn likelihood_region(&self, order: &LikelihoodOrder, alpha: f64) -> Region {
         self.with_critical(order.critical(self, alpha))
     }
 }
 
-/// The cells of one t, from the lowest score up, pooled until their ratios strictly grow.
+/// Pools the cells of one t, given from the lowest score up, until their ratios strictly increase.
 fn monotone(cells: impl Iterator<Item = Pool>) -> Vec<Pool> {
     let mut pools: Vec<Pool> = Vec::new();
     for mut pool in cells.filter(|cell| cell.null > 0.0) {
@@ -194,8 +193,8 @@ mod tests {
     use super::*;
     use crate::detect::{Alternative, Samples};
 
-    /// Whatever a pilot has seen, much or next to nothing, the exact size is at most α; and where it has
-    /// seen nothing at all, the region is that of the product rule but for its last cells.
+    /// For any number of pilot trials the exact size is at most α; without trials the region is that of the
+    /// product rule except for its last cells.
     #[test]
     fn size_is_at_most_alpha_and_used() {
         let samples = Samples::contiguous(9, 6, 7).unwrap();
@@ -228,8 +227,8 @@ mod tests {
         }
     }
 
-    /// The pooled ratios against a definition that shares nothing with the pooling: at each cell the
-    /// isotonic fit is max over starts at or before it of min over ends at or after it of the mean.
+    /// The pooled ratios against an independent definition: at each cell the isotonic fit is the maximum over
+    /// starts at or before it of the minimum over ends at or after it of the mean.
     #[test]
     fn pools_are_the_isotonic_fit() {
         let counts = [3.0, 1.0, 4.0, 1.0, 5.0, 9.0, 2.0, 6.0, 5.0, 3.0, 0.0, 8.0];

@@ -1,7 +1,7 @@
 //! The `product` rule: cells enter in the order of P(S ≥ s) · P(T ≥ t), equal products together.
 //!
-//! Equal products exist, (w − 78, t) = (280, 12) and (288, 10) at 12/12/12 for one, and rounding must
-//! not tell them apart. So the order of the cells near the boundary is decided in whole numbers.
+//! Equal products exist, for example (w − 78, t) = (280, 12) and (288, 10) at 12/12/12, and rounding must
+//! not separate them. So the cells near the boundary are ordered in integers.
 
 use super::design::NullLaws;
 use crate::stats::bisect::largest_below_one;

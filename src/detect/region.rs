@@ -1,8 +1,8 @@
 //! Decision regions ϑ, eqs (10)–(11) of [^1]: sets of (W, T) whose probability under H₀, eq. (15), is
 //! at most α.
 //!
-//! [^1] fixes only that and the form W ≥ C_W(T). Every rule here ends in such a table of critical
-//! values, one for each T, and differs in how it fills it:
+//! [^1] fixes only that and the form W ≥ C_W(T). Every rule here gives such a table of critical values, one
+//! for each T:
 //!
 //! | rule | region |
 //! |---|---|
@@ -33,7 +33,7 @@ pub struct Region {
     pub(super) reachable: Option<f64>,
 }
 
-/// A critical score that nothing reaches.
+/// A critical score that is never reached.
 pub(super) const NEVER: u64 = u64::MAX;
 
 impl Region {
@@ -49,7 +49,7 @@ impl Region {
         self.size
     }
 
-    /// The smallest level at which the rule that filled it is not empty; none where no rule did.
+    /// The smallest level at which its rule gives a non-empty region; `None` for a region without a rule.
     pub fn reachable(&self) -> Option<f64> {
         self.reachable
     }
@@ -70,10 +70,10 @@ impl Region {
     }
 }
 
-/// Why no region could be made.
+/// Why there is no region.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RegionError {
-    /// α is no level.
+    /// α is outside (0, 1).
     #[error("alpha must lie strictly between 0 and 1, got {0}")]
     Alpha(f64),
     /// Every region of this rule has a larger size.
@@ -106,10 +106,10 @@ pub enum RegionError {
     TableLength {
         /// M₂ + 1.
         expected: usize,
-        /// As given.
+        /// The number of entries given.
         got: usize,
     },
-    /// A table that promises more than it keeps.
+    /// A table whose exact size exceeds α.
     #[error(
         "rule table has exact size {size:.6}, above alpha = {alpha} (raise its entries or alpha)"
     )]
@@ -119,7 +119,7 @@ pub enum RegionError {
         /// The level asked for.
         alpha: f64,
     },
-    /// The laws themselves.
+    /// The exact laws could not be computed.
     #[error(transparent)]
     Law(#[from] NullLawError),
 }

@@ -1,12 +1,11 @@
-//! What a decision is made by: the rule that fills a region of (W, T), or another statistic to hold
-//! against it, and the sign of Δ it looks for.
+//! Decision methods: a rule that gives a region of (W, T), or a baseline statistic, and the sign of Δ.
 
 use schemars::JsonSchema;
 use serde::de::{Deserializer, Error, MapAccess, Unexpected, Visitor};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// How a region is filled from the exact laws alone.
+/// A rule that gives a region from the exact laws alone.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Rule {
     /// W alone.
@@ -21,20 +20,20 @@ pub enum Rule {
     Table(Vec<Option<u64>>),
 }
 
-/// What else one might decide by, in place of W and T.
+/// A statistic used in place of W and T.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Baseline {
     /// Student's t of the whitened Y₁ against X and Y₂.
     StudentT,
     /// The variance of the whitened Y₂ over that of X.
     VarianceRatio,
-    /// The mean of Y₁ minus that of all rest on the record as it is, in deviations of such means at rest.
+    /// The mean of Y₁ minus that of all rest in the raw record, in standard deviations of such means at rest.
     BlockMeans,
     /// The likelihood ratio of normal noise with everything known: Δ, ν, θ and the filter.
     Clairvoyant,
 }
 
-/// What a decision is made by.
+/// A decision method.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Method {
     /// A region of (W, T) filled by a rule.
@@ -72,7 +71,7 @@ pub enum Alternative {
 }
 
 impl Alternative {
-    /// What a rule compares with its critical value: W, its mirror image 2 E W − W, or |2W − 2E W|.
+    /// The score that is compared with the critical value: W, its mirror image 2 E W − W, or |2W − 2E W|.
     #[inline]
     pub(super) fn score(self, rank_sum: u64, twice_mean: u64) -> u64 {
         match self {
@@ -82,7 +81,7 @@ impl Alternative {
         }
     }
 
-    /// The same for a statistic that is symmetric about zero at rest.
+    /// The score of a statistic that is symmetric about zero at rest.
     #[inline]
     pub fn directed(self, statistic: f64) -> f64 {
         match self {
@@ -119,7 +118,7 @@ impl Baseline {
 }
 
 impl Method {
-    /// Those that a name is enough for.
+    /// The methods without parameters.
     const NAMED: [Self; 9] = [
         Self::Rule(Rule::Wilcoxon),
         Self::Rule(Rule::Product),
@@ -132,7 +131,7 @@ impl Method {
         Self::Baseline(Baseline::Clairvoyant),
     ];
 
-    /// All names.
+    /// The names of all methods.
     const NAMES: [&'static str; 10] = [
         "wilcoxon",
         "product",
@@ -155,7 +154,7 @@ impl Method {
         }
     }
 
-    /// Whether it is made for one Δ, ν and θ that must be stated.
+    /// Whether it is made for one stated Δ, ν and θ.
     pub fn states_its_alternative(&self) -> bool {
         matches!(
             self,
@@ -163,12 +162,12 @@ impl Method {
         )
     }
 
-    /// Whether it looks at the samples themselves, not only at W and T.
+    /// Whether it uses the samples themselves, not only W and T.
     pub fn needs_samples(&self) -> bool {
         matches!(self, Self::Baseline(_))
     }
 
-    /// Whether it looks at the record itself, not only at whitened samples.
+    /// Whether it uses the record itself, not only whitened samples.
     pub fn needs_record(&self) -> bool {
         matches!(
             self,

@@ -1,4 +1,4 @@
-//! Where the three samples lie in a trial, Fig. 5 of [^1]: training · X · gap · Y₁ · gap · Y₂.
+//! The positions of the three samples in a trial, Fig. 5 of [^1]: training · X · gap · Y₁ · gap · Y₂.
 //!
 //! Positions count observations (after decimation) from the first of X.
 //!
@@ -34,11 +34,11 @@ impl Default for Samples {
 }
 
 impl Samples {
-    /// N, M₁, M₂ observations, `gap` of them skipped in between, each the mean of `decimation` raw
-    /// ones.
+    /// Samples of N, M₁ and M₂ observations with `gap` skipped in between, each observation the mean of
+    /// `decimation` raw ones.
     ///
     /// # Errors
-    /// Where a size or the decimation is zero.
+    /// If a size or the decimation is zero.
     pub fn new(
         reference: usize,
         shift: usize,
@@ -58,7 +58,7 @@ impl Samples {
     /// Three samples side by side, every observation used.
     ///
     /// # Errors
-    /// Where a size is zero.
+    /// If a size is zero.
     pub fn contiguous(reference: usize, shift: usize, scale: usize) -> Result<Self, OutOfRange> {
         Self::new(reference, shift, scale, 0, 1)
     }
@@ -88,18 +88,18 @@ impl Samples {
         self.decimation.get()
     }
 
-    /// Where X lies.
+    /// The positions of X.
     pub fn reference_range(&self) -> Range<usize> {
         0..self.reference()
     }
 
-    /// Where Y₁ lies.
+    /// The positions of Y₁.
     pub fn shift_range(&self) -> Range<usize> {
         let start = self.reference().saturating_add(self.gap);
         start..start.saturating_add(self.shift())
     }
 
-    /// Where Y₂ lies.
+    /// The positions of Y₂.
     pub fn scale_range(&self) -> Range<usize> {
         let start = self.shift_range().end.saturating_add(self.gap);
         start..start.saturating_add(self.scale())
@@ -110,7 +110,7 @@ impl Samples {
         self.scale_range().end
     }
 
-    /// Observations from the first after X to the last of Y₁: how long Δ acts unless told otherwise.
+    /// Observations from the first after X to the last of Y₁: the default duration of Δ.
     pub fn acceleration(&self) -> usize {
         self.shift_range().end - self.reference()
     }

@@ -2,9 +2,8 @@
 //!
 //! W = M₁(M₁+1)/2 + #{(i ∈ Y₁, j ∉ Y₁): y_i > y_j}; T = #{y ∈ Y₂: y < min X or y > max X}.
 //!
-//! Tied values are put in the order of one random key a sample, which keeps the laws of W and T
-//! exact for any exchangeable data. Keys are asked for only where a tie matters, so continuous data
-//! never pay for them.
+//! Ties are broken by one random key per sample, which keeps the laws of W and T exact for any exchangeable
+//! data. Keys are drawn only if a tie matters, so continuous data do not need them.
 //!
 //! [^1]: see [`crate::signal`].
 
@@ -43,7 +42,7 @@ impl Pooled<'_> {
         }
     }
 
-    /// W and T where equal values exceed nothing: as if every tie were lost by whoever asks.
+    /// W and T by strict comparisons: a tied pair counts neither in W nor in T.
     pub fn statistics_strictly(&self) -> Statistics {
         Statistics {
             rank_sum: smallest_rank_sum(self.shift.len()) + self.pairs_won().0,
@@ -51,7 +50,7 @@ impl Pooled<'_> {
         }
     }
 
-    /// How many pairs (i ∈ Y₁, j ∉ Y₁) have y_i > y_j, and how many y_i ≥ y_j.
+    /// The numbers of pairs (i ∈ Y₁, j ∉ Y₁) with y_i > y_j and with y_i ≥ y_j.
     fn pairs_won(&self) -> (u64, u64) {
         let (mut above, mut reached) = (0, 0);
         for &y in self.shift {
@@ -65,7 +64,7 @@ impl Pooled<'_> {
         (above, reached)
     }
 
-    /// How many of Y₂ lie outside X's range, and whether any ties with an end of it.
+    /// The number of samples of Y₂ outside the range of X, and whether one ties with an end of it.
     fn outside_reference(&self) -> (usize, bool) {
         let low = self.reference.iter().copied().fold(f64::INFINITY, f64::min);
         let high = self
@@ -81,7 +80,7 @@ impl Pooled<'_> {
         (outside, edges > 0)
     }
 
-    /// The same by the order of (value, key).
+    /// W and T by the order of (value, key).
     #[cold]
     fn statistics_by_keys(&self, keys: &[u64]) -> Statistics {
         let (reference_keys, rest) = keys.split_at(self.reference.len());
@@ -158,7 +157,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { rng_seed: prop::test_runner::RngSeed::Fixed(2014), cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
 
-        /// Few distinct values make ties the rule; many make them the exception.
+        /// Ties are common with few distinct values and rare with many.
         #[test]
         fn agrees_with_the_definition(
             sizes in (1usize..9, 1usize..9, 1usize..9),
@@ -191,7 +190,7 @@ mod tests {
         assert_eq!(pooled.statistics(|| unreachable!()), expected);
     }
 
-    /// A tie within one sample changes neither statistic, and asks for no key.
+    /// A tie within one sample changes neither statistic and needs no key.
     #[test]
     fn ties_within_a_sample_do_not_matter() {
         let pooled = Pooled {

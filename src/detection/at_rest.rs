@@ -1,18 +1,18 @@
-//! False alarms on the recording's own rest: how many decisions, each of level α, were for motion while the
-//! monitor said that the cage stood. Neighbours share most of their blocks, so no interval goes with it.
+//! False alarms in the recording's own rest: the number of decisions for motion, each of level α, while the
+//! monitor's state was rest. Neighbouring decisions share most of their blocks, so there is no interval.
 
 use crate::monitor::{Event, Kind, Observation, State};
 use serde::Serialize;
 use std::collections::VecDeque;
 
-/// Decisions forwards while the cage stood.
+/// Forward decisions while the cage stood.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct AtRest {
-    /// All of them.
+    /// The number of decisions.
     pub decisions: u64,
-    /// Those for motion.
+    /// The number of decisions for motion.
     pub false_alarms: u64,
-    /// Those that a start, reported late, may still turn out to have been part of.
+    /// The latest decisions, which may turn out to belong to a start that is reported late.
     #[serde(skip)]
     recent: VecDeque<Recent>,
 }
@@ -24,11 +24,11 @@ struct Recent {
     moves: bool,
 }
 
-/// A start is reported within so many seconds.
+/// The longest delay of a reported start, s.
 const LATEST_REPORT: f64 = 30.0;
 
 impl AtRest {
-    /// Takes a block and the state it was seen in.
+    /// Takes a block and the state at that time.
     pub(super) fn block(&mut self, block: &Observation, state: State) {
         let Some(moves) = block.moves.filter(|_| state == State::REST) else {
             return;
@@ -40,7 +40,7 @@ impl AtRest {
         }
     }
 
-    /// What was reported as a start, or as doubt, was no rest from then on.
+    /// Drops the decisions since the time of a reported start or loss of state: they were not at rest.
     pub(super) fn event(&mut self, event: &Event) {
         if let Kind::Change { state, .. } = event.kind
             && state != State::REST
@@ -50,7 +50,7 @@ impl AtRest {
         }
     }
 
-    /// Nothing more comes.
+    /// Counts the remaining decisions at the end of the record.
     pub(super) fn end(&mut self) {
         while !self.recent.is_empty() {
             self.count_oldest();

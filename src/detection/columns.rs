@@ -1,12 +1,12 @@
-//! A trip as a row: the columns are the fields of [`Trip`], those of its decisions under the name of what they
-//! decided. A field added there is a column here.
+//! A trip as a row: the columns are the fields of [`Trip`]; those of its decisions have the prefix `start` or
+//! `stop`. A field added there is a column here.
 
 use super::Trip;
 use crate::fields::names;
 use crate::monitor::Decision;
 use serde_json::Value;
 
-/// Of a decision, what no row shows: α is the same for all, and times of samples are for pictures.
+/// Fields of a decision without a column: α is the same for all, and the times of samples are for pictures.
 const NOT_SHOWN: [&str; 4] = ["alpha", "reference", "shift", "scale"];
 
 /// The names of the columns, in their order.
@@ -22,7 +22,7 @@ pub fn columns() -> Vec<String> {
 }
 
 impl Trip {
-    /// The value of a column; null where it has none.
+    /// The value of a column; null if it has none.
     pub fn column(&self, name: &str) -> Value {
         let trip = serde_json::to_value(self).expect("a trip is plain data");
         let nested = || {

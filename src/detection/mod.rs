@@ -1,7 +1,7 @@
-//! What a monitor finds in a recording: a loop over [`Monitor::step`], with what it says put together.
+//! Detection in a whole recording: a loop over [`Monitor::step`] that collects the events into trips.
 //!
-//! Before it watches, it may learn what rest is from the whole recording
-//! ([`Knowledge::from_record`]). A monitor that is given the same knowledge and the same samples says the same.
+//! Before the loop, the reference of rest may be learnt from the whole recording
+//! ([`Knowledge::from_record`]). A monitor with the same knowledge and samples reports the same events.
 
 mod at_rest;
 mod columns;
@@ -20,30 +20,30 @@ pub use trip::{End, Trip};
 use crate::monitor::{Design, Event, Knowledge, Monitor};
 use crate::signal::recording::Sample;
 
-/// What was found.
+/// The result of a detection.
 #[derive(Clone, Debug)]
 pub struct Detection {
-    /// How it was looked for.
+    /// The settings at the rate of the recording.
     pub design: Design,
-    /// What was known before.
+    /// The knowledge at the start.
     pub knowledge: Knowledge,
-    /// All that the monitor said, in the order in which it said it.
+    /// All events, in the order reported.
     pub events: Vec<Event>,
     /// The motions.
     pub trips: Vec<Trip>,
-    /// How often a decision at rest was for motion.
+    /// The false alarms at rest.
     pub at_rest: AtRest,
     /// Whether the sensor seems to be behind a high-pass filter.
     pub is_high_passed: bool,
-    /// What a picture shows.
+    /// The thinned record, for a picture.
     pub trace: Trace,
 }
 
 impl Detection {
-    /// Watches `samples`.
+    /// Runs a monitor over `samples`.
     ///
     /// # Errors
-    /// What reading a sample meets.
+    /// If reading a sample fails.
     pub fn of<E>(
         design: &Design,
         knowledge: Knowledge,

@@ -1,4 +1,4 @@
-//! What `liftsim detect` reports: JSON shows all of it, CSV and the table its trips, under the same names.
+//! The report of `liftsim detect`: JSON has all of it, CSV and the table have the trips, under the same names.
 
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
@@ -8,7 +8,7 @@ use crate::signal::recording::Recording;
 use serde::Serialize;
 use serde_json::Value;
 
-/// A recording and what was found in it.
+/// A recording and its detection.
 #[derive(Debug, Serialize)]
 pub struct DetectReport<'a> {
     pub recording: Recorded,
@@ -48,7 +48,7 @@ pub struct Recorded {
     pub high_passed: bool,
 }
 
-/// What should be known before the trips are trusted.
+/// A reason to distrust the trips.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Warning {
     #[error(
@@ -61,7 +61,7 @@ pub enum Warning {
     )]
     Rate { learnt: f64, got: f64 },
     #[error(
-        "rest reads {0:.3} m/s^2, neither 0 nor the 9.8 of gravity (is the unit right? --unit g, mg, or counts \
+        "rest reads {0:.3} m/s^2, neither 0 nor the 9.8 of gravity (check the unit: --unit g, mg, or counts \
          with --scale)"
     )]
     Level(f64),
@@ -70,7 +70,7 @@ pub enum Warning {
 }
 
 impl<'a> DetectReport<'a> {
-    /// Of a recording called `file`.
+    /// The report on a recording called `file`.
     pub fn new(file: String, recording: &Recording, detection: &'a Detection) -> Self {
         let facts = recording.facts();
         let (time, time_unit) = recording.time_column();
@@ -113,7 +113,7 @@ impl<'a> DetectReport<'a> {
         json.expect("a report is plain data") + "\n"
     }
 
-    /// One row a trip.
+    /// One row per trip.
     pub fn csv(&self) -> Vec<u8> {
         let columns = columns();
         let alpha = self.settings.detector.alpha.to_string();
@@ -137,7 +137,7 @@ fn cell(value: &Value) -> String {
 }
 
 impl Detection {
-    /// Warnings about a recording of this rate, Hz.
+    /// The warnings for a recording with this rate, Hz.
     pub fn warnings(&self, rate: f64) -> Vec<Warning> {
         let learnt = self.design.rate;
         let level = self.knowledge.reference.as_ref().map(|rest| rest.level);
@@ -157,7 +157,7 @@ impl Detection {
     }
 }
 
-/// Whether a sensor may read this at rest, m/s²: nothing or gravity, and its own offset.
+/// Whether a level of rest, m/s², is near 0 or gravity, up to the sensor's offset.
 fn is_level_of_rest(level: f64) -> bool {
     const OFFSET: f64 = 1.5;
     level.abs() < OFFSET || (level.abs() - 9.81).abs() < OFFSET

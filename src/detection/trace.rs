@@ -1,5 +1,5 @@
-//! What a picture of a recording shows, in memory of constant size: the lowest and the highest block of
-//! each of a few thousand stretches of time.
+//! A recording thinned for a picture, in constant memory: the lowest and the highest block in each of a few
+//! thousand columns of time.
 
 use crate::monitor::Observation;
 
@@ -13,18 +13,18 @@ pub struct Trace {
     filled: usize,
 }
 
-/// A stretch of time.
+/// A column of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Column {
     /// When it begins and ends, s.
     pub times: (f64, f64),
     /// The lowest and the highest block mean, m/s².
     pub record: (f64, f64),
-    /// The same whitened.
+    /// The lowest and the highest whitened block, m/s².
     pub whitened: (f64, f64),
 }
 
-/// More than a picture can tell apart.
+/// More columns than a picture resolves.
 const MOST_COLUMNS: usize = 8192;
 
 impl Default for Trace {
@@ -38,7 +38,7 @@ impl Default for Trace {
 }
 
 impl Trace {
-    /// In the order of time.
+    /// The columns in order of time.
     pub fn columns(&self) -> &[Column] {
         &self.columns
     }
@@ -60,7 +60,7 @@ impl Trace {
         self.filled += 1;
     }
 
-    /// Makes room by joining two and two.
+    /// Makes room by joining columns in pairs.
     fn thin(&mut self) {
         if self.columns.len() == MOST_COLUMNS {
             let pairs = self.columns.chunks_exact(2);

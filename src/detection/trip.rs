@@ -29,7 +29,7 @@ pub struct Trip {
     pub stop_decision: Option<Decision>,
 }
 
-/// What ended a motion.
+/// The end of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum End {
@@ -43,7 +43,7 @@ pub enum End {
     Recording,
 }
 
-/// Puts an event where it belongs.
+/// Adds an event to the trips.
 pub(super) fn take(trips: &mut Vec<Trip>, event: &Event) {
     if let Kind::Change {
         state: State::Known(Phase::Accelerating),

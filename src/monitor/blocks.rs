@@ -1,43 +1,43 @@
-//! Block means: as many samples as a block holds, one after the other.
+//! Means of blocks of a fixed number of samples.
 
 use crate::signal::recording::Sample;
 
-/// Samples are added as whole nanometres per second squared, so that equal means stay equal whatever the
-/// order of their samples: a sum of rounded numbers would break the ties of a coarse sensor by rounding.
+/// Samples are added as whole nanometres per second squared, so that equal means stay equal in any order of
+/// their samples: in floating point, rounding would break the ties of a coarse sensor.
 const UNIT: f64 = 1e-9;
 
-/// m/s², in size: no sensor reaches it, a stronger sample counts as this strong, and a block of them fits into
-/// the sum.
+/// The largest absolute acceleration, m/s²: no sensor reaches it, stronger samples are clipped to it, and the
+/// sum of a block cannot overflow.
 pub const STRONGEST: f64 = 1e4;
 
-/// A longer silence, s or blocks, may hide a start.
+/// The longest silence that cannot hide a start: s, and blocks.
 const LONGEST_GAP: (f64, f64) = (0.5, 3.0);
 
-/// A block that is complete.
+/// A complete block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Block {
-    /// When its first sample was taken, s.
+    /// Time of its first sample, s.
     pub from: f64,
-    /// When its last sample was taken, s.
+    /// Time of its last sample, s.
     pub to: f64,
-    /// From the end of the block before to its own, s: what its mean stands for.
+    /// The time its mean covers, s: from the end of the block before to its own.
     pub seconds: f64,
     /// m/s².
     pub mean: f64,
 }
 
-/// The block under way.
+/// The current, incomplete block.
 #[derive(Clone, Debug)]
 pub(super) struct Blocks {
     length: u32,
-    /// Seconds in a block, nominally.
+    /// Nominal length of a block, s.
     nominal: f64,
     held: u32,
     sum: i64,
     from: f64,
-    /// When the last block ended, s.
+    /// End of the last block, s.
     ended: Option<f64>,
-    /// When the last sample was taken, s.
+    /// Time of the last sample, s.
     last: Option<f64>,
 }
 
@@ -61,7 +61,7 @@ impl Blocks {
         self.last.is_some_and(|last| time - last > longest)
     }
 
-    /// Takes a sample; the block that it completes, where it does.
+    /// Takes a sample and returns the block that it completes, if any.
     #[inline]
     pub fn step(&mut self, sample: Sample) -> Option<Block> {
         self.last = Some(sample.time);
@@ -85,7 +85,7 @@ impl Blocks {
         Some(block)
     }
 
-    /// Forgets the block under way, and that there was one before.
+    /// Discards the current block and the end of the last one.
     pub fn clear(&mut self) {
         *self = Self::new(self.length as usize, self.nominal);
     }

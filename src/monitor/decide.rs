@@ -1,6 +1,6 @@
-//! Verdicts on X, Y₁ and Y₂, forwards at a start and backwards at a stop.
+//! Decisions on X, Y₁ and Y₂: forward at a start, backward at a stop.
 //!
-//! Forwards X is the reference of rest, Y₂ the newest blocks and Y₁ those before them: one decision at
+//! Forward, X is the reference of rest, Y₂ the newest blocks and Y₁ those before them, with one decision at
 //! every block. A stop is a start reversed in time: X is the newest blocks, Y₁ the middle of the braking and
 //! Y₂ the motion before it.
 
@@ -13,17 +13,17 @@ use crate::rng::Stream;
 use rand::Rng;
 use std::ops::Range;
 
-/// W, T and the decision they make.
+/// W, T and the decision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Verdict {
     pub statistics: Statistics,
     /// Whether (W, T) lies in ϑ.
     pub moves: bool,
-    /// Of Δ, by the side of its mean that W lies on.
+    /// The sign of Δ, from the side of its mean that W lies on.
     pub sign: f64,
 }
 
-/// Where the three samples lie; X is the reference where it has no place.
+/// The positions of the three samples; X without a position is the reference.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Windows {
     pub reference: Option<Range<u64>>,
@@ -31,7 +31,7 @@ pub(super) struct Windows {
     pub scale: Range<u64>,
 }
 
-/// Decides, with random keys for ties.
+/// Makes decisions, with random keys for ties.
 #[derive(Clone, Debug)]
 pub(super) struct Decider {
     ties: Stream,
@@ -39,7 +39,7 @@ pub(super) struct Decider {
 }
 
 impl Windows {
-    /// The newest blocks before `end` against the reference.
+    /// Compares the newest blocks before `end` with the reference.
     pub fn forwards(design: &Design, end: u64) -> Option<Self> {
         let samples = &design.samples;
         let scale = end.checked_sub(samples.scale() as u64)?;
@@ -52,8 +52,8 @@ impl Windows {
         })
     }
 
-    /// The newest blocks before `now` against the middle of a pulse and what was before it. The middle, since
-    /// whitening answers the ends of a pulse with the opposite sign.
+    /// Compares the newest blocks before `now` with the middle of a pulse and the motion before it. It takes the
+    /// middle because whitening gives the ends of a pulse the opposite sign.
     pub fn backwards(design: &Design, pulse: &Pulse, now: u64) -> Option<Self> {
         let samples = &design.samples;
         let [n, m1, m2, gap] = [
@@ -83,7 +83,7 @@ impl Decider {
         }
     }
 
-    /// W and T at these windows; `None` where blocks are no longer or not yet in the history.
+    /// The decision at these windows; `None` if a block is not in the history.
     pub fn decide(
         &mut self,
         design: &Design,

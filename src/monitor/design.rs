@@ -9,7 +9,7 @@ use crate::rule::{self, OutOfRange};
 #[allow(missing_docs, reason = "what a name says is not said again")]
 pub struct Design {
     pub settings: Settings,
-    /// Sizes, and how many samples there are in a block.
+    /// The sizes, with the number of samples in a block as decimation.
     pub samples: Samples,
     /// ϑ, for Δ of either sign.
     pub region: Region,
@@ -20,18 +20,18 @@ pub struct Design {
 }
 
 impl Settings {
-    /// Whether they can be used, whatever the rate.
+    /// Checks the settings independently of the rate.
     ///
     /// # Errors
-    /// As [`Settings::at`].
+    /// Same as [`Settings::at`].
     pub fn check(&self) -> Result<(), SettingsError> {
         self.at(1.0 / self.monitor.block.clamp(1e-6, 1.0)).map(drop)
     }
 
-    /// The same at `rate` samples per second.
+    /// The settings at `rate` samples per second.
     ///
     /// # Errors
-    /// Where a value is out of its range, or no region has the level asked for.
+    /// If a value is out of its range, or no region has the level asked for.
     pub fn at(&self, rate: f64) -> Result<Design, SettingsError> {
         self.check_each()?;
         let (least, most) = (
@@ -43,7 +43,8 @@ impl Settings {
             return Err(OutOfRange::new("monitor.most_acceleration", rule, most).into());
         }
         rule::Rule::Within(1.0, 1e6, "Hz").check("rate", &rate)?;
-        // Rounded down up to three quarters, so that 10, 30 and 50 Hz are not on the edge between two lengths.
+        // Fractions below three quarters are rounded down, so that 10, 30 and 50 Hz are not on the edge between
+        // two lengths.
         let decimation = (self.monitor.block * rate + 0.25).floor().max(1.0) as usize;
         if decimation as f64 / rate > LONGEST_BLOCK {
             let error = OutOfRange::new("rate", "be at least 2 Hz", rate);

@@ -1,4 +1,4 @@
-//! What a monitor reports, and how it is written: one JSON object each.
+//! The events of a monitor, written as one JSON object each.
 //!
 //! `{"time":8.93,"reported":9.99,"state":"acceleration","direction":"up","speed":0.56,"decision":{…}}` or
 //! `{"time":12.1,"reported":13.3,"alarm":"jam"}`. Times are in s, speeds in m/s. What is not known is left out.
@@ -8,7 +8,7 @@
 use crate::signal::Phase;
 use serde::{Deserialize, Serialize, Serializer};
 
-/// What the cage does, as far as is known.
+/// The state of the cage as far as it is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
     /// It may stand or move.
@@ -16,7 +16,7 @@ pub enum State {
     Known(Phase),
 }
 
-/// Where a motion goes.
+/// The direction of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Direction {
@@ -25,7 +25,7 @@ pub enum Direction {
     Down,
 }
 
-/// From when to when, s.
+/// An interval of time: start and end, s.
 pub type Span = (f64, f64);
 
 /// A decision on three samples.
@@ -40,7 +40,7 @@ pub struct Decision {
     /// or at least this.
     pub upper: Option<u64>,
     pub alpha: f64,
-    /// X; it has no time of its own where it was taken from all rest of a record.
+    /// X; `None` if it was taken from all rest of a record.
     #[serde(serialize_with = "rounded")]
     pub reference: Option<Span>,
     /// Y₁
@@ -51,20 +51,20 @@ pub struct Decision {
     pub scale: Span,
 }
 
-/// Something that has happened.
+/// An event reported by the monitor.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Event {
-    /// When it happened, s.
+    /// Time of the event, s.
     #[serde(serialize_with = "rounded")]
     pub time: f64,
-    /// When that was known, s.
+    /// Time at which it was known, s.
     #[serde(serialize_with = "rounded")]
     pub reported: f64,
     #[serde(flatten)]
     pub kind: Kind,
 }
 
-/// What has happened.
+/// The kind of an event.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
@@ -73,15 +73,15 @@ pub enum Kind {
     /// The state has changed.
     #[serde(untagged)]
     Change {
-        /// The new one.
+        /// The new state.
         state: State,
-        /// Of the motion.
+        /// The direction of the motion.
         #[serde(skip_serializing_if = "Option::is_none")]
         direction: Option<Direction>,
-        /// Of the motion, m/s, as far as pulses of acceleration show.
+        /// The speed of the motion, m/s, as far as pulses of acceleration show.
         #[serde(skip_serializing_if = "Option::is_none", serialize_with = "rounded")]
         speed: Option<f64>,
-        /// What decided it, where a decision did.
+        /// The decision behind the change, if there was one.
         #[serde(skip_serializing_if = "Option::is_none")]
         decision: Option<Decision>,
     },
@@ -98,7 +98,7 @@ pub enum Alarm {
 }
 
 impl Direction {
-    /// Of an acceleration of this sign.
+    /// The direction of an acceleration of this sign.
     pub fn of(sign: f64) -> Self {
         if sign > 0.0 { Self::Up } else { Self::Down }
     }
@@ -124,7 +124,7 @@ impl Serialize for State {
 }
 
 impl Alarm {
-    /// As in JSON.
+    /// The name in JSON.
     pub fn name(self) -> &'static str {
         match self {
             Self::Jam => "jam",
@@ -133,7 +133,7 @@ impl Alarm {
     }
 }
 
-/// To a tenth of a millisecond, or of a millimetre per second: a block shows no more.
+/// Rounds to a tenth of a millisecond, or of a millimetre per second: blocks do not resolve more.
 trait Round: Copy + Serialize {
     fn round(self) -> Self;
 }

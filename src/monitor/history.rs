@@ -1,4 +1,4 @@
-//! The latest blocks, as they were measured and whitened: as many as a decision or a training looks back.
+//! The latest blocks, measured and whitened: as many as a decision or the training needs.
 
 use super::blocks::Block;
 use super::reference::Reference;
@@ -30,8 +30,8 @@ impl History {
         self.first + self.blocks.len() as u64
     }
 
-    /// Takes a block; whitened where the filter is known. Amortised constant time: the older half goes
-    /// when there is no more room.
+    /// Adds a block, whitened if there is a filter. Amortised constant time: when the buffer is full, the older
+    /// half is dropped.
     pub fn push(&mut self, block: Block, reference: Option<&Reference>) {
         if self.blocks.len() == 2 * self.capacity {
             self.blocks.drain(..self.capacity);
@@ -40,7 +40,7 @@ impl History {
         }
         self.blocks.push(block);
         let whitened = reference.map_or(0.0, |reference| {
-            // What precedes the record counts as the level of rest.
+            // Blocks before the record count as the level of rest.
             let last = self.blocks.len() - 1;
             let order = reference.coefficients.len().min(last);
             let past = self.blocks[last - order..last].iter().rev();
@@ -53,7 +53,7 @@ impl History {
         self.whitened.push(whitened);
     }
 
-    /// Whitens all that is held anew.
+    /// Whitens all blocks held with a new filter.
     pub fn whiten(&mut self, reference: &Reference) {
         let centred: Vec<f64> = (self.blocks.iter())
             .map(|block| block.mean - reference.level)
@@ -67,7 +67,7 @@ impl History {
         self.whitened.clear();
     }
 
-    /// Where blocks lie among those held; `None` where one of them is not.
+    /// The positions of blocks in the buffer; `None` if one of them is not held.
     fn place(&self, blocks: Range<u64>) -> Option<Range<usize>> {
         let start = blocks.start.checked_sub(self.first)? as usize;
         let end = blocks.end.checked_sub(self.first)? as usize;
@@ -87,12 +87,12 @@ impl History {
         self.whitened.last().copied().unwrap_or(0.0)
     }
 
-    /// When the first sample of a block was taken; that of the oldest held, where it is gone.
+    /// Time of the first sample of a block, or of the oldest block held if that one is gone.
     pub fn starts(&self, block: u64) -> f64 {
         self.blocks[block.saturating_sub(self.first) as usize].from
     }
 
-    /// When the last sample of the block before `block` was taken.
+    /// Time of the last sample of the block before `block`.
     pub fn ends(&self, block: u64) -> f64 {
         let after = block.saturating_sub(self.first).max(1);
         self.blocks[after as usize - 1].to

@@ -1,9 +1,10 @@
-//! Finding rest in a record that is all there: what a monitor would know had it watched the lift before.
+//! Learning the reference of rest from a whole record.
 //!
-//! A record is cut into windows of half a second. Those at the level that most have, and not much noisier than
-//! most, are rest or smooth motion, and together they make a first reference. With it the record is watched once, and the motions found. What
-//! lies between them is rest, and makes the reference that counts. That the outside of the motions is
-//! rest and not the inside is an assumption, given up only if the inside is clearly the quieter.
+//! A record is cut into windows of half a second. Windows near the median level and not much noisier than
+//! the median are rest or smooth motion, and together give a first reference. With it a monitor runs over the
+//! record once and finds the motions. The windows between the motions are rest and give the final reference.
+//! This assumes that the cage stands between the motions found, and not during them; the assumption is
+//! dropped only if the windows during the motions are clearly quieter.
 
 use super::blocks::Blocks;
 use super::design::Design;
@@ -15,19 +16,19 @@ use super::{Knowledge, Monitor};
 use crate::signal::Phase;
 use crate::signal::recording::Sample;
 
-/// Seconds in a window.
+/// Length of a window, s.
 const WINDOW: f64 = 0.5;
 
-/// Blocks in it at least: more than the longest filter looks back.
+/// The fewest blocks in a window: more than the longest filter looks back.
 const SHORTEST_WINDOW: usize = MOST_ORDER + 2;
 
-/// A window noisier than most by this factor is somebody handling the sensor.
+/// A window noisier than the median by this factor was disturbed, for example by handling the sensor.
 const NOISIEST: f64 = 4.0;
 
-/// The most windows kept; of a longer record every other one is, or every fourth, and so on.
+/// The most windows kept; of a longer record every second is kept, or every fourth, and so on.
 const MOST_WINDOWS: usize = 4096;
 
-/// Motion that is quieter than rest by this factor was rest.
+/// If the windows in motion are quieter than those at rest by this factor, the two are exchanged.
 const QUIETER: f64 = 0.5;
 
 /// Nothing could be learnt from a record.
@@ -37,11 +38,11 @@ const QUIETER: f64 = 0.5;
      are needed (record a few seconds of rest before or after the ride)"
 )]
 pub struct NoRest {
-    /// Of the record, s.
+    /// Length of the record, s.
     pub length: f64,
-    /// At rest, as far as can be seen, s.
+    /// Time apparently at rest, s.
     pub level: f64,
-    /// s.
+    /// Time at rest needed, s.
     pub needed: f64,
 }
 
@@ -62,16 +63,16 @@ struct Windows {
     /// Blocks in a window.
     length: usize,
     kept: Vec<Window>,
-    /// One in so many windows is kept.
+    /// One of every `stride` windows is kept.
     stride: usize,
     seen: usize,
 }
 
 impl Knowledge {
-    /// Learns from a whole record, of which `pass` begins another pass: two are made.
+    /// Learns from a whole record in two passes, each begun by a call of `pass`.
     ///
     /// # Errors
-    /// What a pass meets, or that there is no rest in the record.
+    /// If reading a sample fails (outer), or the record has too little rest (inner).
     pub fn from_record<I, E>(
         design: &Design,
         mut pass: impl FnMut() -> Result<I, E>,
@@ -87,6 +88,7 @@ impl Knowledge {
             Ok(reference) => reference,
             Err(none) => return Ok(Err(none)),
         };
+        // Assume rest at the start; `first_is_whole` checks this afterwards.
         let mut monitor = Monitor::new(design.clone(), Self::at_rest(first));
         let mut motions = Motions::default();
         for sample in pass()? {
@@ -94,7 +96,7 @@ impl Knowledge {
                 motions.step(event);
             }
         }
-        // Behind a high-pass filter no motion is as it seems, and no motion shows how the record begins.
+        // Behind a high-pass filter motions are distorted, so they cannot show how the record begins.
         let begins_at_rest = motions.first_is_whole() || monitor.is_high_passed();
         Ok(windows.knowledge(&motions, begins_at_rest))
     }
@@ -142,7 +144,7 @@ impl Windows {
         }
     }
 
-    /// Keeps a window that stays at one level, if its turn has come.
+    /// Keeps a window that stays at one level, if it is due by the stride.
     fn close(&mut self, window: Window) {
         let settings = &self.design.settings;
         let drift = settings.monitor.least_acceleration / 2.0;
@@ -154,6 +156,7 @@ impl Windows {
             return;
         }
         self.kept.push(window);
+        // Thinning by two and doubling the stride keeps memory constant and the windows evenly spread.
         if self.kept.len() == MOST_WINDOWS {
             self.stride *= 2;
             let mut place = 0;
@@ -164,7 +167,7 @@ impl Windows {
         }
     }
 
-    /// From the windows at the level of most that `are` chosen.
+    /// The reference from the windows at the common level for which `are` holds.
     fn reference(&self, are: impl Fn(&Window) -> bool) -> Result<Reference, NoRest> {
         let chosen: Vec<&Window> = self.level().into_iter().filter(|w| are(w)).collect();
         let blocks = chosen.len() * self.length;
@@ -177,7 +180,7 @@ impl Windows {
                     .collect()
             })
             .collect();
-        // The first blocks of a stretch are not whitened, and no block stands in X twice.
+        // The first blocks of a stretch are not whitened, and X takes no block twice.
         let needed = self.design.samples.reference() + MOST_ORDER * stretches.len();
         let needed = needed.max(LEAST_TRAINING);
         let seconds = |blocks: usize| blocks as f64 * self.design.block;
@@ -191,7 +194,7 @@ impl Windows {
         Ok(Reference::from_stretches(&stretches, &self.design))
     }
 
-    /// Those like most others in level and in noise.
+    /// The windows near the median level without unusual noise.
     fn level(&self) -> Vec<&Window> {
         let Some(level) = median(self.kept.iter().map(Window::level)) else {
             return Vec::new();
@@ -204,7 +207,7 @@ impl Windows {
         near.into_iter().filter(is_usual).collect()
     }
 
-    /// What is rest, now that the motions are known.
+    /// The knowledge of rest, given the motions.
     fn knowledge(&self, motions: &Motions, begins_at_rest: bool) -> Result<Knowledge, NoRest> {
         let inside = |window: &Window| motions.hold(window.from, window.to);
         let outside = |window: &Window| !motions.touch(window.from, window.to);
@@ -246,7 +249,7 @@ fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     values.get(values.len() / 2).copied()
 }
 
-/// The motions that a monitor saw.
+/// The motions that a monitor reported.
 #[derive(Clone, Debug, Default)]
 struct Motions(Vec<Motion>);
 
@@ -279,8 +282,8 @@ impl Motions {
         }
     }
 
-    /// Whether there are no motions, or the first has an end that fits its start. Where a record begins in
-    /// motion, a braking is taken for a start, and the start after it does not end it.
+    /// Whether there are no motions, or the first has an end that fits its start. If a record begins in motion,
+    /// the first braking is taken for a start, and the next start does not end that motion.
     fn first_is_whole(&self) -> bool {
         self.0.first().is_none_or(|first| first.is_whole)
     }

@@ -1,23 +1,23 @@
-//! What the cage does, after the sequences of [^1]: rest → acceleration → inertial motion is a start,
+//! The state of the cage, after the sequences of [^1]: rest → acceleration → inertial motion is a start,
 //! inertial motion → braking → rest a stop.
 //!
-//! A pulse of acceleration says that the speed has changed, and by how much; the decision on X, Y₁ and
-//! Y₂ says whether noise can explain it. Both are needed. Between pulses rest and smooth motion look
-//! alike, so the state is remembered, and where it was never seen it is unknown.
+//! A pulse of acceleration measures a change of speed; the decision on X, Y₁ and Y₂ says whether noise can
+//! explain it. Both are needed. Between pulses rest and smooth motion look alike, so the state is remembered;
+//! if it was never observed, it is unknown.
 //!
-//! # Out of the unknown
-//! Vibration cannot be trusted to tell: people who get in shake a cage more than many a motion does. What
-//! tells is, in this order:
+//! # Leaving the unknown state
+//! Vibration alone is not reliable: people who get in may shake a cage more than a motion does. The state
+//! becomes known by, in this order:
 //!
-//! - blocks like the reference of rest, where that is evidence, because motions of this cage have been
-//!   seen to look different, or the record is known to begin at rest;
-//! - a reversal. A motion at one speed leaves two pulses that cancel out. Of three pulses with signs + − −,
-//!   the first two cancelling out and the last no weaker than half of them, the cage stood after the second: else it would have
-//!   stood with two different speeds. So it moves now; and with − − + it stands now. Any other pulse
-//!   in between, a weak one or a shock, and the count begins again;
+//! - blocks like the reference of rest, if motions of this cage have looked different from rest, or if the
+//!   record is known to begin at rest;
+//! - a reversal. A motion at one speed leaves two pulses that cancel. Take three pulses with signs + − −, of
+//!   which the first two cancel and the last is at least half as strong: the cage stood after the second,
+//!   otherwise it would have two different speeds at rest. So it moves now; after − − + it stands now. Any
+//!   other pulse in between, a weak one or a shock, restarts the count;
 //! - no pulse for as long as the longest motion takes.
 //!
-//! | state | leaves it when |
+//! | state | ends when |
 //! |---|---|
 //! | unknown | see above |
 //! | rest | a pulse changes the speed enough, and the decision forwards is H₁* with its sign |
@@ -25,14 +25,14 @@
 //! | inertial | a pulse against the motion takes half of its speed, or as much as the slowest motion has |
 //! | braking | the pulse has ended, no speed is left, and the decision backwards says that it was a stop; or some is left, and the cage creeps on |
 //!
-//! A braking that takes more speed than there was proves that something has been misunderstood, and the state
-//! is unknown again. So it is after a motion longer than any, after a gap, and when a pulse does not
-//! end, because the sensor's own level has changed.
+//! A braking that takes more speed than there was contradicts the state, which becomes unknown. The same
+//! happens after a motion longer than the longest, after a gap, and when a pulse does not end because the
+//! level of the sensor has changed.
 //!
-//! A pulse stronger than any acceleration of a lift does not start a motion: at rest it is a shock, or, if it lasts,
-//! somebody carrying the sensor. In motion and against it, it is a jam if it takes half of the speed, or if
-//! the decision backwards says that the vibration of motion has ended with it (a sensor at its limit does
-//! not see all of the speed go); else it was a shock, and the motion goes on.
+//! A pulse stronger than any acceleration of a lift does not start a motion: at rest it is a shock, or, if it
+//! lasts, the sensor is being carried. In motion and against it, it is a jam if it takes half of the speed, or
+//! if the backward decision says that the vibration of motion has ended with it (a saturated sensor does not
+//! measure all of the lost speed); otherwise it was a shock, and the motion continues.
 //!
 //! [^1]: see [`crate::signal`].
 
@@ -41,10 +41,10 @@ use super::pulse::Pulse;
 use super::step_input::StepInput;
 use crate::signal;
 
-/// Longer than this, s, a shock is somebody handling the sensor.
+/// A shock longer than this, s, means that the sensor is being handled.
 const LONGEST_SHOCK: f64 = 0.5;
 
-/// What the cage does, with what must be remembered of it.
+/// The state of the cage, with the memory that its transitions need.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum LiftState {
     Unknown(Unknown),
@@ -52,33 +52,33 @@ pub(super) enum LiftState {
     Moving(Motion),
 }
 
-/// Why it is not known what the cage does, and what may tell.
+/// The unknown state, with the evidence gathered so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Unknown {
     /// The first block without a pulse.
     still_since: u64,
-    /// The block after the last one whose decision forwards was H₁*.
+    /// The block after the last one whose forward decision was H₁*.
     calm_since: u64,
     /// The last two pulses, the older first.
     pulses: [Option<Pulse>; 2],
 }
 
-/// A motion under way.
+/// A current motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Motion {
     /// +1 up, −1 down.
     sign: f64,
-    /// As far as pulses tell, m/s.
+    /// The speed according to the pulses, m/s.
     speed: f64,
-    /// The highest it has been, m/s.
+    /// The highest speed so far, m/s.
     top_speed: f64,
-    /// When it began, s.
+    /// Its start, s.
     start: f64,
     /// Blocks of inertial motion.
     inertial: u64,
-    /// For how many of the latest of them the decision forwards has been H₀*.
+    /// The number of latest inertial blocks in a row with the forward decision H₀*.
     calm: u64,
-    /// Whether it has ever looked like rest for N blocks.
+    /// Whether it has looked like rest for N blocks at any time.
     looks_like_rest: bool,
     /// The pulse that began it, once it has ended.
     first: Option<Pulse>,
@@ -87,7 +87,7 @@ pub(super) struct Motion {
     phase: Phase,
 }
 
-/// The part of a motion.
+/// The phase of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Phase {
     Accelerating,
@@ -98,7 +98,7 @@ enum Phase {
 }
 
 impl LiftState {
-    /// Nothing is known from block `now` on.
+    /// The unknown state from block `now` on, without evidence.
     pub fn unknown(now: u64) -> Self {
         Self::Unknown(Unknown {
             still_since: now,
@@ -107,7 +107,7 @@ impl LiftState {
         })
     }
 
-    /// Its state in a word.
+    /// The state without its memory.
     pub fn state(&self) -> State {
         match self {
             Self::Unknown(_) => State::Unknown,
@@ -120,13 +120,13 @@ impl LiftState {
         }
     }
 
-    /// Of a motion under way with at least `blocks` of inertial motion, whether it has looked like rest.
+    /// Whether the current motion has looked like rest; `None` unless it has at least `blocks` inertial blocks.
     pub fn looks_like_rest(&self, blocks: u64) -> Option<bool> {
         let motion = self.motion().filter(|motion| motion.inertial >= blocks);
         motion.map(|motion| motion.looks_like_rest)
     }
 
-    /// Whether the pulses of a motion under way are those of a sensor behind a high-pass filter.
+    /// Whether the pulses of the current motion are those of a sensor behind a high-pass filter.
     pub fn decays(&self) -> bool {
         self.motion().is_some_and(|motion| motion.decays)
     }
@@ -138,7 +138,7 @@ impl LiftState {
         }
     }
 
-    /// A change to this state at `time`, said at `reported`.
+    /// The event of a change to this state at `time`, reported at `reported`.
     pub fn change(&self, time: f64, reported: f64, decision: Option<Decision>) -> Event {
         let motion = self.motion();
         let kind = Kind::Change {
@@ -154,7 +154,7 @@ impl LiftState {
         }
     }
 
-    /// What comes after the newest block; what happened is said in `events`.
+    /// The state after the newest block; changes and alarms are added to `events`.
     pub fn step(self, input: &mut StepInput, events: &mut Vec<Event>) -> Self {
         let (next, time, decision) = match self {
             Self::Unknown(unknown) => unknown.step(input, events),
@@ -168,7 +168,7 @@ impl LiftState {
     }
 }
 
-/// The next state, when it began, and what decided it.
+/// The next state, the time of its start, and the decision behind it.
 type Next = (LiftState, f64, Option<Decision>);
 
 impl Unknown {
@@ -196,7 +196,7 @@ impl Unknown {
         (next, input.time, None)
     }
 
-    /// What a pulse that has ended tells together with those before it.
+    /// Takes a completed pulse and returns the state that it and the last two pulses prove, if any.
     fn take(&mut self, pulse: &Pulse, input: &StepInput, events: &mut Vec<Event>) -> Option<Next> {
         let c = input.whole(pulse);
         if c.speed < input.least_speed() / 2.0 {
@@ -230,7 +230,7 @@ impl Unknown {
     }
 }
 
-/// From rest.
+/// The transition from rest.
 fn start(input: &mut StepInput) -> Next {
     let stay = (LiftState::Rest, input.time, None);
     let under_way = [1.0, -1.0].into_iter().filter_map(|sign| input.pulse(sign));
@@ -261,7 +261,7 @@ fn start(input: &mut StepInput) -> Next {
 }
 
 impl Motion {
-    /// One that a pulse begins.
+    /// A motion started by a pulse.
     fn from_pulse(pulse: &Pulse, start: f64) -> Self {
         Self {
             sign: pulse.sign,
@@ -297,7 +297,7 @@ impl Motion {
         self.on(self.phase, input.time)
     }
 
-    /// The pulse under way against the motion, when it is more than sway.
+    /// The current pulse against the motion, if it is stronger than sway.
     fn against(&self, input: &StepInput) -> Option<Pulse> {
         let enough = input.least_speed().min(self.speed / 2.0);
         input
@@ -305,7 +305,7 @@ impl Motion {
             .filter(|pulse| pulse.speed >= enough)
     }
 
-    /// The acceleration ends by itself, or a braking cuts it short.
+    /// The transition from acceleration, which ends by itself or is cut short by a braking.
     fn accelerate(mut self, input: &StepInput) -> Next {
         let cut_short = || self.against(input).and(input.pulse(self.sign));
         let Some(pulse) = input.ended(self.sign).or_else(cut_short) else {
@@ -327,7 +327,7 @@ impl Motion {
             self.calm + 1
         };
         self.looks_like_rest |= self.calm >= input.reference_length();
-        // A pulse that a braking cut short ends only now, and has been counted.
+        // A pulse cut short by a braking ends only now, but has been counted already.
         let is_new = |pulse: &Pulse| self.first.is_none_or(|first| pulse.onset >= first.end);
         if let Some(pulse) = input.ended(self.sign).filter(is_new)
             && pulse.speed >= input.least_speed() / 2.0
@@ -341,8 +341,8 @@ impl Motion {
         }
     }
 
-    /// What does not take all of the speed leaves a creeping cage, and what takes more than all of it was
-    /// no braking of this motion.
+    /// The transition from braking. A pulse that takes only part of the speed leaves a creeping cage; one that
+    /// takes more than all of it was not a braking of this motion.
     fn brake(mut self, input: &StepInput) -> Next {
         let Some(pulse) = input.ended(-self.sign) else {
             return self.stay(input);
@@ -365,7 +365,7 @@ impl Motion {
         }
     }
 
-    /// N blocks after the last pulse it shows what it was.
+    /// The transition after a possible stop, decided N blocks after the last pulse.
     fn stop(self, pulse: &Pulse, input: &mut StepInput, events: &mut Vec<Event>) -> Next {
         if !input.is_after(pulse) {
             return self.stay(input);
@@ -391,7 +391,7 @@ impl Motion {
         }
     }
 
-    /// Whether a shock has taken half of the speed. One at a joint of the rails takes none: it swings back.
+    /// Whether a shock has taken half of the speed. A shock at a rail joint takes none, because it swings back.
     fn is_spent(&self, pulse: &Pulse, input: &StepInput) -> bool {
         let end = pulse.end + input.blocks(LONGEST_SHOCK).min(input.reference_length());
         let change = input.change_of_speed(pulse.onset..end);

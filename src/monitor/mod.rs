@@ -1,21 +1,21 @@
 //! Watching a lift, sample by sample: the state machine that [^1] was written for, with a decision at
-//! every moment, memory of constant size, and a whitening filter and reference X that are learnt anew at
+//! every moment, memory of constant size, and a whitening filter and reference X that are learnt again at
 //! every rest.
 //!
 //! # The flow
 //! samples → blocks → whitened blocks → a decision on (X, Y₁, Y₂) at every block, and pulses
-//! of acceleration → state → [`Event`]s. [`Monitor::step`] is all there is; reading a file is a loop over it.
+//! of acceleration → state → [`Event`]s. [`Monitor::step`] does all of it; reading a file is a loop over it.
 //!
-//! # What the exact level promises here, and what not
-//! Each decision by itself keeps its level α if the whitened blocks at rest are exchangeable. Of a lift at
-//! rest they are not quite: people move, the filter is fitted, colour is left. And a monitor makes twenty decisions a second, each
-//! sharing most of its blocks with the one before, while X stays the same for seconds. So α says neither how many decisions
-//! in an hour are wrong nor how many false motions an hour brings. The rate at rest can be counted
-//! (`liftsim detect` prints it), and the time between false motions is simulated
+//! # Scope of the exact level
+//! Each single decision keeps its level α if the whitened blocks at rest are exchangeable. In a real lift they
+//! are only nearly so: people move, the filter is fitted, some colour is left. A monitor also makes twenty
+//! decisions a second, each sharing most of its blocks with the one before, while X stays the same for
+//! seconds. So α determines neither the number of wrong decisions nor that of false motions in an hour. The
+//! rate at rest can be counted (`liftsim detect` prints it), and the time between false motions is simulated
 //! (`configs/ride_*.toml`).
 //!
-//! # What a motion needs beside the decision
-//! Ranks know no size: a tilt of the floor by a milliradian is as significant as a start. So a motion
+//! # Conditions on a motion beside the decision
+//! Ranks do not measure size: a tilt of the floor by a milliradian is as significant as a start. So a motion
 //! must also change the speed by `least_speed`, in one pulse of acceleration.
 //!
 //! ```
@@ -66,69 +66,69 @@ use pulse::{Cusum, is_level};
 use serde::{Deserialize, Serialize};
 use step_input::StepInput;
 
-/// What is known of a cage before its record begins.
+/// Knowledge of a cage before its record begins.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Knowledge {
-    /// What its rest is like.
+    /// Its reference of rest.
     pub reference: Option<Reference>,
-    /// That it stands when the record begins.
+    /// Whether it stands when the record begins.
     pub begins_at_rest: bool,
-    /// That its motions look different from rest, so that what looks like rest is rest.
+    /// Whether its motions look different from rest, so that blocks like rest are evidence of rest.
     pub motion_shows: bool,
 }
 
-/// A block, and what was made of it.
+/// A block and its decision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Observation {
-    /// When its first and its last sample were taken, s.
+    /// Times of its first and last sample, s.
     pub times: (f64, f64),
-    /// m/s², as measured.
+    /// The mean as measured, m/s².
     pub mean: f64,
-    /// m/s², centred and whitened.
+    /// The mean centred and whitened, m/s².
     pub whitened: f64,
-    /// Whether the decision forwards is H₁*, once there are enough blocks for one.
+    /// Whether the forward decision is H₁*, once there are enough blocks.
     pub moves: Option<bool>,
 }
 
-/// Watches one cage.
+/// A monitor of one cage.
 #[derive(Clone, Debug)]
 pub struct Monitor {
     design: Design,
     reference: Option<Reference>,
-    /// Whether the reference is known to be of rest.
+    /// Whether the reference is known to come from rest.
     is_rest: bool,
     /// Whether the cage is known to stand when the record begins.
     begins_at_rest: bool,
-    /// Whether the motions of this cage have been seen to look different from rest.
+    /// Whether motions of this cage have looked different from rest.
     motion_shows: bool,
     blocks: Blocks,
     history: History,
     decider: Decider,
-    /// Up and down.
+    /// The sums for up and down.
     cusums: [Cusum; 2],
     cage: LiftState,
     /// The first block that the next reference may be learnt from.
     learns_from: u64,
-    /// How many motions in a row have looked different from rest.
+    /// The number of motions in a row that looked different from rest.
     shown: u32,
-    /// Whether a motion has shown the marks of a high-pass filter.
+    /// Whether a motion has shown signs of a high-pass filter.
     is_high_passed: bool,
     /// The newest block, if a sample has just completed it.
     newest: Option<Observation>,
-    /// Blocks for which the cage has stood while the drum turned.
+    /// The number of blocks in which the cage stood while the drum turned.
     slack: u64,
     events: Vec<Event>,
 }
 
-/// The longest start or braking, s. A pulse that lasts longer is a level that has changed.
+/// The longest start or braking, s. A longer pulse is a change of level.
 const LONGEST_PULSE: f64 = 60.0;
 
-/// After so many motions in a row that looked different from rest, what looks like rest is rest.
+/// The number of motions in a row that must look different from rest before blocks like rest are evidence.
 const MOTIONS_TO_TRUST: u32 = 2;
 
 impl Monitor {
-    /// Watches a cage of which this much is known.
+    /// A monitor with this knowledge of its cage.
     pub fn new(design: Design, knowledge: Knowledge) -> Self {
         let Knowledge {
             reference,
@@ -165,7 +165,7 @@ impl Monitor {
         &self.design
     }
 
-    /// What it knows of rest.
+    /// The reference of rest, if it has one.
     pub fn reference(&self) -> Option<&Reference> {
         self.reference.as_ref()
     }
@@ -175,23 +175,22 @@ impl Monitor {
         self.cage.change(time, time, None)
     }
 
-    /// What the cage does, as far as is known by now.
+    /// The current state of the cage.
     pub fn state(&self) -> State {
         self.cage.state()
     }
 
-    /// Whether a motion has shown the marks of a sensor behind a high-pass filter: pulses that die away and
-    /// swing over.
+    /// Whether a motion has shown signs of a sensor behind a high-pass filter: pulses that decay and overshoot.
     pub fn is_high_passed(&self) -> bool {
         self.is_high_passed
     }
 
-    /// The block that the last sample completed, where it completed one.
+    /// The block that the last sample completed, if any.
     pub fn newest(&self) -> Option<&Observation> {
         self.newest.as_ref()
     }
 
-    /// Takes the next sample, and whether the drum is known to turn; says what has happened.
+    /// Takes the next sample and, if known, whether the drum turns; returns the new events.
     #[inline]
     pub fn step(&mut self, sample: Sample, drum_turns: Option<bool>) -> &[Event] {
         self.events.clear();
@@ -207,7 +206,7 @@ impl Monitor {
         &self.events
     }
 
-    /// The record has a gap: what is known of rest stays, what is known of the cage does not.
+    /// Handles a gap in the record: the reference stays, the state of the cage becomes unknown.
     fn lose_track(&mut self, time: f64) {
         self.history.clear();
         self.cusums.iter_mut().for_each(Cusum::reset);
@@ -230,7 +229,7 @@ impl Monitor {
         self.learn(now);
     }
 
-    /// The decision at a block, the pulses, and what they make of the state.
+    /// Makes the decision at a block and updates the pulses and the state.
     fn decide_block(&mut self, now: u64, block: &Block) {
         let Some(reference) = &self.reference else {
             return;
@@ -270,7 +269,7 @@ impl Monitor {
         self.remember(was, now);
     }
 
-    /// A pulse that does not end is a change of the sensor's level, and nothing is known any more.
+    /// Handles a pulse that does not end: the level of the sensor has changed, and the state becomes unknown.
     fn doubt_level(&mut self, now: u64, block: &Block) {
         let longest = (LONGEST_PULSE / self.design.block) as u64;
         let mut pulses = self.cusums.iter().filter_map(Cusum::pulse);
@@ -281,7 +280,7 @@ impl Monitor {
         }
     }
 
-    /// What a change of state shows of this cage.
+    /// Learns from a change of state whether motions of this cage look different from rest.
     fn remember(&mut self, was: LiftState, now: u64) {
         self.is_high_passed |= self.cage.decays();
         if self.cage.state() != was.state() {
@@ -298,17 +297,17 @@ impl Monitor {
         }
     }
 
-    /// Learns the filter and X anew from the latest blocks, when there are enough of them at rest: when the
-    /// cage stands, or, for want of better, while nothing is known.
+    /// Learns the filter and X again from the latest blocks, if there are enough of them: while the cage stands,
+    /// or, without a better reference, while the state is unknown.
     fn learn(&mut self, now: u64) {
         let samples = &self.design.samples;
         let needed = (self.design.settings.whitening.training + samples.reference()) as u64;
-        // A start that has not been noticed yet must not get into the reference.
+        // Leave out the newest blocks: they may belong to a start that is not detected yet.
         let lag = samples.shift() as u64;
         if now < self.learns_from + needed + lag || self.cage.state().moves() {
             return;
         }
-        // A pulse under way must not be lost with the level that it was measured from.
+        // A new level would distort a current pulse, which was measured from the old one.
         if self.cusums.iter().any(|cusum| cusum.pulse().is_some()) {
             return;
         }
@@ -318,7 +317,7 @@ impl Monitor {
             return;
         };
         let record: Vec<f64> = record.iter().map(|block| block.mean).collect();
-        // Not at every block, if this record cannot be learnt from.
+        // If learning fails, do not retry at every block.
         self.learns_from += needed / 4;
         let drift = self.design.settings.monitor.least_acceleration / 2.0;
         let bound = self.design.settings.monitor.least_speed / 2.0;
@@ -330,19 +329,19 @@ impl Monitor {
             self.history.ends(blocks.end),
         );
         let learnt = Reference::from_rest(&record, span, &self.design);
-        // A reference of rest is given up only for another, or when the sensor has been moved.
+        // A reference of rest is replaced only by another one, or when the sensor has been moved.
         let fits = |known: &Reference| (learnt.level - known.level).abs() < drift;
         if !stands && self.is_rest && self.reference.as_ref().is_some_and(fits) {
             return;
         }
         self.history.whiten(&learnt);
         self.reference = Some(learnt);
-        // What is known of the beginning is known of no other record.
+        // Knowledge of the beginning applies only to blocks from the beginning.
         self.is_rest = stands || (self.begins_at_rest && blocks.start == 0);
         self.learns_from = now;
     }
 
-    /// The alarm of a cage that stands while the rope is paid out.
+    /// Raises the alarm if the cage stands while the rope is paid out.
     fn watch_drum(&mut self, time: f64, drum_turns: Option<bool>) {
         let is_slack = drum_turns == Some(true) && self.cage == LiftState::Rest;
         self.slack = if is_slack { self.slack + 1 } else { 0 };

@@ -2,19 +2,19 @@
 //!
 //! S_k = max(0, S_{k−1} + (s·e_k − h) t_k), where e is the acceleration above the level of rest, t the length of
 //! a block in seconds, s the sign looked for and h half the weakest acceleration of a start. An excursion
-//! of S from zero is a pulse: it begins where S left zero, ends where S was largest, and Σ s·e·t over it is
-//! the change of speed it stands for.
+//! of S from zero is a pulse: it begins where S left zero and ends where S was largest, and Σ s·e·t over it is
+//! its change of speed.
 //!
 //! [^1]: E. S. Page, "Continuous inspection schemes", Biometrika 41, 1954.
 
-/// An excursion in one direction. Places count blocks.
+/// An excursion in one direction. Positions count blocks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulse {
     /// +1 or −1.
     pub sign: f64,
     /// Its first block.
     pub onset: u64,
-    /// The first block after it, as far as it has been seen.
+    /// The first block after it so far.
     pub end: u64,
     /// The change of speed over it, m/s, positive.
     pub speed: f64,
@@ -25,11 +25,11 @@ pub struct Pulse {
 }
 
 impl Pulse {
-    /// Whether `next` looks like what a high-pass filter makes of the end of this pulse: it follows at once with
-    /// the opposite sign and dies away instead of ending. So does a hop of a lift that never moves
-    /// uniformly, but for its shape: the pulses of real lifts have their centres between 0.40 and 0.55, and braking
-    /// takes no longer than starting. Behind a filter with a time constant from 0.5 to 4 s the second pulse has
-    /// its centre between 0.33 and 0.43 and is the longer one, or both have early centres.
+    /// Whether `next` looks like the response of a high-pass filter to the end of this pulse: it follows at once
+    /// with the opposite sign and decays instead of ending. A short trip without uniform motion also has two
+    /// adjacent pulses, but of another shape: the pulses of real lifts have their centres between 0.40 and 0.55,
+    /// and braking takes no longer than starting. Behind a filter with a time constant from 0.5 to 4 s the second
+    /// pulse has its centre between 0.33 and 0.43 and is the longer one, or both have early centres.
     pub fn decays_into(&self, next: &Self, most_between: u64) -> bool {
         let follows = next.sign != self.sign && next.onset <= self.end + most_between;
         let both_die_away = self.centre + next.centre < 2.0 * EARLY_CENTRE;
@@ -48,16 +48,16 @@ impl Pulse {
     }
 }
 
-/// Where two pulses that both die away have their centres, on average, at the latest.
+/// The latest mean centre of two pulses that both decay.
 const EARLY_CENTRE: f64 = 0.39;
 
-/// The latest centre of a pulse that dies away after one that does not.
+/// The latest centre of a pulse that decays after one that does not.
 const LATEST_CENTRE: f64 = 0.43;
 
-/// How much longer than the first such a pulse must be.
+/// The factor by which such a pulse must be longer than the first.
 const LONGER: f64 = 1.25;
 
-/// Looks for pulses of one sign.
+/// Page's cumulative sum for pulses of one sign.
 #[derive(Clone, Debug)]
 pub(super) struct Cusum {
     sign: f64,
@@ -87,13 +87,13 @@ impl Cusum {
         }
     }
 
-    /// The pulse under way.
+    /// The current pulse.
     pub fn pulse(&self) -> Option<&Pulse> {
         self.pulse.as_ref()
     }
 
-    /// Takes block `index`, which has this acceleration for so many seconds; the pulse that has just ended,
-    /// where one has.
+    /// Takes block `index` with the acceleration `excess` above rest for `seconds`; returns the pulse that it
+    /// ends, if any.
     pub fn step(&mut self, index: u64, excess: f64, seconds: f64) -> Option<Pulse> {
         let excess = self.sign * excess;
         self.sum += (excess - self.drift) * seconds;
@@ -111,6 +111,7 @@ impl Cusum {
         });
         self.moment += excess * seconds * ((index - pulse.onset) as f64 + 0.5);
         pulse.peak = pulse.peak.max(excess);
+        // Speed and centre are taken at the maximum, so the decline of S afterwards does not count.
         if self.sum > self.largest {
             self.largest = self.sum;
             pulse.end = index + 1;
@@ -121,7 +122,7 @@ impl Cusum {
         if is_over { self.end() } else { None }
     }
 
-    /// Forgets the pulse under way.
+    /// Discards the current pulse.
     pub fn reset(&mut self) {
         self.end();
     }
@@ -132,8 +133,8 @@ impl Cusum {
     }
 }
 
-/// Whether a record of means over so many seconds stays at one level: no excursion from its mean changes the speed by
-/// `speed`.
+/// Whether a record of means over `seconds` each stays at one level: no excursion from its mean changes the
+/// speed by `speed`.
 pub(super) fn is_level(record: &[f64], drift: f64, seconds: f64, speed: f64) -> bool {
     let level = record.iter().sum::<f64>() / record.len() as f64;
     [1.0, -1.0].iter().all(|sign| {
@@ -150,8 +151,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Pulses by their definition: excursions of S from zero, cut where no maximum has come for `patience`
-    /// blocks, each from sums over its own blocks.
+    /// Pulses by their definition: excursions of S from zero, ended after `patience` blocks without a new maximum,
+    /// each from sums over its own blocks.
     fn naive(sign: f64, drift: f64, patience: usize, record: &[f64]) -> Vec<Pulse> {
         let mut pulses = Vec::new();
         let mut onset = 0;
@@ -179,7 +180,7 @@ mod tests {
             let Some(last) = (0..sums.len()).find(|i| over(*i)) else {
                 break;
             };
-            // The block at which S falls to zero has no part in it.
+            // The block at which S falls to zero does not belong to it.
             let taken = if sums[last] <= 0.0 { last } else { last + 1 };
             let length = largest(taken) + 1;
             let own = &record[onset..onset + length];

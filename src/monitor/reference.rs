@@ -1,33 +1,32 @@
-//! What a monitor knows of rest: the level, the whitening filter and the sample X.
+//! The reference of rest: the level, the whitening filter and the sample X.
 
 use super::design::Design;
 use crate::whiten::{self, Chosen, Fit, LjungBox, Order};
 use serde::{Deserialize, Serialize};
 
-/// What has been learnt from a record of rest.
+/// A reference learnt from a record of rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Reference {
-    /// The mean of the record, m/s²: the sensor's offset, gravity included where the record has it.
+    /// The mean of the record, m/s²: the sensor's offset, plus gravity if it is measured.
     pub level: f64,
     /// a₁ … a_m.
     pub coefficients: Vec<f64>,
     /// The deviation of the whitened record, m/s²: σ_ξ of block means.
     pub deviation: f64,
-    /// The p-value of the Ljung–Box test of the whitened record: how plausible it is that no colour is left.
-    /// None where the record is too short for the test, or constant.
+    /// The p-value of the Ljung–Box test of the whitened record; `None` if the record is too short for the
+    /// test, or constant.
     pub whiteness: Option<f64>,
     /// Blocks it was fitted to.
     pub training: usize,
-    /// From when to when the latest rest lasted that it was learnt from, s; none where that was all rest of a
-    /// record.
+    /// Start and end of the rest it was learnt from, s; `None` if that was all rest of a record.
     pub span: Option<(f64, f64)>,
     /// X: whitened blocks, N of them.
     pub sample: Vec<f64>,
 }
 
 impl Reference {
-    /// From the latest block means of a rest: X is the last N, and the filter is fitted to those before.
+    /// Learns from the latest block means of a rest: X is the last N, and the filter is fitted to those before.
     pub(super) fn from_rest(record: &[f64], span: (f64, f64), design: &Design) -> Self {
         let n = design.samples.reference();
         let training = &record[..record.len() - n];
@@ -39,8 +38,8 @@ impl Reference {
         filter.into_reference(level, Some(span), training.len(), sample)
     }
 
-    /// From all stretches of rest in a record. X is taken at even distances from all of them, so that it
-    /// stands for all that rest was like; it is part of what the filter is fitted to.
+    /// Learns from all stretches of rest in a record. X is taken at even distances from all of them, so that it
+    /// represents the whole rest; the filter is fitted to the same blocks.
     pub(super) fn from_stretches(stretches: &[Vec<f64>], design: &Design) -> Self {
         let blocks: usize = stretches.iter().map(Vec::len).sum();
         let level = stretches.iter().flatten().sum::<f64>() / blocks as f64;
@@ -55,15 +54,15 @@ impl Reference {
     }
 }
 
-/// A filter and what it makes of the record it was fitted to.
+/// A filter and the record it was fitted to, whitened.
 struct Filter {
     coefficients: Vec<f64>,
     whitened: Vec<f64>,
 }
 
 impl Filter {
-    /// Burg's fit, which is stable whatever the record: a filter whose response to a constant is negative
-    /// would turn the sign of a start.
+    /// Fits by Burg's method, which is stable for every record: a filter with a negative response to a constant
+    /// would reverse the sign of a start.
     fn fit(stretches: &[&[f64]], design: &Design) -> Self {
         let joined = stretches.concat();
         let coefficients = match design.settings.whitening.order {

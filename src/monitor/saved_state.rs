@@ -1,4 +1,4 @@
-//! All that a monitor starts from, as `detect --save-state` writes it.
+//! The saved state of a monitor, as written by `detect --save-state`.
 
 use super::{Design, Knowledge, MOST_ORDER, STRONGEST, Settings, SettingsError};
 use crate::signal::recording::Sample;
@@ -7,10 +7,10 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// No state is longer, bytes.
+/// The largest size of a state, bytes.
 const LONGEST: u64 = 1 << 20;
 
-/// The settings of a monitor and what it knows, at one sampling rate.
+/// The settings and the knowledge of a monitor, at one sampling rate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a saved state")]
 #[allow(missing_docs, reason = "what a name says is not said again")]
@@ -18,8 +18,8 @@ pub struct SavedState {
     pub settings: Settings,
     /// Samples per second.
     pub rate: f64,
-    /// The time, s, and the acceleration, m/s², of the first sample of the record that it was learnt from:
-    /// how that record begins is known of no other.
+    /// The time, s, and the acceleration, m/s², of the first sample of the record it was learnt from. It
+    /// identifies that record, since the knowledge of its beginning applies to no other.
     pub first_sample: Option<(f64, f64)>,
     pub knowledge: Knowledge,
 }
@@ -55,7 +55,7 @@ impl SavedState {
     /// Reads a file.
     ///
     /// # Errors
-    /// Where it cannot be read, or its parts cannot be used together.
+    /// If it cannot be read, or its parts cannot be used together.
     pub fn load(path: &Path) -> Result<Self, SavedStateError> {
         let name = path.display().to_string();
         let mut text = String::new();
@@ -69,10 +69,10 @@ impl SavedState {
         }
     }
 
-    /// Checks a file's text; `name` is what messages call it.
+    /// Reads and checks a file's text; messages call the file `name`.
     ///
     /// # Errors
-    /// As [`SavedState::load`].
+    /// Same as [`SavedState::load`].
     pub fn from_json(name: &str, text: &str) -> Result<Self, SavedStateError> {
         Self::checked(text).map_err(|problem| SavedStateError {
             path: name.to_owned(),
@@ -102,7 +102,7 @@ impl SavedState {
         Ok(saved)
     }
 
-    /// What it knows of a record that begins with this sample.
+    /// The knowledge of a record that begins with this sample.
     pub fn knowledge_of(&self, first: &Sample) -> Knowledge {
         let is_same = self.first_sample == Some((first.time, first.acceleration));
         Knowledge {
@@ -111,7 +111,7 @@ impl SavedState {
         }
     }
 
-    /// As a file has it.
+    /// The text of the file.
     pub fn to_json(&self) -> String {
         let json = serde_json::to_string_pretty(self);
         json.expect("numbers and names can be written") + "\n"
@@ -120,14 +120,15 @@ impl SavedState {
     /// The settings at the rate.
     ///
     /// # Errors
-    /// As [`Settings::at`].
+    /// Same as [`Settings::at`].
     pub fn design(&self) -> Result<Design, SettingsError> {
         self.settings.at(self.rate)
     }
 }
 
-/// Whether a fit can have given these coefficients. Its zeros lie in the unit circle, so that no aₚ exceeds
-/// C(m, p) ≤ C(8, 4), and the response to a constant, 1 − Σ a, keeps the sign of a start; both but for rounding.
+/// Whether these coefficients can come from a fit. The zeros of a fitted filter lie in the unit circle, so
+/// that no |aₚ| exceeds C(m, p) ≤ C(8, 4), and the response to a constant, 1 − Σ a, is not negative; both up to
+/// rounding.
 fn is_fitted(coefficients: &[f64]) -> bool {
     let is_bounded = coefficients.iter().all(|a| a.abs() <= 70.0 + 1e-9);
     let sum: f64 = coefficients.iter().sum();
@@ -170,7 +171,7 @@ mod tests {
 
     type Change<'a> = &'a dyn Fn(&mut SavedState, &mut Reference);
 
-    /// Files that would take all memory, or turn the sign of every start.
+    /// Files that would exhaust the memory or reverse the sign of every start.
     #[test]
     fn what_no_rest_gives_is_refused() {
         let refusal = |change: Change| {

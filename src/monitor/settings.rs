@@ -1,11 +1,11 @@
-//! The settings of a monitor: the TOML of `detect --config`, what a `[ride]` study may vary, what flags change and
-//! what a saved state holds. A setting is one line of the table below.
+//! The settings of a monitor, used by the TOML of `detect --config`, `[ride]` studies, flags and saved states. A
+//! setting is one line of the table below.
 //!
 //! Times are in seconds and sizes in *blocks*: means of a whole number of samples, about `monitor.block` long.
 //! Twelve samples at 100 Hz are 0.12 s, while a lift takes 0.5 to 1.5 s to gain speed; twelve blocks are about 0.6 s
-//! wherever a block has more than a sample or two. A block mean is the best estimate of a constant level in white
-//! noise, and the first zero of its frequency response lies at the block rate, which is all the anti-aliasing that
-//! ranks of levels need.
+//! at any rate that gives a block more than a sample or two. A block mean is the best estimate of a constant
+//! level in white noise, and the first zero of its frequency response lies at the block rate, which is enough
+//! anti-aliasing for ranks of levels.
 
 use crate::detect::{NullLawError, RegionError};
 use crate::rule::{Checked, Explained, OutOfRange, Rule};
@@ -14,20 +14,20 @@ use crate::whiten::Order;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Blocks that a filter needs: the choice of its order is then among few.
+/// The fewest blocks that a filter is fitted to; they still allow a choice among a few orders.
 pub(super) const LEAST_TRAINING: usize = 24;
 
-/// s: a lift gains speed in about a second.
+/// The longest block, s: a lift gains speed in about a second.
 pub(super) const LONGEST_BLOCK: f64 = 0.5;
 
 pub(super) const WHY_SHORT: &str = " (a lift gains speed in about a second)";
 
 const BLOCK: Explained = Explained(Rule::Within(0.001, LONGEST_BLOCK, "s"), WHY_SHORT);
 
-/// The exact laws of more blocks take hours.
+/// The exact laws of larger samples take hours.
 const SIZE: Rule = Rule::Within(1.0, 200.0, "blocks");
 
-/// At most more than an hour, in a few megabytes.
+/// The most blocks last more than an hour and need a few megabytes.
 const TRAINING: Rule = Rule::Within(LEAST_TRAINING as f64, 1e5, "blocks");
 
 /// The tables with their keys: meaning, type, default and rule.
@@ -61,7 +61,7 @@ macro_rules! settings {
         )*
 
         impl Settings {
-            /// Every key as a path; its last word tells it from all others.
+            /// Every key as a path; the last words are unique.
             pub const KEYS: &[&'static str] =
                 &[$($(concat!(stringify!($table), ".", stringify!($key))),*),*];
 
@@ -118,7 +118,7 @@ settings! {
 }
 
 impl Settings {
-    /// The path of a key that is known by its last word.
+    /// The path of the key with this last word.
     pub fn path(key: &str) -> Option<&'static str> {
         let mut keys = Self::KEYS.iter().copied();
         keys.find(|path| last_word(path) == key)
@@ -129,13 +129,13 @@ impl Settings {
         Self::KEYS.iter().map(|path| last_word(path))
     }
 
-    /// The same but for these values, by the last words of their keys.
+    /// These settings with some values replaced, by the last words of their keys.
     ///
     /// # Errors
-    /// Where a value breaks its rule; its key is then called what `called` makes of its last word.
+    /// If a value breaks its rule; `called` turns the last word of its key into the name in the message.
     ///
     /// # Panics
-    /// Where a value is of another type than its key.
+    /// If a value has the wrong type for its key.
     pub fn with(
         &self,
         values: &toml::Table,
@@ -177,7 +177,7 @@ impl SettingsError {
         }
     }
 
-    /// The same of a key that the user writes in another way than as a path.
+    /// The same error for a key that the user does not write as a path.
     #[must_use]
     pub fn called(mut self, name: impl Fn(&str) -> String) -> Self {
         if let Self::Value(error) = &mut self {

@@ -9,28 +9,28 @@ use super::pulse::{Cusum, Pulse};
 use super::reference::Reference;
 use std::ops::Range;
 
-/// What pulses of real rides leave of the speed, at most.
+/// The largest share of the speed that the pulses of a real ride leave at its end.
 const ROUNDING: f64 = 0.1;
 
-/// What is known at the newest block.
+/// The inputs at the newest block.
 pub(super) struct StepInput<'a> {
     pub design: &'a Design,
     pub history: &'a History,
     pub reference: &'a Reference,
     /// Whether blocks like the reference are evidence of rest.
     pub calm_is_rest: bool,
-    /// Whether they are as long as no pulse has been seen.
+    /// Whether they are evidence of rest until the first pulse.
     pub begins_at_rest: bool,
     pub decider: &'a mut Decider,
     pub cusums: &'a [Cusum; 2],
-    /// Pulses that the newest block has ended.
+    /// Pulses ended by the newest block.
     pub ended: [Option<Pulse>; 2],
-    /// Of the decision forwards.
+    /// The windows of the forward decision.
     pub windows: Windows,
     pub verdict: Verdict,
     /// The number of blocks so far.
     pub now: u64,
-    /// When the newest ended, s.
+    /// End of the newest block, s.
     pub time: f64,
 }
 
@@ -53,7 +53,7 @@ impl StepInput<'_> {
         self.design.samples.scale() as u64
     }
 
-    /// The pulse under way with this sign.
+    /// The current pulse with this sign.
     pub fn pulse(&self, sign: f64) -> Option<Pulse> {
         let mut cusums = self.cusums.iter();
         cusums.find_map(|cusum| cusum.pulse().copied().filter(|pulse| pulse.sign == sign))
@@ -70,12 +70,12 @@ impl StepInput<'_> {
         pulse.peak > self.design.settings.monitor.most_acceleration
     }
 
-    /// How long a pulse has lasted, s.
+    /// The duration of a pulse so far, s.
     pub fn lasts(&self, pulse: &Pulse) -> f64 {
         pulse.length() as f64 * self.design.block
     }
 
-    /// How many blocks there are in so many seconds.
+    /// The number of blocks in `seconds`.
     pub fn blocks(&self, seconds: f64) -> u64 {
         (seconds / self.design.block) as u64
     }
@@ -92,8 +92,7 @@ impl StepInput<'_> {
         Some(blocks.map(change).sum())
     }
 
-    /// A pulse that has ended, with all of the change of speed: what was too weak for the sum at its end
-    /// included.
+    /// A completed pulse with its whole change of speed, including its end that is too weak for the sum.
     pub fn whole(&self, pulse: &Pulse) -> Pulse {
         let patience = self.design.samples.shift() as u64;
         let next = self.pulse(-pulse.sign).map_or(self.now, |next| next.onset);
@@ -105,28 +104,27 @@ impl StepInput<'_> {
         }
     }
 
-    /// How far from zero a sum of changes of speed may be that leaves a cage at rest, where the
-    /// largest was `speed`.
+    /// The largest sum of changes of speed that still counts as rest, if the largest change was `speed`.
     pub fn rounding(&self, speed: f64) -> f64 {
         self.least_speed().max(ROUNDING * speed)
     }
 
-    /// When a block began.
+    /// The start of a block, s.
     pub fn starts(&self, block: u64) -> f64 {
         self.history.starts(block)
     }
 
-    /// When the block before `block` ended.
+    /// The end of the block before `block`, s.
     pub fn ends(&self, block: u64) -> f64 {
         self.history.ends(block)
     }
 
-    /// The decision at the newest block, in full.
+    /// The full decision at the newest block.
     pub fn forward_decision(&self) -> Decision {
         self.decision(&self.windows, &self.verdict)
     }
 
-    /// The decision that a pulse was a stop, where it is one.
+    /// The decision that a pulse was a stop, if it was one.
     pub fn backward_decision(&mut self, pulse: &Pulse) -> Option<Decision> {
         let windows = Windows::backwards(self.design, pulse, self.now)?;
         let verdict = self.decide(&windows)?;

@@ -1,4 +1,4 @@
-//! The monitor on records made for the purpose.
+//! The monitor on constructed records.
 
 use super::*;
 use crate::detect::Statistics;
@@ -9,7 +9,7 @@ use crate::whiten::Order;
 
 const RATE: f64 = 100.0;
 
-/// A record, put together piece by piece.
+/// A record built piece by piece.
 struct Record {
     samples: Vec<f64>,
     noise: Vec<f64>,
@@ -17,7 +17,7 @@ struct Record {
 }
 
 impl Record {
-    /// Noise of this deviation at rest, m/s².
+    /// An empty record whose noise at rest has this standard deviation, m/s².
     fn new(sigma: f64, index: u64) -> Self {
         let mut noise = vec![0.0; 400_000];
         let mut generator = Stream::new(2014, "monitor tests", "").at(index);
@@ -35,7 +35,7 @@ impl Record {
         Self::new(0.01, 0)
     }
 
-    /// So many seconds of this acceleration, with noise so many times as strong as at rest.
+    /// Adds `seconds` of this acceleration, with `noise` times the noise at rest.
     fn with(mut self, seconds: f64, acceleration: f64, noise: f64) -> Self {
         for _ in 0..(seconds * RATE).round() as usize {
             let xi = self.noise[self.samples.len()];
@@ -48,7 +48,7 @@ impl Record {
         self.with(seconds, 0.0, 1.0)
     }
 
-    /// A trip at 1 m/s: 2 s of ±0.5 m/s², 8 s, 2 s.
+    /// Adds a trip at 1 m/s: 2 s of ±0.5 m/s², 8 s, 2 s.
     fn trip(self, sign: f64) -> Self {
         self.with(2.0, sign * 0.5, 1.0)
             .with(8.0, 0.0, 2.0)
@@ -75,8 +75,8 @@ fn design() -> Design {
     Settings::default().at(RATE).unwrap()
 }
 
-/// A monitor that is told that the cage stands.
-fn told() -> Monitor {
+/// A monitor that knows that the cage stands at first.
+fn standing() -> Monitor {
     Monitor::new(
         design(),
         Knowledge {
@@ -112,7 +112,7 @@ const RIDE: [State; 4] = [ACCELERATING, INERTIAL, BRAKING, REST];
 fn a_ride_is_followed_phase_by_phase() {
     for sign in [1.0, -1.0] {
         let record = Record::quiet().rest(8.0).trip(sign).rest(5.0);
-        let events = record.watch(&mut told());
+        let events = record.watch(&mut standing());
         assert_eq!(states(&events), [[REST].as_slice(), &RIDE].concat());
         // A block is 0.05 s, and the pulse is found by blocks.
         for (event, time) in events[1..].iter().zip([8.0, 10.0, 18.0, 20.0]) {
@@ -136,8 +136,8 @@ fn a_ride_is_followed_phase_by_phase() {
     }
 }
 
-/// W and T of every decision against a recount from the record itself, at the times that it states: means
-/// of five, no filter, ranks by sorting.
+/// W and T of every decision against a recount from the record at the stated times: means of five, no
+/// filter, ranks by sorting.
 #[test]
 fn decisions_are_those_of_a_recount() {
     let mut settings = Settings::default();
@@ -175,7 +175,7 @@ fn decisions_are_those_of_a_recount() {
         };
         let x = at(decision.reference.unwrap());
         let [y1, y2] = [decision.shift, decision.scale].map(at);
-        // X is the end of what the reference was learnt from.
+        // X is the end of the record that the reference was learnt from.
         let x = x[x.len() - 24..].to_vec();
         assert_eq!([x.len(), y1.len(), y2.len()], [24, 12, 12]);
         let others = || x.iter().chain(&y2);
@@ -199,8 +199,8 @@ fn decisions_are_those_of_a_recount() {
     assert_eq!(counted, 4);
 }
 
-/// One decision each of 40 000 monitors on white noise, X and filter of order 0 from the noise before: its
-/// level is exact. Two-sided, 1e-6.
+/// One decision of each of 40 000 monitors on white noise, with X and a filter of order 0 from the noise
+/// before: its level is exact. Two-sided test at 1e-6.
 #[test]
 fn a_decision_at_rest_has_its_exact_size() {
     let mut settings = Settings::default();
@@ -251,7 +251,7 @@ fn a_reversal_tells_what_vibration_does_not() {
     };
     let turning = smooth(smooth(Record::quiet().rest(8.0), 1.0), -1.0);
     assert_eq!(states(&turning.watch(&mut cold())), RIDE);
-    // Up and up again: the cage may as well go down and down.
+    // Two trips in the same direction do not show which one it is.
     let same_way = smooth(smooth(Record::quiet().rest(8.0), 1.0), 1.0);
     assert_eq!(states(&same_way.watch(&mut cold())), []);
     // Switched on in motion: braking, start the other way, braking.
@@ -271,7 +271,7 @@ fn a_reversal_tells_what_vibration_does_not() {
 #[test]
 fn calm_is_no_rest_unless_motion_shows() {
     let rest = Record::quiet().rest(20.0);
-    let mut learner = told();
+    let mut learner = standing();
     rest.watch(&mut learner);
     let reference = learner.reference().cloned();
     for (motion_shows, expected) in [(false, vec![]), (true, vec![REST])] {
@@ -295,7 +295,7 @@ fn what_is_quiet_for_longer_than_any_motion_is_rest() {
     let mut monitor = Monitor::new(settings.at(RATE).unwrap(), Knowledge::default());
     let events = Record::quiet().rest(45.0).watch(&mut monitor);
     assert_eq!(states(&events), [REST]);
-    // And a motion that never ends is lost from sight.
+    // A motion that never ends is given up.
     let mut monitor = Monitor::new(
         settings.at(RATE).unwrap(),
         Knowledge {
@@ -323,7 +323,7 @@ fn a_jam_is_an_alarm_unless_motion_goes_on() {
         .with(6.0, 0.0, 3.0);
     let violent = |record: Record| record.with(0.1, -10.0, 1.0);
     let jammed = violent(moving).rest(6.0);
-    let events = jammed.watch(&mut told());
+    let events = jammed.watch(&mut standing());
     assert_eq!(alarms(&events), [Alarm::Jam]);
     assert_eq!(states(&events), [[REST].as_slice(), &RIDE].concat());
     let alarm = events
@@ -333,14 +333,14 @@ fn a_jam_is_an_alarm_unless_motion_goes_on() {
     assert!((alarm.time - 16.0).abs() < 0.06, "{alarm:?}");
     assert!(alarm.reported - alarm.time < 1.6, "{alarm:?}");
 
-    // A joint of the rails: there and back.
+    // A rail joint: a shock that swings back.
     let moving = Record::quiet()
         .rest(8.0)
         .with(2.0, 0.5, 1.0)
         .with(6.0, 0.0, 3.0);
     let struck = violent(moving).with(0.1, 10.0, 1.0);
     let struck = struck.with(6.0, 0.0, 3.0).with(2.0, -0.5, 1.0).rest(6.0);
-    let events = struck.watch(&mut told());
+    let events = struck.watch(&mut standing());
     assert_eq!(alarms(&events), []);
     assert_eq!(
         events.last().map(|event| states(&[*event])),
@@ -360,7 +360,7 @@ fn a_creeping_cage_has_not_stopped() {
         .with(3.0, 0.0, 2.0)
         .with(1.2, -0.5, 1.0);
     let stop = record.now();
-    let events = record.rest(6.0).watch(&mut told());
+    let events = record.rest(6.0).watch(&mut standing());
     assert_eq!(
         states(&events),
         [
@@ -386,7 +386,7 @@ fn shocks_and_people_are_no_ride() {
             .with(0.1, -strength, 1.0)
             .with(5.0, 0.0, noise);
     }
-    let events = record.watch(&mut told());
+    let events = record.watch(&mut standing());
     assert_eq!(states(&events), [REST]);
 }
 
@@ -396,7 +396,7 @@ fn a_sensor_that_is_carried_about_makes_the_state_unknown() {
         .rest(8.0)
         .with(1.5, 4.0, 50.0)
         .with(1.0, -6.0, 50.0);
-    let events = carried.rest(8.0).watch(&mut told());
+    let events = carried.rest(8.0).watch(&mut standing());
     assert_eq!(states(&events), [REST, State::Unknown]);
 }
 
@@ -406,7 +406,7 @@ fn a_gap_makes_the_state_unknown() {
         .rest(8.0)
         .with(2.0, 0.5, 1.0)
         .with(4.0, 0.0, 2.0);
-    let mut monitor = told();
+    let mut monitor = standing();
     let before = record.watch(&mut monitor);
     assert_eq!(states(&before), [REST, ACCELERATING, INERTIAL]);
     let time = record.now() + 1.0;
@@ -424,7 +424,7 @@ fn a_gap_makes_the_state_unknown() {
 #[test]
 fn a_drum_that_turns_without_the_cage_is_an_alarm() {
     let record = Record::quiet().rest(8.0).trip(-1.0).rest(20.0);
-    let mut monitor = told();
+    let mut monitor = standing();
     let turns = |time: f64| (8.0..20.2).contains(&time) || (30.0..36.0).contains(&time);
     let mut events = Vec::new();
     for (i, a) in record.samples.iter().enumerate() {
@@ -446,14 +446,14 @@ fn a_drum_that_turns_without_the_cage_is_an_alarm() {
     );
 }
 
-/// An offset that drifts by five times the weakest acceleration is followed, rest by rest.
+/// The reference follows an offset that drifts by five times the weakest acceleration.
 #[test]
 fn every_rest_is_learnt_anew() {
     let mut record = Record::quiet();
     for step in 0..2000 {
         record = record.with(0.1, 0.5 * f64::from(step) / 2000.0, 1.0);
     }
-    let mut monitor = told();
+    let mut monitor = standing();
     let events = record.watch(&mut monitor);
     assert_eq!(states(&events), [REST]);
     let reference = monitor.reference().unwrap();
@@ -462,8 +462,8 @@ fn every_rest_is_learnt_anew() {
 }
 
 #[test]
-fn a_briefing_comes_back_as_it_was() {
-    let mut monitor = told();
+fn a_saved_state_is_read_back_unchanged() {
+    let mut monitor = standing();
     Record::quiet().rest(12.0).watch(&mut monitor);
     let saved = SavedState {
         settings: Settings::default(),
@@ -479,8 +479,8 @@ fn a_briefing_comes_back_as_it_was() {
     assert_eq!(read, saved);
 }
 
-/// Equal values cannot be told apart by rank: a pool without any order comes to no decision about half
-/// of the time in either direction, and never to a W outside its range.
+/// Equal values have no ranks of their own, so random keys decide: decisions for motion are no more frequent
+/// than the exact size, and W stays within its range.
 #[test]
 fn a_constant_record_is_decided_by_keys() {
     let design = design();
@@ -504,7 +504,7 @@ fn a_constant_record_is_decided_by_keys() {
             (moves, decisions) = (moves + u64::from(moved), decisions + 1);
         }
     }
-    // Keys are drawn anew at every block, so that these decisions are independent.
+    // New keys are drawn at every block, so that these decisions are independent.
     let tail = binomial::upper_tail(moves, decisions, monitor.design().region.size());
     println!("{moves} of {decisions}, upper tail {tail:.2e}");
     assert!(tail > 1e-6);

@@ -1,18 +1,18 @@
-//! What a pilot looks at, and what it keeps of it: a histogram of (W, T), or the largest scores.
+//! What a pilot records: a histogram of (W, T), or the largest scores.
 
 use crate::chain::{Observation, Score, View};
 use crate::detect::{Histogram, Region, Ties};
 use crate::schedule::Gather;
 use std::sync::Arc;
 
-/// What a pilot looks at, and what it has seen.
+/// The observations of a pilot.
 #[derive(Clone, Debug)]
 pub(super) enum Gauge {
     Statistics(Ties, Histogram),
     Score(Arc<Score>, Largest),
 }
 
-/// The largest so many of the values that have come by.
+/// The largest values seen, up to a fixed number.
 #[derive(Clone, Debug)]
 pub(super) struct Largest {
     keep: usize,
@@ -20,7 +20,7 @@ pub(super) struct Largest {
 }
 
 impl Gauge {
-    /// False alarms of a region.
+    /// The number of false alarms of a region.
     pub fn count(&self, region: &Region) -> u64 {
         self.histogram()
             .count(|statistics| region.contains(statistics))
@@ -33,8 +33,7 @@ impl Gauge {
         }
     }
 
-    /// The smallest of the largest that were kept: what as many as are allowed exceed, or fewer where
-    /// some are equal.
+    /// The smallest of the kept values: no more values than allowed exceed it, fewer if some are equal.
     pub fn threshold(&self) -> f64 {
         match self {
             Self::Statistics(..) => unreachable!("a threshold is of a score"),
@@ -44,7 +43,7 @@ impl Gauge {
 }
 
 impl Largest {
-    /// Of no values yet.
+    /// An empty collection of at most `keep` values.
     pub fn new(keep: usize) -> Self {
         let values = Vec::new();
         Self { keep, values }
@@ -52,7 +51,7 @@ impl Largest {
 
     fn add(&mut self, value: f64) {
         self.values.push(value);
-        // Sorted out now and then, so that the cost of a value stays small and so does the memory.
+        // Pruned only now and then, which keeps both the cost per value and the memory small.
         if self.values.len() > 2 * self.keep + 1024 {
             self.sort_out();
         }
@@ -70,7 +69,7 @@ impl Largest {
     }
 }
 
-/// The gauge of each place.
+/// The gauge of each point.
 pub(super) struct Gauges(pub Vec<Gauge>);
 
 impl View for Gauges {
@@ -100,7 +99,7 @@ impl Gather for Gauges {
 mod tests {
     use super::*;
 
-    /// What is kept of many values are the largest, whatever their order.
+    /// The largest of many values are kept, whatever their order.
     #[test]
     fn largest_are_kept() {
         let mut largest = Largest::new(5);

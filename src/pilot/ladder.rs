@@ -1,13 +1,13 @@
-//! The regions of one rule by their nominal level, and how far up a pilot lets one go.
+//! The regions of one rule by nominal level, and the search for the largest that a pilot allows.
 
 use crate::chain::Scenario;
 use crate::detect::{Histogram, LikelihoodOrder, Method, NullLaws, Region};
 
-/// The rungs of the ladder: nominal levels down to a millionth of α.
+/// The number of nominal levels, down to a millionth of α.
 const RUNGS: i32 = 270;
 const RUNG: f64 = 0.95;
 
-/// The regions of one rule by their nominal level.
+/// The regions of one rule by nominal level.
 pub(super) struct Ladder {
     pub laws: NullLaws,
     method: Method,
@@ -27,7 +27,7 @@ impl Ladder {
         }
     }
 
-    /// The region of a nominal level; empty where the rule has none.
+    /// The region at a nominal level; empty if the rule has none there.
     pub fn region(&self, level: f64) -> Region {
         let region = match (&self.method, &self.order) {
             (_, Some(order)) => Ok(self.laws.likelihood_region(order, level)),
@@ -37,7 +37,7 @@ impl Ladder {
         region.unwrap_or_else(|_| self.laws.empty_region())
     }
 
-    /// The last rung below the first that does not keep the level; the empty region below the ladder.
+    /// The last region before the first that does not keep the level, or the empty region.
     pub fn climb(&self, alpha: f64, keeps: impl Fn(&Region) -> bool) -> Region {
         let rungs = (0..=RUNGS)
             .rev()
@@ -46,13 +46,12 @@ impl Ladder {
         last_kept(regions, keeps).unwrap_or_else(|| self.laws.empty_region())
     }
 
-    /// The largest region that keeps the level, whatever its nominal one. The halving takes for granted that
-    /// false alarms grow with the nominal level; where a rule's regions are not quite nested it ends at one
-    /// of the boundaries.
+    /// The largest region that keeps the level, at any nominal level. The bisection assumes that false alarms
+    /// grow with the nominal level; if a rule's regions are not quite nested, it ends at one of the boundaries.
     pub fn search(&self, keeps: impl Fn(&Region) -> bool) -> Region {
         let (mut low, mut high) = (0.0, 1.0);
         let mut kept = self.laws.empty_region();
-        // Forty halvings resolve any level that a pilot could tell apart.
+        // Forty halvings are finer than any pilot can resolve.
         for _ in 0..40 {
             let middle = f64::midpoint(low, high);
             let region = self.region(middle);
@@ -66,7 +65,7 @@ impl Ladder {
     }
 }
 
-/// The last of the ladder's rungs before the first that is not kept.
+/// The last rung before the first that does not keep the level.
 fn last_kept<R>(rungs: impl Iterator<Item = R>, keeps: impl Fn(&R) -> bool) -> Option<R> {
     rungs.take_while(|rung| keeps(rung)).last()
 }
@@ -75,7 +74,7 @@ fn last_kept<R>(rungs: impl Iterator<Item = R>, keeps: impl Fn(&R) -> bool) -> O
 mod tests {
     use super::*;
 
-    /// One rung that fails ends the ladder, whatever comes after it: that is what keeps the promise.
+    /// The first failing rung ends the ladder even if later ones pass; the level of the promise relies on this.
     #[test]
     fn the_first_failure_ends_the_ladder() {
         let counts = [3, 5, 9, 4, 2, 8];

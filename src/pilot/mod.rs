@@ -1,6 +1,6 @@
-//! Decisions that no exact law gives: pilot runs whose trials are never those that measure the result.
+//! Decisions without an exact law: pilot runs, on trials that are never used for the result.
 //!
-//! Two things are learnt from pilots.
+//! Pilots have two uses.
 //!
 //! - The `likelihood-ratio` rule needs the probabilities of (W, T) under its alternative: a pilot in
 //!   motion counts them, see [`LikelihoodOrder`](crate::detect::LikelihoodOrder).
@@ -11,19 +11,19 @@
 //! `calibrate = true` promises a false-alarm rate of at most α under each of [`PROMISED_LAWS`], with
 //! 99.9 % confidence. The regions of a rule at the nominal levels α·0.95^j are tested in the order
 //! j = …, 1, 0, fixed before the run: each must be shown, under every law, to have a rate of at most α by an
-//! exact one-sided test at 0.001, and the first that is not ends the ladder. To end with a region whose rate is
-//! above α under some law, the first such region on the ladder must have passed under that law: probability
-//! at most 0.001. So neither the number of rungs nor the number of laws needs a further correction. No
-//! level above α is tried: what the exact law refuses stays refused. For a score the rungs are its
-//! thresholds, and the order statistic that passes the same test under the worst of the laws is the last.
+//! exact one-sided test at 0.001, and the first failure ends the procedure. To end with a region whose rate is
+//! above α under some law, the first such region must have passed under that law: probability at most 0.001.
+//! So neither the number of levels nor the number of laws needs a further correction. No level above α is
+//! tried: a region that the exact law refuses stays refused. For a score the thresholds take the place of the
+//! levels, and the last one is the order statistic that passes the same test under the worst of the laws.
 //!
-//! The promise is about these laws and no other: heavier contamination than theirs breaks it, and
-//! `configs/alpha_training.toml` shows how.
+//! The promise covers only these laws: heavier contamination breaks it, as `configs/alpha_training.toml`
+//! shows.
 //!
 //! # A measurement
 //! `calibrate = { law, sensor }` makes the false-alarm rate that a pilot measures with that noise equal to α,
-//! as nearly as can be. It promises nothing; it makes detectors comparable, but for the error of the
-//! pilot itself, which is in no interval of the results.
+//! as nearly as possible. It promises nothing. It makes detectors comparable up to the sampling error of the
+//! pilot, which the intervals of the results do not include.
 
 mod gather;
 mod ladder;
@@ -44,7 +44,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Pilots<'a> {
     plan: &'a Plan,
-    /// What has to be found, each once, and by which point.
+    /// The distinct decisions to be found.
     needs: Vec<Need>,
     need_of: Vec<Option<usize>>,
     motion: Stage,
@@ -52,10 +52,10 @@ pub struct Pilots<'a> {
 }
 
 impl<'a> Pilots<'a> {
-    /// What has to be run before the plan's points can decide.
+    /// Collects the pilots that the plan's points need.
     ///
     /// # Errors
-    /// Where a pilot's record does not fit in memory, or a pilot is too short to show anything.
+    /// If a pilot's record does not fit in memory, or a pilot is too short to show anything.
     pub fn new(plan: &'a Plan) -> Result<Self, PilotError> {
         let mut needs: Vec<Need> = Vec::new();
         let (mut motion, mut rest) = (Stage::default(), Stage::default());
@@ -93,7 +93,7 @@ impl<'a> Pilots<'a> {
         })
     }
 
-    /// What the progress of [`Pilots::decide`] adds up to.
+    /// The total that the progress of [`Pilots::decide`] reaches.
     pub fn work(&self) -> u64 {
         self.motion.work() + self.rest.work()
     }
@@ -117,7 +117,7 @@ impl<'a> Pilots<'a> {
     /// Runs the pilots and returns the decision of every point.
     ///
     /// # Errors
-    /// Where nothing keeps the level.
+    /// If no region or threshold keeps the level.
     pub fn decide(&self, progress: impl Fn(u64) + Sync) -> Result<Vec<Decision>, PilotError> {
         let motion = self.motion.run(&progress);
         let rest = self.rest.run(&progress);

@@ -1,5 +1,5 @@
-//! One decision to be found: which pilots it takes, how many false alarms they may count, and what is decided
-//! in the end.
+//! One decision to be found by pilots: the pilots it needs, the false alarms they may count, and the resulting
+//! decision.
 
 use super::gather::{Gauge, Largest};
 use super::ladder::Ladder;
@@ -11,10 +11,10 @@ use crate::signal::{Law, Noise};
 use crate::stats::binomial;
 use std::sync::Arc;
 
-/// The laws of noise under which a calibrated design promises its level, and under no other.
+/// The only laws of noise under which a calibrated design promises its level.
 pub const PROMISED_LAWS: [Law; 4] = [Law::Normal, Law::Laplace, Law::Uniform, Law::Cauchy];
 
-/// The probability that a promise is not kept, at most.
+/// The largest probability that a promise is broken.
 pub const PROMISE_LEVEL: f64 = 1e-3;
 
 /// Why no decision could be found.
@@ -23,7 +23,7 @@ pub enum PilotError {
     /// A pilot's record does not fit in memory.
     #[error("pilot: {0}")]
     Record(#[from] RecordTooLong),
-    /// Nothing keeps the level.
+    /// No region or threshold keeps the level.
     #[error(
         "curve {curve}: detector: {pilot} pilot trials show no region or threshold of rule {rule} that keeps \
          alpha = {alpha} (raise pilot, training or alpha)"
@@ -31,19 +31,19 @@ pub enum PilotError {
     Nothing {
         /// The label of the first curve that needs it.
         curve: String,
-        /// The rule.
+        /// The decision rule.
         rule: String,
-        /// Its level.
+        /// The level asked for.
         alpha: f64,
         /// Trials of each pilot.
         pilot: u64,
     },
 }
 
-/// A rate measured by fewer false alarms is none.
+/// With fewer false alarms a measured rate is too uncertain to set a threshold.
 const FEWEST_FALSE_ALARMS: u64 = 20;
 
-/// An order found in fewer trials is none.
+/// With fewer trials the order of likelihood ratios is mostly noise.
 const FEWEST_TRIALS: u64 = 1000;
 
 /// A decision to be found.
@@ -51,22 +51,22 @@ const FEWEST_TRIALS: u64 = 1000;
 pub(super) struct Need {
     /// The label of the first curve that needs it.
     curve: String,
-    /// At rest, in the noise that its pilots start from.
+    /// The scenario at rest, with the noise of its pilots.
     pub scenario: Scenario,
-    /// What decides, where it is no region.
+    /// The score that decides; `None` for a region.
     score: Option<Arc<Score>>,
-    /// False alarms that a pilot at rest may count.
+    /// The most false alarms allowed in a pilot at rest.
     allowed: u64,
-    /// Trials of a pilot.
+    /// Trials of each pilot.
     pilot: u64,
-    /// Its place among the pilots in motion.
+    /// Its index among the pilots in motion.
     motion: Option<usize>,
-    /// Its places among the pilots at rest.
+    /// Its indices among the pilots at rest.
     rest: Vec<usize>,
 }
 
 impl Need {
-    /// Adds the pilots of `scenario`, as `point` first needs it, to theirs.
+    /// Adds the pilots of `scenario`, which `point` needs first, to the stages.
     pub fn new(
         point: &Point,
         scenario: Scenario,
@@ -108,7 +108,7 @@ impl Need {
         })
     }
 
-    /// By the gauges of the pilots in motion and at rest.
+    /// The decision, from the gauges of the pilots in motion and at rest.
     pub fn decide(&self, motion: &[Gauge], rest: &[Gauge]) -> Result<Decision, PilotError> {
         let detector = &self.scenario.detector;
         let rest: Vec<&Gauge> = self.rest.iter().map(|&place| &rest[place]).collect();
@@ -141,7 +141,7 @@ impl Need {
     }
 }
 
-/// The rests on which its level is to be measured.
+/// The scenarios at rest on which its level is measured.
 fn resting(scenario: &Scenario) -> Vec<Scenario> {
     match scenario.detector.calibration {
         Calibration::None => Vec::new(),
@@ -156,7 +156,7 @@ fn resting(scenario: &Scenario) -> Vec<Scenario> {
     }
 }
 
-/// The scenario at rest, with the sensor and law that its calibration starts from.
+/// The scenario at rest, with the sensor and law of its calibration.
 pub(super) fn believed(scenario: &Scenario) -> Scenario {
     let mut rest = scenario.at_rest();
     match &scenario.detector.calibration {
@@ -183,7 +183,7 @@ fn nothing(curve: String, detector: &Detector, pilot: u64) -> PilotError {
     }
 }
 
-/// How many false alarms a pilot at rest may count; none where it is too short to show anything.
+/// The most false alarms allowed in a pilot at rest; `None` if the pilot is too short.
 fn allowed(detector: &Detector, pilot: u64) -> Option<u64> {
     let expected = (detector.alpha * pilot as f64).floor() as u64;
     match detector.calibration {
@@ -193,7 +193,7 @@ fn allowed(detector: &Detector, pilot: u64) -> Option<u64> {
         }
         Calibration::Promise => {}
     }
-    // Counts that a rate of α would reach or undercut with probability 0.001 at most.
+    // Counts so small that a rate of α gives them with probability 0.001 at most.
     let is_shown = |count: u64| binomial::lower_tail(count, pilot, detector.alpha) <= PROMISE_LEVEL;
     let (mut shown, mut not_shown) = (0, expected + 1);
     while shown < not_shown {
@@ -212,8 +212,8 @@ mod tests {
     use super::*;
     use crate::experiment::SweepConfig;
 
-    /// Against the definition by sums of exact masses: the largest count that a rate of α would reach or
-    /// undercut with probability 0.001 at most; none where no count would do.
+    /// Against the definition by sums of exact masses: the largest count k with P(K ≤ k) ≤ 0.001 at a rate of α,
+    /// or `None`.
     #[test]
     fn allowed_counts_are_exact() {
         let detector = |calibrate: &str| {

@@ -9,13 +9,13 @@ use crate::schedule::Schedule;
 #[derive(Debug, Default)]
 pub(super) struct Stage {
     scenarios: Vec<Scenario>,
-    /// Of each scenario; they have seen nothing.
+    /// The empty gauge of each scenario.
     gauges: Vec<Gauge>,
     schedule: Option<Schedule>,
 }
 
 impl Stage {
-    /// Adds a pilot and returns its place.
+    /// Adds a pilot and returns its index.
     pub fn add(&mut self, scenario: Scenario, gauge: Gauge) -> usize {
         self.scenarios.push(scenario);
         self.gauges.push(gauge);
@@ -31,12 +31,12 @@ impl Stage {
         Ok(())
     }
 
-    /// What the progress of [`run`](Self::run) adds up to.
+    /// The total that the progress of [`run`](Self::run) reaches.
     pub fn work(&self) -> u64 {
         self.schedule.as_ref().map_or(0, Schedule::work)
     }
 
-    /// The gauges after every trial.
+    /// Runs all trials and returns the gauges.
     pub fn run(&self, progress: impl Fn(u64) + Sync) -> Vec<Gauge> {
         let new = || Gauges(self.gauges.clone());
         let schedule = self.schedule.as_ref();

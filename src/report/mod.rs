@@ -1,6 +1,6 @@
 //! The reproduction report: pictures, a paragraph each, and the table of claims, as Markdown.
 //!
-//! Its numbers come from the result files and its words from the configs. It holds no clock, host or
+//! Its numbers come from the result files and its words from the configs. It contains no clock, host or
 //! revision, so the same results give the same bytes.
 
 mod text;
@@ -14,13 +14,13 @@ use std::fmt::Write;
 /// One experiment and its results.
 #[derive(Clone, Debug)]
 pub struct Section {
-    /// Of its directory, beside the report.
+    /// The name of its directory, beside the report.
     pub name: String,
     /// File name of its config.
     pub config: String,
-    /// What it asks.
+    /// The question in its config.
     pub question: String,
-    /// What its config says, and claims.
+    /// The texts and claims of its config.
     pub narrative: Narrative,
     /// Trials per point.
     pub trials: u64,
@@ -40,7 +40,7 @@ pub enum ReportError {
     #[error("{config}: claim {number}, \"{claim}\": {error}")]
     Claim {
         config: String,
-        /// From 1.
+        /// The number of the claim, from 1.
         number: usize,
         claim: String,
         error: ClaimError,
@@ -51,7 +51,7 @@ impl Section {
     /// The verdict on each claim, and the paragraph with its numbers.
     ///
     /// # Errors
-    /// Where a claim or the text is about something that is not among the results.
+    /// If a claim or the text refers to something that is not in the results.
     pub fn judge(&self) -> Result<(Vec<Judgement>, String), ReportError> {
         let judgements = (1..).zip(&self.narrative.claims).map(|(number, claim)| {
             claim::judge(claim, number, &self.evidence).map_err(|error| ReportError::Claim {
@@ -75,11 +75,11 @@ impl Section {
     }
 }
 
-/// The report of all experiments; `configs` is the way from the report to their configs, `preface` what
-/// comes before everything, in Markdown.
+/// The report on all experiments; `configs` is the path from the report to their configs, `preface` the
+/// Markdown at the top.
 ///
 /// # Errors
-/// Where a claim or a text is about something that is not among the results.
+/// If a claim or a text refers to something that is not in the results.
 pub fn markdown(
     mut sections: Vec<Section>,
     configs: &str,
@@ -106,7 +106,7 @@ pub fn markdown(
     Ok(text.into_bytes())
 }
 
-/// A line per experiment, so that a reader can jump.
+/// A table of contents with one line per experiment.
 fn contents(sections: &[Section]) -> String {
     let mut text = "## Experiments\n\n".to_owned();
     for section in sections {
@@ -116,7 +116,7 @@ fn contents(sections: &[Section]) -> String {
     text + "\n"
 }
 
-/// The paper's claims with a count of the verdicts, then the comparisons that are this project's own.
+/// The paper's claims with a count of the verdicts, then this project's own comparisons.
 fn claims_tables(
     sections: &[Section],
     judged: &[(Vec<Judgement>, String)],
@@ -161,7 +161,7 @@ fn claims_tables(
     text
 }
 
-/// How many of the paper's claims have which verdict.
+/// The numbers of the paper's claims by verdict, in words.
 fn summary(verdicts: &[&Verdict]) -> String {
     let count = |is_it: fn(&Verdict) -> bool| verdicts.iter().filter(|v| is_it(v)).count();
     format!(
@@ -201,7 +201,7 @@ fn verdict(verdict: &Verdict) -> String {
     }
 }
 
-/// Text that does not end a cell of a table.
+/// Escapes a text for a cell of a table.
 fn cell(text: &str) -> String {
     text.replace('|', "\\|")
 }

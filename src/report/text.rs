@@ -1,4 +1,4 @@
-//! Numbers in a paragraph: placeholders that name what is to stand in their place.
+//! Numbers in a paragraph: placeholders and their replacement.
 //!
 //! | placeholder | becomes |
 //! |---|---|
@@ -36,7 +36,7 @@ pub enum PlaceholderError {
 /// The text with every placeholder replaced.
 ///
 /// # Errors
-/// Where one names nothing that is there.
+/// If a placeholder does not name a result.
 pub fn fill(text: &str, evidence: &Evidence) -> Result<String, PlaceholderError> {
     let mut parts = text.split('{');
     let mut filled = parts.next().unwrap_or_default().to_owned();
@@ -59,7 +59,7 @@ fn value(placeholder: &str, evidence: &Evidence) -> Result<String, PlaceholderEr
         "rate" | "false_alarm" | "size" | "reachable" => {
             let outcomes = named(placeholder, kind, name, evidence)?;
             let shown: Vec<String> = outcomes.iter().map(|(_, o)| show(kind, o)).collect();
-            // Many points may share one size; a rate is one point's.
+            // Many points may share one size, but a rate belongs to one point.
             let is_shared = matches!(kind, "size" | "reachable");
             if shown.len() == 1 || is_shared && shown.iter().all(|one| *one == shown[0]) {
                 Ok(shown[0].clone())
@@ -83,8 +83,8 @@ fn show(kind: &str, outcome: &Outcome) -> String {
     }
 }
 
-/// The outcomes that a placeholder names, at least one, each with its value on the axis: in motion, or at rest
-/// where that is asked for or the curve never moves.
+/// The outcomes that a placeholder names, at least one, each with its value on the axis: at rest if asked for or
+/// if the curve never moves, else in motion.
 fn named<'a>(
     placeholder: &str,
     kind: &str,
@@ -96,7 +96,7 @@ fn named<'a>(
         .curves
         .iter()
         .map(|curve| curve.label.as_str());
-    // A label may have an @ of its own.
+    // A label may contain an @ itself.
     let (label, value) = match name.rsplit_once('@') {
         Some((label, value)) if !labels.clone().any(|label| label == name) => (label, Some(value)),
         _ => (name, None),
@@ -157,7 +157,7 @@ mod tests {
     use crate::claim::{Axis, Curve, Scope};
     use crate::stats::tally::Tally;
 
-    /// Three curves, of which the first alone has rows at rest; the last has no rows.
+    /// Three curves, of which only the first has rows at rest; the last has no rows.
     fn evidence() -> Evidence {
         let outcome = |label: &str, is_at_rest, value: &str| Outcome {
             label: label.to_owned(),

@@ -1,7 +1,6 @@
-//! `counts.json`: the counts of a run that is not over, or of one share of a run.
+//! `counts.json`: the counts of an unfinished run or of one shard.
 //!
-//! One JSON object on one line: the counts and their SHA-256, so that neither half a file nor an edited one is
-//! taken for counts.
+//! One JSON object on one line: the counts and their SHA-256, so that a truncated or edited file is detected.
 
 use super::{Origin, sha256};
 use crate::counts::Counts;
@@ -10,16 +9,16 @@ use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-/// The counts of a run that is not over.
+/// The counts of an unfinished run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
-    /// Of which experiment.
+    /// The experiment.
     pub origin: Origin,
-    /// The share of the trials that is run here; all of them where there is none.
+    /// The shard that is run here; `None` for all trials.
     pub shard: Option<Shard>,
-    /// Trials that are run together: a share has whole blocks.
+    /// Trials in a block; a shard consists of whole blocks.
     pub block: u64,
-    /// How many points are counted, pairs of points apart.
+    /// The number of points counted, without pairs of points.
     pub points: usize,
     /// Wall clock of the simulation so far.
     pub seconds: f64,
@@ -27,16 +26,16 @@ pub struct Checkpoint {
     pub counts: Counts,
 }
 
-/// What the file holds.
+/// The content of the file.
 #[derive(Serialize, Deserialize)]
 struct Sealed<C> {
-    /// Of the other member as this program writes it.
+    /// The hash of the other member as this program writes it.
     sha256: String,
     checkpoint: C,
 }
 
 impl Checkpoint {
-    /// The file's text.
+    /// Writes the file's text.
     pub fn to_json(&self) -> Vec<u8> {
         let sealed = Sealed {
             sha256: self.seal(),
@@ -47,10 +46,10 @@ impl Checkpoint {
         json
     }
 
-    /// What the text says; what is wrong with it.
+    /// Reads the file's text.
     ///
     /// # Errors
-    /// Where it is not as it was written.
+    /// If the text is not a checkpoint, or its hash does not match.
     pub fn from_json(json: &[u8]) -> Result<Self, String> {
         let sealed: Sealed<Self> = serde_json::from_slice(json).map_err(|error| {
             let it: Option<serde_json::Value> = serde_json::from_slice(json).ok();
@@ -72,7 +71,7 @@ impl Checkpoint {
         sha256(&serde_json::to_vec(self).expect("a checkpoint is plain data"))
     }
 
-    /// The trials that are to be counted here.
+    /// The trials to be counted here.
     pub fn wanted(&self) -> Range<u64> {
         match self.shard {
             Some(shard) => shard.trials(self.origin.trials, self.block),
@@ -80,8 +79,8 @@ impl Checkpoint {
         }
     }
 
-    /// Trials that are wanted and not there: of all counters, those of pairs among them, on average and rounded
-    /// up, so that zero means that nothing is missing.
+    /// The number of missing trials per counter, pairs included: an average, rounded up, so that zero means
+    /// that nothing is missing.
     pub fn lacking(&self) -> u64 {
         let wanted = self.wanted();
         let counters = self.counts.iter().map(|(_, counter)| &counter.trials);
@@ -94,26 +93,26 @@ impl Checkpoint {
     }
 }
 
-/// A share of the blocks of a run: `number` of `count`, from 1.
+/// One of `count` shards of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub struct Shard {
     /// From 1.
     pub number: u64,
-    /// Of all the shards.
+    /// The number of shards.
     pub count: u64,
 }
 
-/// Not a share of a run.
+/// A text that names no shard.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("a shard is i/n with i from 1 to n and n at most 100000, got {0:?}")]
 pub struct NoShard(String);
 
-/// More than there are cores; `merge` lists those that are not there.
+/// The most shards of a run: more than there are cores, and few enough for `merge` to list the missing ones.
 const MOST_SHARDS: u64 = 100_000;
 
 impl Shard {
-    /// Its trials of `trials`: whole blocks, as evenly as can be.
+    /// The part of `trials` that belongs to this shard: whole blocks, as even as possible.
     pub fn trials(self, trials: u64, block: u64) -> Range<u64> {
         let blocks = u128::from(trials.div_ceil(block));
         let cut = |number: u64| {
@@ -164,7 +163,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Shards are whole blocks, and all of them together every trial once.
+        /// Shards consist of whole blocks, and together they have every trial once.
         #[test]
         fn shards_share_the_trials(trials in 1..50_000u64, count in 1..70u64, block in 1..2000u64) {
             let mut next = 0;

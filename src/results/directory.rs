@@ -1,4 +1,4 @@
-//! The directory of one experiment: what it holds, what may replace it, how files get there.
+//! The directory of one experiment: its files, what may replace them, and how they are written.
 
 use super::{Checkpoint, Comparison, Manifest, Origin, Quantity, ResultsError, sha256};
 use crate::files;
@@ -6,7 +6,7 @@ use serde::de::DeserializeOwned;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// A directory that holds, or is to hold, the results of one experiment.
+/// A directory for the results of one experiment.
 #[derive(Clone, Debug)]
 pub struct Directory {
     path: PathBuf,
@@ -17,7 +17,7 @@ const POINTS: &str = "points.csv";
 const COMPARISONS: &str = "comparisons.csv";
 const QUANTITIES: &str = "quantities.csv";
 const COUNTS: &str = "counts.json";
-/// What a run may leave beside its manifest.
+/// The files that a run may write beside its manifest.
 const FILES: [&str; 6] = [
     POINTS,
     COMPARISONS,
@@ -28,20 +28,20 @@ const FILES: [&str; 6] = [
 ];
 
 impl Directory {
-    /// The directory at `path`, whether it exists or not.
+    /// The directory at `path`, which need not exist.
     pub fn new(path: impl Into<PathBuf>) -> Self {
         Self { path: path.into() }
     }
 
-    /// Where it is.
+    /// The path of the directory.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Whether what a run would replace has been made by one, so far as its files tell.
+    /// Checks that the files a run would replace were written by liftsim.
     ///
     /// # Errors
-    /// Where files are of unknown origin.
+    /// If a file is of unknown origin.
     pub fn admit_any(&self) -> Result<(), ResultsError> {
         match self.replaced() {
             Some(name) if !self.holds(MANIFEST) && !self.holds(COUNTS) => {
@@ -62,15 +62,15 @@ impl Directory {
         self.path.join(name).exists()
     }
 
-    /// Whether there are finished results here.
+    /// Whether the directory has finished results.
     pub fn is_finished(&self) -> bool {
         self.holds(MANIFEST)
     }
 
-    /// The counts so far of a run that is not over.
+    /// The counts of an unfinished run, if there are any.
     ///
     /// # Errors
-    /// Where they are unreadable or damaged.
+    /// If they are unreadable or damaged.
     pub fn checkpoint(&self) -> Result<Option<Checkpoint>, ResultsError> {
         if !self.holds(COUNTS) {
             return Ok(None);
@@ -82,15 +82,15 @@ impl Directory {
             .map_err(|error| ResultsError::Checkpoint { path, error })
     }
 
-    /// Saves the counts so far. Whatever happens, what was saved before or these are there. Says whether these are
-    /// others.
+    /// Saves the counts atomically: at any moment the file has either the old or the new counts. Returns whether
+    /// they differ.
     ///
     /// # Errors
-    /// Where they cannot be written.
+    /// If they cannot be written.
     pub fn save(&self, checkpoint: &Checkpoint) -> Result<bool, ResultsError> {
         let json = checkpoint.to_json();
         let is_new = !self.has(COUNTS, &json);
-        // Even the same bytes are written: a place that takes none is found out before anything is counted.
+        // The same bytes are written again, so that a full disk is noticed before anything is counted.
         let saved = self.replace(COUNTS, &json);
         (saved.map(|()| is_new)).map_err(|error| ResultsError::Unsaved {
             path: self.path.join(COUNTS),
@@ -98,23 +98,23 @@ impl Directory {
         })
     }
 
-    /// Whether a file can be made here, or a directory where this one is to be.
+    /// Checks that files can be created here, or the directory itself if it does not exist.
     ///
     /// # Errors
-    /// Where not.
+    /// If they cannot.
     pub fn check_writable(&self) -> Result<(), ResultsError> {
         let existing = self.path.ancestors().find(|path| path.exists());
         let place = existing.unwrap_or(Path::new("."));
-        // It has no name, so that nothing is left behind whenever the process ends.
+        // An unnamed temporary file leaves nothing behind, even if the process is killed.
         tempfile::tempfile_in(place)
             .map(drop)
             .map_err(|error| self.unwritable(error))
     }
 
-    /// What made the results here.
+    /// Reads `run.json`.
     ///
     /// # Errors
-    /// Where `run.json` is missing or damaged.
+    /// If `run.json` is missing or damaged.
     pub fn manifest(&self) -> Result<Manifest, ResultsError> {
         let (path, bytes) = self.read(MANIFEST)?;
         serde_json::from_slice(&bytes).map_err(|error| ResultsError::Damaged {
@@ -123,7 +123,7 @@ impl Directory {
         })
     }
 
-    /// Whether every file that `manifest` vouches for is here with the bytes it vouches for.
+    /// Whether every file listed in `manifest` exists with the listed hash.
     pub fn is_intact(&self, manifest: &Manifest) -> bool {
         let is_whole = |(name, hash): (&String, &String)| {
             std::fs::read(self.path.join(name)).is_ok_and(|bytes| *hash == sha256(&bytes))
@@ -131,18 +131,18 @@ impl Directory {
         !manifest.files.is_empty() && manifest.files.iter().all(is_whole)
     }
 
-    /// The rows of `comparisons.csv`, none where `manifest` knows of no such file.
+    /// The rows of `comparisons.csv`; empty if `manifest` does not list it.
     ///
     /// # Errors
-    /// As [`Directory::points`].
+    /// Same as [`Directory::points`].
     pub fn comparisons(&self, manifest: &Manifest) -> Result<Vec<Comparison>, ResultsError> {
         self.table(COMPARISONS, manifest)
     }
 
-    /// The rows of `quantities.csv`, none where `manifest` knows of no such file.
+    /// The rows of `quantities.csv`; empty if `manifest` does not list it.
     ///
     /// # Errors
-    /// As [`Directory::points`].
+    /// Same as [`Directory::points`].
     pub fn quantities(&self, manifest: &Manifest) -> Result<Vec<Quantity>, ResultsError> {
         self.table(QUANTITIES, manifest)
     }
@@ -161,7 +161,7 @@ impl Directory {
             .map_err(|error| self.damaged(name, error))
     }
 
-    /// What made the results of an experiment that are here whole, and none more lately under way.
+    /// The manifest of complete results of this experiment, if they are here and no later run is unfinished.
     pub fn complete(&self, origin: &Origin) -> Option<Manifest> {
         let manifest = self.manifest().ok()?;
         let is_over = !self.holds(COUNTS);
@@ -169,15 +169,15 @@ impl Directory {
         is_complete.then_some(manifest)
     }
 
-    /// The bytes of `points.csv`, which must be those that `manifest` vouches for.
+    /// The bytes of `points.csv`, which must have the hash listed in `manifest`.
     ///
     /// # Errors
-    /// Where it is missing or changed.
+    /// If it is missing or changed.
     pub fn points(&self, manifest: &Manifest) -> Result<Vec<u8>, ResultsError> {
         self.vouched(POINTS, manifest)
     }
 
-    /// What is wrong with a `points.csv` that cannot be read as rows.
+    /// The error for a `points.csv` that cannot be parsed.
     pub fn damaged_points(&self, error: csv::Error) -> ResultsError {
         self.damaged(POINTS, error)
     }
@@ -192,7 +192,7 @@ impl Directory {
         }
     }
 
-    /// What is wrong with saved counts that cannot have been counted.
+    /// The error for implausible saved counts.
     pub fn impossible(&self, error: &impl std::fmt::Display) -> ResultsError {
         let name = if self.holds(COUNTS) { COUNTS } else { POINTS };
         ResultsError::Checkpoint {
@@ -216,10 +216,10 @@ impl Directory {
         }
     }
 
-    /// Writes a file, whole or not at all. Says whether its bytes are new.
+    /// Writes a file atomically. Returns whether its bytes are new.
     ///
     /// # Errors
-    /// Where it cannot be written.
+    /// If it cannot be written.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<bool, ResultsError> {
         if self.has(name, bytes) {
             return Ok(false);
@@ -239,10 +239,10 @@ impl Directory {
         files::replace(&self.path.join(name), bytes)
     }
 
-    /// Takes away what an earlier run left and `manifest` does not vouch for.
+    /// Removes the files of earlier runs that `manifest` does not list.
     ///
     /// # Errors
-    /// Where a file is there and cannot be taken away.
+    /// If a file cannot be removed.
     pub fn remove_stale(&self, manifest: &Manifest) -> Result<(), ResultsError> {
         let is_stale = |name: &&str| !manifest.files.contains_key(*name);
         for name in FILES.into_iter().filter(is_stale) {

@@ -10,7 +10,7 @@ pub enum ResultsError {
     #[error("{}: cannot be read: {error} (run `liftsim sweep` first)", path.display())]
     Unreadable { path: PathBuf, error: io::Error },
     #[error(
-        "{}: holds {name}, but no run.json that tells where it comes from \
+        "{}: holds {name}, but no run.json that says where it comes from \
          (choose another directory, or --fresh to replace it)",
         path.display()
     )]

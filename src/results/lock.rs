@@ -1,4 +1,4 @@
-//! One run at a time in a directory.
+//! A lock that allows one run at a time in a directory.
 
 use super::{Directory, ResultsError};
 use crate::files;
@@ -6,17 +6,17 @@ use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Held by a run as long as it may write into its directory; the system takes it back when the process
-/// ends, however it ends.
+/// A lock held while a run may write into its directory; the system releases it when the process ends,
+/// even if it is killed.
 #[derive(Debug)]
 pub struct Lock {
     _handle: Option<File>,
-    /// The directories that were not there before, innermost first.
+    /// The directories created for this run, innermost first.
     made: Vec<PathBuf>,
 }
 
 impl Drop for Lock {
-    /// A run that is refused leaves no empty directory.
+    /// Removes empty directories that a refused run created.
     fn drop(&mut self) {
         for path in &self.made {
             if fs::remove_dir(path).is_err() {
@@ -27,11 +27,11 @@ impl Drop for Lock {
 }
 
 impl Directory {
-    /// Makes the directory, keeps others from writing into it, and removes what a killed run left half written. On a
-    /// file system that knows no locks nobody is kept out.
+    /// Creates the directory, locks it against other runs, and removes the temporary files of a killed run. On a
+    /// file system without locks other runs are not kept out.
     ///
     /// # Errors
-    /// Where another run holds it, or it cannot be made.
+    /// If another run holds the lock, or the directory cannot be created.
     pub fn lock(&self) -> Result<Lock, ResultsError> {
         let unwritable = |error| self.unwritable(error);
         let paths = self.path().ancestors();
@@ -57,7 +57,7 @@ impl Directory {
         Ok(Lock { _handle, made })
     }
 
-    /// Whether a run is writing here.
+    /// Whether a run holds the lock.
     pub fn is_locked(&self) -> bool {
         let is_held = |handle: io::Result<File>| {
             let shared = handle.map(|handle| handle.try_lock_shared());
@@ -67,8 +67,8 @@ impl Directory {
     }
 }
 
-/// What is locked where a directory cannot be, as on network file systems, which ask for a file open for
-/// writing.
+/// The file that is locked if the directory itself cannot be, as on network file systems, which lock only
+/// files open for writing.
 const LOCK_FILE: &str = ".liftsim-lock";
 
 fn lock_file(path: &Path) -> io::Result<File> {
@@ -77,13 +77,13 @@ fn lock_file(path: &Path) -> io::Result<File> {
     options.open(path.join(LOCK_FILE))
 }
 
-/// The directory itself, so that no file is left behind.
+/// Opens the directory itself, so that no lock file is left behind.
 #[cfg(unix)]
 fn handle(path: &Path) -> io::Result<File> {
     File::open(path)
 }
 
-/// A directory has no handle here.
+/// Directories cannot be opened on this system.
 #[cfg(not(unix))]
 fn handle(path: &Path) -> io::Result<File> {
     lock_file(path)

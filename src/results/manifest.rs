@@ -1,25 +1,25 @@
-//! `run.json`: how a run came about.
+//! `run.json`: the provenance of a run.
 
 use super::Origin;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
-/// How a run came about: `run.json`.
+/// The provenance of a run, as written to `run.json`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Manifest {
-    /// Of which experiment.
+    /// The experiment.
     #[serde(flatten)]
     pub origin: Origin,
     /// SHA-256 of the config's text.
     pub config_sha256: String,
-    /// Of its source, where it was known when liftsim was built.
+    /// The source revision of liftsim, if it was known at build time.
     pub revision: String,
-    /// What makes the same results again.
+    /// The command that gives the same results again.
     pub command: String,
     /// Wall clock of the simulation.
     pub seconds: f64,
-    /// Threads it ran on.
+    /// The number of threads.
     pub threads: usize,
     /// Processor family and the features that change code paths.
     pub architecture: String,
@@ -28,14 +28,14 @@ pub struct Manifest {
 }
 
 impl Manifest {
-    /// As the file has it.
+    /// The text of the file.
     pub fn to_json(&self) -> Vec<u8> {
         let mut json = serde_json::to_vec_pretty(self).expect("a manifest is plain data");
         json.push(b'\n');
         json
     }
 
-    /// What made a picture, for whoever finds it alone.
+    /// The provenance in one line, for embedding in a picture.
     pub fn provenance(&self) -> String {
         let Origin {
             version,
@@ -50,7 +50,7 @@ impl Manifest {
         )
     }
 
-    /// Enough of the config's hash to tell it from others.
+    /// The first digits of the config's hash.
     pub fn short_hash(&self) -> &str {
         self.config_sha256.get(..12).unwrap_or(&self.config_sha256)
     }

@@ -1,10 +1,10 @@
-//! What a run leaves behind: `points.csv`, `figure.png`, `figure.svg`, `run.json` in one directory, and
-//! `comparisons.csv` or `quantities.csv` where claims or an experiment have any.
+//! The files of a run, in one directory: `points.csv`, `figure.png`, `figure.svg`, `run.json`, and
+//! `comparisons.csv` or `quantities.csv` if there are comparisons or quantities.
 //!
-//! The CSV holds counts and every resolved parameter, and no clock or host, so that the same config
-//! and seed give the same bytes anywhere. Files are written beside their place and renamed into it,
-//! all after the last trial. Until then the counts so far are in `counts.json`, see [`Checkpoint`]; a
-//! shard of a run has that file alone.
+//! The CSV holds counts and every resolved parameter, but no clock or host, so that the same config
+//! and seed give the same bytes anywhere. After the last trial each file is written under a temporary
+//! name and renamed. Until then the counts are in `counts.json`, see [`Checkpoint`]; a shard has only
+//! that file.
 
 mod checkpoint;
 mod directory;

@@ -1,21 +1,21 @@
-//! What an experiment's results are known by before it is run.
+//! The identity of an experiment's results, known before it is run.
 
 use crate::experiment::DEFAULT_PILOT_TRIALS;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// Raised whenever the same config and seed come to give other bytes than before, so that results of
-/// before are not taken for complete.
+/// The version of the results. Raise it whenever the same config and seed give different bytes than before,
+/// so that older results do not count as complete.
 pub const RESULTS: u32 = 2;
 
-/// An experiment, and the version that runs it.
+/// An experiment and the version of liftsim that runs it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Origin {
     /// The config's file name.
     pub config_name: String,
     /// The config's text.
     pub config: String,
-    /// Where every draw starts from.
+    /// The seed of all draws.
     pub seed: u64,
     /// Trials per point.
     pub trials: u64,
@@ -23,14 +23,14 @@ pub struct Origin {
     pub pilot: u64,
     /// Whether points share their noise.
     pub common_random_numbers: bool,
-    /// Of liftsim.
+    /// The version of liftsim.
     pub version: String,
-    /// Of the bytes that a config and a seed give: [`RESULTS`] at the time.
+    /// The value of [`RESULTS`] at the time of the run.
     pub results: u32,
 }
 
 impl Origin {
-    /// Whether results of `there` are those of this experiment, by a version that gives the same bytes.
+    /// Whether results with the origin `there` belong to this experiment and have the same bytes.
     pub fn made(&self, there: &Self) -> bool {
         let other = Self {
             version: self.version.clone(),
@@ -40,7 +40,7 @@ impl Origin {
         *self == other
     }
 
-    /// The first thing that keeps two runs from being shares of one, here and there.
+    /// The first difference that prevents two runs from being shards of one, in words.
     pub fn difference(&self, there: &Self) -> Option<String> {
         let differs = |name, here: &dyn ToString, there: &dyn ToString| {
             let (here, there) = (here.to_string(), there.to_string());
@@ -55,7 +55,7 @@ impl Origin {
             .or_else(|| (self.config != there.config).then(|| self.first_line(there)))
     }
 
-    /// The command that makes the same results, wherever the files are.
+    /// The command that gives the same results, independent of where the files are.
     pub fn command_line(&self) -> String {
         let Self { seed, trials, .. } = self;
         let name = &self.config_name;
@@ -66,7 +66,7 @@ impl Origin {
         }
     }
 
-    /// The first line of the config that reads differently.
+    /// The first line in which the configs differ, in words.
     fn first_line(&self, there: &Self) -> String {
         let (here, there): (Vec<&str>, Vec<&str>) = (
             self.config.lines().collect(),
@@ -80,7 +80,7 @@ impl Origin {
     }
 }
 
-/// Without the way to it.
+/// The file name of a path.
 pub fn file_name(path: &str) -> String {
     let name = Path::new(path).file_name();
     name.map_or(path.to_owned(), |name| name.to_string_lossy().into_owned())

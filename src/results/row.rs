@@ -1,4 +1,4 @@
-//! `points.csv` of a sweep: one row per point and hypothesis, every parameter in it.
+//! `points.csv` of a sweep: one row per point and hypothesis, with every parameter.
 //!
 //! Its columns are the row's own and, between them, those of the table of parameters.
 
@@ -14,34 +14,34 @@ use serde::ser::{SerializeStruct, Serializer};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// A point, how it decides, and how often it did.
+/// A point, its decision rule and its counts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// From 1.
+    /// The number of the curve, from 1.
     pub curve: usize,
-    /// Of the curve.
+    /// The label of the curve.
     pub label: String,
     /// `H0` or `H1`.
     pub hypothesis: String,
-    /// P(ϑ | H₀), where it is exact.
+    /// P(ϑ | H₀), if an exact law gives it.
     pub size: Option<f64>,
-    /// Of the interval.
+    /// The confidence of the interval.
     pub confidence: f64,
-    /// How many trials there were, and in how many H₁ was decided.
+    /// The number of decisions for H₁ and of trials.
     pub tally: Tally,
-    /// Of a score.
+    /// The threshold of a score.
     pub threshold: Option<f64>,
-    /// The smallest level its rule can be held to.
+    /// The smallest level that its rule can reach.
     pub reachable: Option<f64>,
-    /// Of every parameter.
+    /// The values of all parameters.
     pub values: Values,
 }
 
-/// So many parameters stand before the counts; columns that came later stand behind them.
+/// The number of parameters written before the counts; columns added later come after them.
 const BEFORE_COUNTS: usize = 11;
 
 impl Row {
-    /// The row of a point, and of its decision where it is known.
+    /// The row of a point, with its decision if it is known.
     pub fn new(point: &Point, decision: Option<&Decision>, tally: Tally, confidence: f64) -> Self {
         Self {
             curve: point.curve + 1,
@@ -59,7 +59,7 @@ impl Row {
         }
     }
 
-    /// The row of a point whose decision is known by its summary.
+    /// The row of a point with the summary of its decision.
     pub fn summarised(
         point: &Point,
         decision: &DecisionSummary,
@@ -74,7 +74,7 @@ impl Row {
         }
     }
 
-    /// What it says of the decision.
+    /// The summary of the decision.
     pub fn decision(&self) -> DecisionSummary {
         DecisionSummary {
             size: self.size,
@@ -88,12 +88,12 @@ impl Row {
         self.values.number("alpha")
     }
 
-    /// Where it stands on an axis of numbers.
+    /// Its position on an axis of numbers.
     pub fn on_axis(&self, parameter: &Parameter) -> Option<f64> {
         self.values.cell(parameter.column()).number()
     }
 
-    /// What claims and texts read of it, on an axis of this parameter.
+    /// The part that claims and texts use, on an axis of this parameter.
     pub fn outcome(&self, parameter: &Parameter) -> Outcome {
         let (low, high) = self.tally.interval(self.confidence);
         Outcome {
@@ -113,7 +113,7 @@ impl Row {
         }
     }
 
-    /// Whether nothing moves.
+    /// Whether the point is at rest.
     pub fn is_at_rest(&self) -> bool {
         self.hypothesis == "H0"
     }
@@ -194,7 +194,7 @@ impl<'de> Visitor<'de> for RowVisitor {
                 "confidence" => row.confidence = map.next_value()?,
                 "threshold" => row.threshold = map.next_value()?,
                 "reachable" => row.reachable = map.next_value()?,
-                // They follow from the counts.
+                // These follow from the counts.
                 "rate" | "low" | "high" => drop(map.next_value::<f64>()?),
                 name => {
                     if !row.values.set(name, map.next_value()?) {

@@ -7,7 +7,7 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserializer, MapAccess, Visitor};
 use std::fmt;
 
-/// Where a threshold comes from.
+/// The source of a threshold.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Calibration {
     /// The exact law.
@@ -15,10 +15,9 @@ pub enum Calibration {
     None,
     /// A pilot that promises α under every law of a list.
     Promise,
-    /// A pilot that measures the false-alarm rate with one noise; in a file its parts may be left out, for the
-    /// point's own.
+    /// A pilot that measures the false-alarm rate with one noise; parts left out in a file are the point's own.
     Measured {
-        /// Whose noise.
+        /// The sensor of that noise.
         sensor: Option<Sensor>,
         /// Its law.
         noise: Option<Noise>,
@@ -38,7 +37,7 @@ struct Measured {
 }
 
 impl Calibration {
-    /// The same, with what a measurement leaves out taken from the point's own noise.
+    /// Fills in the parts of a measurement that were left out, from the point's own noise.
     pub(super) fn completed(self, own_sensor: &Sensor, own_noise: Noise) -> Self {
         match self {
             Self::Measured { sensor, noise } => Self::Measured {

@@ -1,11 +1,11 @@
-//! Rules that a single value cannot keep: what sections ask of each other, and the keys to blame.
+//! Rules across sections, and the keys to blame when they are broken.
 
 use super::{Calibration, Scenario};
 use crate::detect::{Baseline, Method, RegionError, Rule};
 use crate::signal::MotionError;
 use crate::whiten::{Fit, WhiteningError};
 
-/// Why sections do not fit each other.
+/// Why sections do not fit together.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "the messages say it")]
 pub enum ScenarioError {
@@ -58,7 +58,7 @@ pub enum ScenarioError {
     RestTooShort { needed: usize, got: usize },
 }
 
-/// The clairvoyant's states are counted by 2.4 to the power of the sensor's order.
+/// The number of states of the clairvoyant grows like 2.4 to the power of the sensor's order.
 const MOST_CLAIRVOYANT_ORDER: usize = 6;
 
 const RULE: &str = "detector.rule";
@@ -66,7 +66,7 @@ const DECIMATION: &str = "samples.decimation";
 const SENSOR: &[&str] = &["sensor.ar", "sensor.transfer", "sensor.model"];
 
 impl ScenarioError {
-    /// The keys that may be to blame, the likeliest first.
+    /// The keys to blame, the likeliest first.
     pub fn keys(&self) -> &'static [&'static str] {
         match self {
             Self::Motion(MotionError::Delta(_)) => &["motion.delta"],
@@ -85,7 +85,7 @@ impl ScenarioError {
     }
 }
 
-/// The keys to blame for a region that cannot be made.
+/// The keys to blame for a region that does not exist.
 pub fn blamed(error: &RegionError) -> &'static [&'static str] {
     match error {
         RegionError::Alpha(_) | RegionError::Unreachable { .. } => &["detector.alpha", RULE],
@@ -122,8 +122,8 @@ impl Scenario {
         }
     }
 
-    /// Block means of a coloured record are no longer the sensor's autoregression, so nothing that
-    /// relies on its coefficients may be asked of them.
+    /// Block means of a coloured record do not follow the sensor's autoregression, so methods that use its
+    /// coefficients are refused.
     fn check_decimation(&self) -> Result<(), ScenarioError> {
         let decimation = self.samples.decimation();
         if decimation == 1 || self.sensor.ar().is_empty() {

@@ -1,7 +1,7 @@
-//! What one point simulates and decides: the sections of a config, every parameter resolved.
+//! The scenario of one point: the sections of a config with every parameter resolved.
 //!
-//! The types of the sections are those of the domain, which serde reads as they stand, so a parameter is a
-//! field of one of them and a line of the table in `parameters`. Rules across sections are in `check`.
+//! Sections are domain types that serde reads directly, so a parameter is a field of one of them and a line of
+//! the table in `parameters`. Rules across sections are in `check`.
 
 mod calibration;
 mod check;
@@ -20,14 +20,14 @@ use crate::whiten::Whitening;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// What a point simulates and decides.
+/// The simulation and decision of a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
-    /// Whose noise is simulated.
+    /// The sensor.
     pub sensor: Sensor,
     /// The law of ξ.
     pub noise: Noise,
-    /// What disturbs the rest.
+    /// Disturbances of the rest.
     pub disturbance: Disturbance,
     /// The sensor's converter.
     pub digitiser: Digitiser,
@@ -91,7 +91,7 @@ impl Default for Detector {
 }
 
 impl Scenario {
-    /// The same without motion: what sets the false-alarm rate.
+    /// The same scenario without motion, which determines the false-alarm rate.
     pub fn at_rest(&self) -> Self {
         Self {
             motion: Motion {
@@ -125,7 +125,7 @@ impl Scenario {
 }
 
 impl Detector {
-    /// Whether its region or threshold takes a pilot run.
+    /// Whether its region or threshold needs a pilot run.
     pub fn needs_pilot(&self) -> bool {
         self.calibration != Calibration::None || self.method == Method::LikelihoodRatio
     }

@@ -1,5 +1,5 @@
-//! The one table of parameters: for each its key in a config, its column in `points.csv`, its place on an
-//! axis, and the words that pictures and verdicts have for it.
+//! The table of parameters: for each the key in a config, the column in `points.csv`, the label on an axis,
+//! and the words in pictures and verdicts.
 //!
 //! A parameter is a field of a section's type and a line here.
 
@@ -32,49 +32,49 @@ pub struct Values(Vec<Cell>);
 
 /// A parameter of a scenario.
 pub struct Parameter {
-    /// Its name on an axis, and the header of its column.
+    /// The name on an axis and the header of the column.
     pub name: &'static str,
-    /// The keys that it stands for, as paths.
+    /// The paths of the keys that it sets.
     pub paths: &'static [&'static str],
-    /// What formulas call it; blank for its name.
+    /// The symbol in formulas; blank to use the name.
     pub symbol: &'static str,
-    /// What an axis calls it; blank where no axis sweeps it.
+    /// The label of an axis; blank if no axis may sweep it.
     pub axis_label: &'static str,
-    /// Its value at a point; none for what has no column of its own.
+    /// The value at a point; `None` without a column of its own.
     pub cell: Option<fn(&Scenario) -> Cell>,
-    /// What a caption says of it.
+    /// The part of a caption about it.
     pub caption: Option<Caption>,
 }
 
-/// What a caption says of a parameter.
+/// The part of a caption about a parameter.
 pub struct Caption {
-    /// Where among the others: smaller comes first.
+    /// The position in the caption: smaller comes first.
     pub place: u8,
     /// The words.
     pub words: Words,
-    /// When it may be left out.
+    /// The values for which it is left out.
     pub usual: Usual,
 }
 
-/// What is said of a value.
+/// The words for a value.
 pub enum Words {
-    /// The value stands for `{}`.
+    /// A template in which the value replaces `{}`.
     Template(&'static str),
-    /// Depends on other values too.
+    /// Words that depend on other values too.
     Of(fn(&Values) -> String),
 }
 
-/// When nobody needs to be told a value.
+/// The usual values of a parameter, which a caption leaves out.
 pub enum Usual {
-    /// It is always said.
+    /// None: the caption always has it.
     Never,
-    /// When it is this.
+    /// This value.
     Is(&'static str),
-    /// At rest.
+    /// Any value at rest.
     AtRest,
-    /// At rest, and when it is this.
+    /// Any value at rest, and this value.
     AtRestOr(&'static str),
-    /// At rest, and when this holds.
+    /// Any value at rest, and values for which this is true.
     AtRestOrIf(fn(&Values) -> bool),
 }
 
@@ -110,14 +110,14 @@ const fn together(name: &'static str, paths: &'static [&'static str]) -> Paramet
 }
 
 impl Parameter {
-    /// The same, which an axis may sweep.
+    /// Lets an axis sweep it.
     const fn axis(mut self, symbol: &'static str, label: &'static str) -> Self {
         self.symbol = symbol;
         self.axis_label = label;
         self
     }
 
-    /// The same, which a caption names.
+    /// Adds it to captions.
     const fn said(mut self, place: u8, words: Words, usual: Usual) -> Self {
         self.caption = Some(Caption {
             place,
@@ -152,7 +152,7 @@ pub const PARAMETERS: &[Parameter] = &[
         .axis("", "decision rule").said(2, Of(|v| format!("rule {}", v.rule_name())), Never),
     column("alpha", &["detector.alpha"], |s| s.detector.alpha.into())
         .axis("α", "α").said(1, Template("α = {}"), Never),
-    // The counts stand here; what has come since stands behind them.
+    // The counts come here, and columns added later come after them.
     column("alternative", &["detector.alternative"], |s| Cell::text(s.detector.alternative))
         .said(3, Template("alternative {}"), Is("greater")),
     column("sensor", &["sensor.model", "sensor.ar", "sensor.transfer"], |s| Cell::text(&s.sensor))
@@ -196,7 +196,7 @@ pub const PARAMETERS: &[Parameter] = &[
         .axis("N = M₂", "N = M_2, samples"),
 ];
 
-/// The sensor of a file that says nothing of one.
+/// The default sensor.
 const ADXL105: &str = "ar(-1.5365 -0.75056)";
 
 fn delta(values: &Values) -> String {
@@ -227,7 +227,7 @@ fn calibration(values: &Values) -> String {
 }
 
 impl Values {
-    /// Of a scenario.
+    /// The values of a scenario.
     pub fn of(scenario: &Scenario) -> Self {
         Self(
             columns()
@@ -237,12 +237,12 @@ impl Values {
         )
     }
 
-    /// None of them known.
+    /// Values that are all absent.
     pub fn unknown() -> Self {
         Self(columns().map(|_| Cell::None).collect())
     }
 
-    /// Puts a value in its place, unless no column has this name.
+    /// Sets the value of a column; returns whether there is a column with this name.
     pub fn set(&mut self, name: &str, cell: Cell) -> bool {
         let place = columns().position(|parameter| parameter.name == name);
         if let Some(place) = place {
@@ -274,12 +274,12 @@ impl Values {
         rule.split('(').next().unwrap_or_default().to_owned()
     }
 
-    /// All of them, in the order of the columns.
+    /// All values in the order of the columns.
     pub fn iter(&self) -> impl Iterator<Item = (&'static str, &Cell)> {
         columns().map(|parameter| parameter.name).zip(&self.0)
     }
 
-    /// Whether Δ acts to the last of Y₁, as it does where no duration is given.
+    /// Whether Δ acts to the last of Y₁, as it does by default.
     fn acts_through_shift(&self) -> bool {
         let end = self.number("shift") + self.number("gap");
         self.number("duration") == (end - self.number("offset")).max(0.0)
@@ -306,7 +306,7 @@ impl Usual {
     }
 }
 
-/// The parameter of a name.
+/// The parameter with this name.
 pub fn parameter(name: &str) -> Option<&'static Parameter> {
     PARAMETERS.iter().find(|parameter| parameter.name == name)
 }
@@ -317,12 +317,12 @@ impl Parameter {
         !self.axis_label.is_empty()
     }
 
-    /// Whether an axis that sweeps `other` says the same.
+    /// Whether an axis that sweeps `other` shows this parameter too.
     pub fn is_said_by(&self, other: &Self) -> bool {
         self.paths.iter().any(|path| other.paths.contains(path))
     }
 
-    /// The column that has its value: its own, or that of the first of several swept together.
+    /// The column with its value: its own, or that of the first parameter swept together with it.
     pub fn column(&self) -> &'static str {
         match self.cell {
             Some(_) => self.name,
@@ -346,7 +346,7 @@ impl PartialEq for Parameter {
     }
 }
 
-/// A motion that a method is made for, in words.
+/// The stated motion of a method, in words.
 fn stated((motion, impulses): (Motion, Impulses)) -> Cell {
     let (delta, duration, offset) = (motion.delta, motion.duration, motion.offset);
     let (nu, theta, during) = (impulses.nu(), impulses.theta(), impulses.during());
@@ -396,7 +396,7 @@ impl From<Option<f64>> for Cell {
     }
 }
 
-/// As a table has it.
+/// Reads the value from a cell of a table.
 impl<'de> Deserialize<'de> for Cell {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(CellVisitor)
@@ -441,7 +441,7 @@ impl Visitor<'_> for CellVisitor {
     }
 }
 
-/// As in a table.
+/// Writes the value as in a table.
 impl fmt::Display for Cell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

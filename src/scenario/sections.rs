@@ -1,4 +1,4 @@
-//! The sections of a config, and the scenario that they make.
+//! The sections of a config, and the scenario made from them.
 
 use super::check::ScenarioError;
 use super::{Detector, Scenario};
@@ -49,11 +49,11 @@ pub struct NoiseSection {
 }
 
 impl Sections {
-    /// The scenario that the sections make: what they leave out is filled in, and they are checked against
-    /// each other. `pilot` is the number of trials of a pilot, where one is needed.
+    /// The scenario of these sections: missing values are filled in, and the sections are checked against
+    /// each other. `pilot` is the number of trials of a pilot, if one is needed.
     ///
     /// # Errors
-    /// Where two sections do not fit each other.
+    /// If two sections do not fit together.
     pub fn scenario(self, pilot: u64) -> Result<Scenario, ScenarioError> {
         let Self {
             sensor,

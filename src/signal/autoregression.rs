@@ -1,23 +1,22 @@
-//! The recursion x_i = Σ φ_p x_{i−p} + ξ_i: one step, how it starts out stationary, and how long it takes
-//! to become so from nothing.
+//! The recursion x_i = Σ φ_p x_{i−p} + ξ_i: one step, a stationary start, and the burn-in from a zero state.
 
 use crate::simd::Value;
 
-/// The best prediction of a stationary sample from all before it, and the deviation of its error.
+/// The best prediction of a stationary sample from all earlier ones, and the standard deviation of its error.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Start {
     pub ar: Vec<f64>,
     pub deviation: f64,
 }
 
-/// The longest burn-in that a trial may spend.
+/// The longest burn-in of a trial, samples.
 pub(super) const LONGEST_BURN_IN: usize = 1_000_000;
 
-/// The share of the stationary variance that the start of a record may lack.
+/// The share of the stationary variance that may be missing at the start of a record.
 const BURN_IN_DEFICIT: f64 = 1e-9;
 
-/// How many samples after the zero state lack no more than a billionth of the stationary variance:
-/// the tail Σ_{k≥n} h_k² of the impulse response, whose decay the poles set.
+/// The number of samples after the zero state until less than a billionth of the stationary variance is
+/// missing: the tail Σ_{k≥n} h_k² of the impulse response, whose decay is set by the poles.
 pub(super) fn burn_in(ar: &[f64]) -> usize {
     if ar.is_empty() {
         return 0;
@@ -40,7 +39,7 @@ pub(super) fn burn_in(ar: &[f64]) -> usize {
     energy.partition_point(|&sum| total - sum > BURN_IN_DEFICIT * total)
 }
 
-/// Σ φ_p x_{i−p} + ξ, where `past` ends with x_{i−1} and what precedes it counts as zero.
+/// Σ φ_p x_{i−p} + ξ, where `past` ends with x_{i−1} and samples before it count as zero.
 #[inline(always)]
 pub(super) fn predict<V: Value>(ar: &[f64], past: &[V], innovation: V) -> V {
     let mut sum = innovation;

@@ -1,7 +1,7 @@
 //! The sensor's converter: a step (quantum) and limits (range), in σ_ξ.
 //!
-//! A quantised record has ties, and a clipped one is not linear in Δ; both break an assumption of
-//! the exact laws, which is why they can be simulated.
+//! A quantised record has ties, and a clipped one is not linear in Δ; both violate an assumption of the exact
+//! laws, so simulation has to show their effect.
 
 use crate::rule::OutOfRange;
 use crate::values::{Positive, bounded_f64};
@@ -26,10 +26,10 @@ impl From<(Option<Quantum>, Option<Positive>)> for Digitiser {
 }
 
 impl Digitiser {
-    /// A converter with step `quantum` and limits ± `range`, either of them absent.
+    /// A converter with step `quantum` and limits ± `range`, each optional.
     ///
     /// # Errors
-    /// Where one is out of its range.
+    /// If a value is out of its range.
     pub fn new(quantum: Option<f64>, range: Option<f64>) -> Result<Self, OutOfRange> {
         Ok(Self {
             quantum: quantum.map(Quantum::new).transpose()?,
@@ -47,12 +47,12 @@ impl Digitiser {
         self.range.map(Positive::get)
     }
 
-    /// Whether the record passes unchanged, and so stays linear in what is added to it.
+    /// Whether it leaves the record unchanged, and so linear in the motion.
     pub fn is_transparent(&self) -> bool {
         self.quantum.is_none() && self.range.is_none()
     }
 
-    /// The code that the converter writes for `x`: a whole number of steps where there is a step.
+    /// The output code for `x`: a whole number of steps, if there is a step.
     /// Codes add without rounding, so that equal block means stay equal.
     #[inline]
     pub fn code(&self, x: f64) -> f64 {
@@ -62,14 +62,14 @@ impl Digitiser {
             (None, Some(range)) => limit(range, x),
             (Some(quantum), None) => (x / quantum).round_ties_even(),
             (Some(quantum), Some(range)) => {
-                // 0.3 is meant to be three steps of 0.1.
+                // A range of 0.3 has three steps of 0.1, in spite of rounding.
                 let last = (range / quantum * (1.0 + 1e-12)).floor();
                 limit(last, (x / quantum).round_ties_even())
             }
         }
     }
 
-    /// What one code stands for.
+    /// The value of one code.
     #[inline]
     pub fn unit(&self) -> f64 {
         self.quantum.map_or(1.0, Quantum::get)

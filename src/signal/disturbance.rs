@@ -1,12 +1,12 @@
-//! What disturbs a rest: nothing of this is in [^1], all of it is in real cages.
+//! Disturbances of rest, which occur in real cages but not in [^1].
 //!
-//! Rest is modelled as stationary noise. Real rest is not: the sensor drifts, machines start and stop,
-//! people walk. Each of these acts whether the cage moves or not, and makes X, Y₁ and Y₂ differ:
+//! Rest is modelled as stationary noise. Real rest is not stationary: the sensor drifts, machines start and
+//! stop, people walk. Each of these acts in rest and motion alike, and makes X, Y₁ and Y₂ differ:
 //!
 //! - drift: the record rises by a constant amount with every raw sample, training included;
-//! - swell: after X the noise is so many times as strong;
-//! - footfalls: after X, with a given probability a sample, somebody's step jolts the cage by ± its
-//!   strength, and the jolt dies away by a constant factor a sample.
+//! - swell: after X the noise is multiplied by a factor;
+//! - footfalls: after X, with a given probability per sample, a step jolts the cage by ± its strength, and
+//!   the jolt decays by a constant factor per sample.
 //!
 //! [^1]: see [`crate::signal`].
 
@@ -43,22 +43,22 @@ bounded_f64! {
         { "type": "number", "minimum": 0, "maximum": 1e6 };
 }
 
-/// What is left of a jolt one sample later.
+/// The share of a jolt left after one sample.
 const DECAY: f64 = 0.8;
 
 impl Default for Disturbance {
-    /// None at all.
+    /// No disturbance.
     fn default() -> Self {
         Self::new(0.0, 1.0, 0.0, 10.0).expect("each is in its range")
     }
 }
 
 impl Disturbance {
-    /// A `drift` of so many σ_ξ a raw sample, noise `swell` times as strong after X, and `footfalls`
-    /// with this probability a raw sample after X, of ± `jolt` σ_ξ.
+    /// A drift in σ_ξ per raw sample, a factor `swell` of the noise after X, and footfalls of ± `jolt` σ_ξ with
+    /// probability `footfalls` per raw sample after X.
     ///
     /// # Errors
-    /// Where one is out of its range.
+    /// If a value is out of its range.
     pub fn new(drift: f64, swell: f64, footfalls: f64, jolt: f64) -> Result<Self, OutOfRange> {
         Ok(Self {
             drift: Drift::new(drift)?,
@@ -68,7 +68,7 @@ impl Disturbance {
         })
     }
 
-    /// σ_ξ a raw sample.
+    /// Drift of the sensor, σ_ξ per raw sample.
     pub fn drift(&self) -> f64 {
         self.drift.get()
     }
@@ -83,18 +83,18 @@ impl Disturbance {
         self.footfalls.get()
     }
 
-    /// Its strength, σ_ξ.
+    /// Strength of a step, σ_ξ.
     pub fn jolt(&self) -> f64 {
         self.jolt.get()
     }
 
-    /// Whether anybody walks: whether draws are needed.
+    /// Whether there are footfalls, which need draws.
     pub fn has_footfalls(&self) -> bool {
         self.footfalls() > 0.0 && self.jolt() > 0.0
     }
 
-    /// Disturbs `record`, whose sample `after` is the first after X. `draws` gives 64 random bits for
-    /// each sample of each trial from there on, and is not asked where nobody walks.
+    /// Disturbs `record`, whose sample `after` is the first after X. `draws` gives 64 random bits for each
+    /// sample of each trial from there on; without footfalls it is not called.
     pub fn act<V: Value>(&self, record: &mut [V], after: usize, mut draws: impl FnMut() -> u64) {
         if *self == Self::default() {
             return;
@@ -116,7 +116,7 @@ impl Disturbance {
         }
     }
 
-    /// 53 bits of `draw` decide whether there is a step, its lowest bit the sign.
+    /// The jolt of a draw: 53 bits decide whether there is a step, the lowest bit gives its sign.
     fn footfall(&self, draw: u64) -> f64 {
         let uniform = (draw >> 11) as f64 * (1.0 / (1u64 << 53) as f64);
         match (uniform < self.footfalls(), draw & 1) {
@@ -146,10 +146,10 @@ mod tests {
     fn acts_as_it_says() {
         let mut record = [1.0; 4];
         let disturbance = Disturbance::new(0.5, 3.0, 0.0, 1.0).unwrap();
-        disturbance.act(&mut record, 2, || unreachable!("nobody walks"));
+        disturbance.act(&mut record, 2, || unreachable!("no footfalls"));
         assert_eq!(record, [0.0, 0.5, 3.0, 3.5]);
         let mut record = [0.0; 4];
-        // The first draw is a step upwards, the others are none.
+        // The first draw is a step upwards; the others are not steps.
         let mut draws = [1, u64::MAX, u64::MAX].into_iter();
         let walking = Disturbance::new(0.0, 1.0, 0.5, 2.0).unwrap();
         walking.act(&mut record, 1, || draws.next().unwrap());

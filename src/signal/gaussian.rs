@@ -1,9 +1,9 @@
 //! Standard normal draws in bulk, by Box and Muller's transformation [^1]: with (U, V) uniform,
 //! √(−2 ln U) · (cos 2πV, sin 2πV) are two independent normals.
 //!
-//! Written in additions, multiplications, divisions and roots alone, each of them exact to the last
-//! bit by IEEE 754, so that the bits are the same on every machine and at every width of its vectors.
-//! The elementary functions are power series, cut where what is left out is below 1e-15 of the value.
+//! The code uses only additions, multiplications, divisions and square roots, which IEEE 754 rounds
+//! correctly, so that the bits are the same on every machine and at every vector width. The elementary
+//! functions are power series, truncated where the remainder is below 1e-15 of the value.
 //!
 //! [^1]: G. E. P. Box, M. E. Muller, "A note on the generation of random normal deviates",
 //! Ann. Math. Statist. 29, 1958.
@@ -13,14 +13,14 @@ use crate::simd::{LANES, Value, Vectors};
 use rand::Rng;
 use std::f64::consts::{FRAC_PI_4, LN_2, SQRT_2};
 
-/// Draws that one step of the transformation uses and makes.
+/// Normal draws made by one step of the transformation.
 const STEP: usize = 2 * LANES;
 
-/// Draws that are made from one request for random bits.
+/// Normal draws made from one request for random bits.
 const BULK: usize = 32 * STEP;
 
-/// Fills `record` with independent standard normals. A last step of which only a part is wanted is drawn
-/// whole.
+/// Fills `record` with independent standard normals. The last step is drawn whole even if only a part of it
+/// is needed.
 pub fn normals<V: Value>(vectors: Vectors, generator: &mut Generator, record: &mut [V]) {
     let lanes = V::default().lanes().len();
     let (mut bytes, mut draws) = ([0; 8 * BULK], [0.0; BULK]);
@@ -79,7 +79,7 @@ fn radius(bits: u64) -> f64 {
 #[inline(always)]
 fn ln(x: f64) -> f64 {
     const LEAST: u64 = (SQRT_2 / 2.0).to_bits();
-    // Keeps exponents positive: vectors shift unsigned numbers alone.
+    // Keeps exponents positive, because vector instructions shift only unsigned numbers.
     const RAISED: u64 = 1024;
     const ODD: [f64; 8] = [17.0, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0];
     let exponent = (x.to_bits() + ((RAISED << 52) - LEAST)) >> 52;
@@ -133,7 +133,7 @@ fn nested<const N: usize>(z: f64, ratios: [f64; N]) -> f64 {
     ratios.iter().fold(1.0, |sum, ratio| 1.0 - ratio * z * sum)
 }
 
-/// An integer below 2⁵² as a number, in the instructions that all vectors have.
+/// Converts an integer below 2⁵² to a float by instructions that every vector width has.
 #[inline(always)]
 fn small_integer(n: u64) -> f64 {
     const TWO_52: f64 = 4503599627370496.0;
@@ -151,8 +151,8 @@ mod tests {
         (0..length).map(|_| generator.next_u64()).collect()
     }
 
-    /// The radius against the system's ln over the whole range, the smallest and the largest included.
-    /// Both round their last bits; what the series leave out is below 1e-15.
+    /// The radius against the system's ln over the whole range, including the smallest and the largest. Both have
+    /// rounding errors in the last bits; the truncation error of the series is below 1e-15.
     #[test]
     fn agrees_with_the_elementary_functions() {
         let mut edges = vec![0, u64::MAX, 1 << 63, (1 << 63) - 1, 3037000500 << 32];
@@ -180,7 +180,7 @@ mod tests {
         assert_eq!(found.len(), 8);
     }
 
-    /// Wider vectors change no bit.
+    /// The vector width changes no bit.
     #[test]
     fn every_width_gives_the_same_bits() {
         let draws = |vectors| {

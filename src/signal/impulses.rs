@@ -2,7 +2,7 @@
 //!
 //! With probability ν a sample carries an impulse. If the sum S of the impulses so far is not zero,
 //! the impulse is −S; else it is +1 or −1 with probability ½ each. So impulses alternate and
-//! S ∈ {−1, 0, 1}: vibration moves nothing in the long run.
+//! S ∈ {−1, 0, 1}: vibration causes no net motion.
 //!
 //! (5), the law of one λ, is exact at every sample. (6), the law of S, is the limit: from S = 0,
 //! P(S_i = 0) = (1 + (1 − 2ν)^i)/2.
@@ -47,7 +47,7 @@ impl Impulses {
     /// Impulses of strength `theta`/σ_ξ with probability `nu` a sample.
     ///
     /// # Errors
-    /// Where `nu` is no probability or `theta` is negative.
+    /// If `nu` is not a probability or `theta` is negative.
     pub fn new(nu: f64, theta: f64, during: During) -> Result<Self, OutOfRange> {
         Ok(Self {
             nu: Probability::new(nu)?,
@@ -56,7 +56,7 @@ impl Impulses {
         })
     }
 
-    /// No impulses at all.
+    /// No impulses.
     pub fn none() -> Self {
         Self::new(0.0, 0.0, During::Motion).expect("each is in its range")
     }
@@ -76,7 +76,7 @@ impl Impulses {
         self.during
     }
 
-    /// Whether nothing is ever added.
+    /// Whether impulses never occur or have strength zero.
     pub fn are_absent(&self) -> bool {
         self.nu() == 0.0 || self.theta() == 0.0
     }
@@ -88,7 +88,7 @@ impl Impulses {
         let chance = chance(self.nu());
         pattern.fill(0.0);
         for (draws, pattern) in draws.chunks(64).zip(pattern.chunks_mut(64)) {
-            // Where there is an impulse, as bits: most draws bring none.
+            // One bit per sample marks the impulses, since most draws give none.
             let mut fired = 0u64;
             for (i, bits) in draws.iter().enumerate() {
                 fired |= u64::from(u64::from_le_bytes(*bits) >> 11 < chance) << i;
@@ -102,7 +102,7 @@ impl Impulses {
     }
 }
 
-/// Of the 2⁵³ values of the upper bits of a draw, how many bring an impulse.
+/// The number of impulses among the 2⁵³ values of the upper bits of a draw.
 fn chance(nu: f64) -> u64 {
     (nu * (1u64 << 53) as f64).ceil() as u64
 }

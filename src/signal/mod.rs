@@ -1,7 +1,7 @@
-//! What an accelerometer in a cage would write down: r = x + Δ + λ, eqs (1)–(8) of [^1].
+//! The record of an accelerometer in a cage: r = x + Δ + λ, eqs (1)–(8) of [^1].
 //!
-//! Everything is in units of σ_ξ, the deviation of the white noise that drives the sensor, but for what is
-//! real: a [`Ride`] and a [`recording`] are in m/s² and s, and a ride's [`Pickup`] says what σ_ξ is there.
+//! The unit is σ_ξ, the standard deviation of the white noise that drives the sensor. Only a [`Ride`] and a
+//! [`recording`] are in m/s² and s; a ride's [`Pickup`] gives σ_ξ in m/s².
 //!
 //! [^1]: M. A. Raifeld, "Distinguishing the motion/stop states of a lift from accelerometer
 //! signals", Avtometriya (in Russian), received 25 November 2013.

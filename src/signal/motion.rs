@@ -80,9 +80,9 @@ pub enum MotionError {
          (by default Δ acts to the last of Y1: lower offset or give a duration)"
     )]
     Duration {
-        /// As given or by default.
+        /// The duration, given or by default.
         duration: usize,
-        /// Where it starts.
+        /// The offset of its start.
         offset: usize,
     },
     /// A rise that does not fit twice into the duration.
@@ -90,7 +90,7 @@ pub enum MotionError {
         "profile.trapezoid.rise: must lie between 0 and half the duration of {duration} samples, got {rise}"
     )]
     Rise {
-        /// As given.
+        /// The rise given.
         rise: f64,
         /// The duration it has to fit into.
         duration: usize,
@@ -98,10 +98,10 @@ pub enum MotionError {
 }
 
 impl Motion {
-    /// Accepts a motion whose parts fit each other.
+    /// Checks that the parts of a motion fit together.
     ///
     /// # Errors
-    /// Where Δ is not finite, the duration is zero, or the rise does not fit.
+    /// If Δ is not finite, the duration is zero, or the rise does not fit.
     pub fn checked(self) -> Result<Self, MotionError> {
         if !self.delta.is_finite() {
             return Err(MotionError::Delta(self.delta));

@@ -45,13 +45,13 @@ pub enum Law {
 /// Why a law was refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum LawError {
-    /// Student's ν.
+    /// Degrees of freedom out of range.
     #[error("student_t must have at least 0.25 and finite degrees of freedom, got {0}")]
     DegreesOfFreedom(f64),
-    /// A share that is no probability.
+    /// A share outside [0, 1].
     #[error("contaminated.share must lie in [0, 1], got {0}")]
     Share(f64),
-    /// A scale that is no deviation.
+    /// A scale out of range.
     #[error("contaminated.scale must lie in [1e-6, 1e6], got {0}")]
     Scale(f64),
 }
@@ -61,7 +61,7 @@ pub enum LawError {
 #[serde(try_from = "Law", into = "Law")]
 pub struct Noise {
     law: Law,
-    /// What brings the law's natural scale to unit variance.
+    /// The factor from the law's natural scale to unit variance.
     unit: f64,
 }
 
@@ -89,7 +89,7 @@ impl Noise {
     /// Configures the sampler.
     ///
     /// # Errors
-    /// Where a parameter of the law is out of its range.
+    /// If a parameter of the law is out of its range.
     pub fn new(law: Law) -> Result<Self, LawError> {
         let unit = match law {
             Law::Normal | Law::Cauchy => 1.0,
@@ -97,7 +97,7 @@ impl Noise {
             Law::Logistic => sqrt(3.0) / PI,
             Law::Uniform => sqrt(3.0),
             Law::StudentT(freedom) => {
-                // Below a quarter the tails leave the range of floating point.
+                // Below a quarter the tails exceed the range of floating point.
                 if !(freedom >= 0.25 && freedom.is_finite()) {
                     return Err(LawError::DegreesOfFreedom(freedom));
                 }
@@ -146,7 +146,7 @@ impl Noise {
         }
     }
 
-    /// Whether sums of draws are normal as each draw is.
+    /// Whether the law is normal, so that sums of draws are normal too.
     pub fn is_normal(&self) -> bool {
         self.law == Law::Normal
     }

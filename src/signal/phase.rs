@@ -1,5 +1,4 @@
-//! What a cage does at one moment: it stands, gains speed, moves by itself, loses speed; the phases of a
-//! ride in [^1].
+//! The phases of a ride in [^1].
 //!
 //! [^1]: see [`crate::signal`].
 
@@ -22,7 +21,7 @@ impl Phase {
         self != Self::Rest
     }
 
-    /// Of Δ: 1, 0 or −1.
+    /// The sign of Δ: 1, 0 or −1.
     pub fn sign(self) -> f64 {
         match self {
             Self::Accelerating => 1.0,
@@ -31,7 +30,7 @@ impl Phase {
         }
     }
 
-    /// As in configs and in results.
+    /// The name in configs and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Rest => "rest",

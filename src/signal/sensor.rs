@@ -23,7 +23,7 @@ mod tests;
 pub struct Sensor {
     /// φ₁, φ₂, …; empty for a sensor whose noise is already white.
     ar: Vec<f64>,
-    /// What the first samples of a stationary record are given those before them, one by one.
+    /// The distributions of the first samples of a stationary record, each given the earlier ones.
     starts: Vec<Start>,
     burn_in: usize,
 }
@@ -108,7 +108,7 @@ pub enum SensorError {
          (in x_i = ar[0] x_(i-1) + ar[1] x_(i-2) + ... every pole must lie inside the unit circle)"
     )]
     Unstable {
-        /// The coefficients as given.
+        /// The coefficients.
         ar: Vec<f64>,
         /// Which reflection coefficient fails, from 1.
         index: usize,
@@ -121,7 +121,7 @@ pub enum SensorError {
          (move its poles away from the unit circle)"
     )]
     BarelyStable {
-        /// The coefficients as given.
+        /// The coefficients.
         ar: Vec<f64>,
         /// The longest burn-in allowed.
         limit: usize,
@@ -147,7 +147,7 @@ pub enum SensorError {
     },
 }
 
-/// Predictors of every lower order are kept, so memory grows with the square.
+/// The most coefficients: predictors of all lower orders are stored, so memory grows with the square.
 const MOST_COEFFICIENTS: usize = 1000;
 
 impl Sensor {
@@ -156,11 +156,10 @@ impl Sensor {
         Self::from_ar(vec![-1.5365, -0.75056]).expect("a stable autoregression")
     }
 
-    /// φ₁, φ₂, … as given; none for white noise.
+    /// A sensor with the coefficients φ₁, φ₂, …; empty for white noise.
     ///
     /// # Errors
-    /// Where a pole is not inside the unit circle, or so close to it that no record would be long
-    /// enough.
+    /// If a pole is not inside the unit circle, or so close to it that the burn-in would be too long.
     pub fn from_ar(ar: Vec<f64>) -> Result<Self, SensorError> {
         if ar.len() > MOST_COEFFICIENTS {
             return Err(SensorError::TooMany(ar.len()));
@@ -196,7 +195,7 @@ impl Sensor {
     /// By impulse invariance from the transfer function, eq. (1) → eq. (2).
     ///
     /// # Errors
-    /// Where a, c or the period is not positive, the poles are real, or the system is unstable.
+    /// If a, c or the period is not positive, the poles are real, or the system is unstable.
     pub fn from_transfer(transfer: Transfer) -> Result<Self, SensorError> {
         let Transfer { a, b, c, period } = transfer;
         for (name, value) in [("a", a), ("c", c), ("period", period)] {
@@ -225,7 +224,7 @@ impl Sensor {
         &self.ar
     }
 
-    /// 1 − β = 1 − Σ φ_p: what whitening with the true coefficients makes of a unit step, eq. (9).
+    /// 1 − β = 1 − Σ φ_p: the response of whitening with the true coefficients to a unit step, eq. (9).
     pub fn step_gain(&self) -> f64 {
         1.0 - self.ar.iter().sum::<f64>()
     }
@@ -242,9 +241,9 @@ impl Sensor {
         self.continue_from(0, record);
     }
 
-    /// Turns white normal noise into stationary sensor noise in place: the first samples are normal
-    /// with the deviations and correlations that all later ones have. For other laws of noise such a
-    /// start is not known; they need [`Sensor::burn_in`].
+    /// Turns white normal noise into stationary sensor noise in place: the first samples are normal with the same
+    /// variances and correlations as all later ones. For other laws no such start is known; they need
+    /// [`Sensor::burn_in`].
     #[inline(always)]
     pub fn colour_stationary<V: Value>(&self, record: &mut [V]) {
         let starts = self.starts.len().min(record.len());
@@ -267,7 +266,7 @@ impl Sensor {
             };
             let (mut x1, mut x2) = (back(1), back(2));
             for x in &mut record[first..] {
-                // The newest sample is added last: the next step waits for that alone.
+                // The newest sample is added last, because only this addition has to wait for the step before.
                 let next = (*x + x2 * phi_2) + x1 * phi_1;
                 (x2, x1) = (x1, next);
                 *x = next;
@@ -283,7 +282,7 @@ impl Sensor {
         }
     }
 
-    /// Samples after the zero state until the noise is stationary but for a billionth of its variance.
+    /// Samples after the zero state until the noise is stationary up to a billionth of its variance.
     pub fn burn_in(&self) -> usize {
         self.burn_in
     }

@@ -66,7 +66,7 @@ fn lower_ratios(k: u64, n: u64, p: f64) -> impl Iterator<Item = f64> {
         .map(move |j| j as f64 / (n - j + 1) as f64 * odds)
 }
 
-/// The smallest k with P(K ≥ k) ≤ `level`; n + 1 when there is none.
+/// The smallest k in 0 … n + 1 with P(K ≥ k) ≤ `level`.
 pub fn critical_count(level: f64, n: u64, p: f64) -> u64 {
     first(0..n + 1, |count| upper_tail(count, n, p) <= level)
 }
@@ -175,7 +175,7 @@ mod tests {
         }
     }
 
-    /// Far tails take no more terms than near ones, which take some ten deviations.
+    /// Far tails need no more terms than near ones, which need about ten standard deviations.
     #[test]
     fn far_tails_take_few_terms() {
         let (k, n) = (46_000_000u64, 92_000_000u64);

@@ -1,4 +1,4 @@
-//! Where a condition ceases to hold, or begins to.
+//! Bisection for the point where a condition begins or ceases to hold.
 
 use std::ops::Range;
 
@@ -17,7 +17,7 @@ pub fn bisect(mut low: f64, mut high: f64, inside: impl Fn(f64) -> bool) -> f64 
     }
 }
 
-/// The first of `range` at which `holds` does, which must then hold from there on; its end where there is none.
+/// The first number of `range` for which `holds` is true, or the end of `range`. `holds` must be monotone.
 pub fn first(range: Range<u64>, holds: impl Fn(u64) -> bool) -> u64 {
     let (mut low, mut high) = (range.start, range.end);
     while low < high {
@@ -31,7 +31,7 @@ pub fn first(range: Range<u64>, holds: impl Fn(u64) -> bool) -> u64 {
     low
 }
 
-/// The largest number below 1 that is `inside`, as all smaller ones must then be; 0 where there is none.
+/// The largest number below 1 that is `inside`, or 0. `inside` must be monotone.
 pub fn largest_below_one(inside: impl Fn(f64) -> bool) -> f64 {
     // Positive floats are ordered like their bits.
     let beyond = first(1..1f64.to_bits(), |bits| !inside(f64::from_bits(bits)));

@@ -2,12 +2,12 @@
 //!
 //! With y = x/2 the upper tail is the regularised incomplete gamma function Q(k/2, y), and the recursion
 //! Q(a + 1, y) = Q(a, y) + y^a e^{−y}/Γ(a + 1) leads to it from Q(0, y) = 0 or Q(½, y) = erfc √y in k/2
-//! positive terms. Over `libm`, so that no bit depends on the system's own elementary functions; a term is
-//! off by its exponent's rounding, 1e-16 of the largest of y, a ln y and ln Γ.
+//! positive terms. Elementary functions come from `libm`, so that no bit depends on the system's own. The
+//! relative error of a term is the rounding of its exponent, 1e-16 of the largest of y, a ln y and ln Γ.
 
 use libm::{erfc, exp, lgamma, log, sqrt};
 
-/// P(χ² ≥ x) with so many degrees of freedom, at least one.
+/// P(χ² ≥ x) with `degrees` ≥ 1 degrees of freedom.
 pub fn upper_tail(x: f64, degrees: usize) -> f64 {
     if x <= 0.0 {
         return 1.0;
@@ -34,7 +34,7 @@ mod tests {
     use super::*;
     use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-    /// Against an independent implementation, and two critical values out of any table.
+    /// Against an independent implementation, and two tabulated critical values.
     #[test]
     fn agrees_with_statrs() {
         for degrees in [1, 2, 3, 4, 7, 20, 51, 400] {
@@ -42,7 +42,7 @@ mod tests {
             for ratio in [0.01, 0.3, 0.9, 1.0, 1.2, 2.0, 5.0] {
                 let x = ratio * degrees as f64;
                 let (tail, expected) = (upper_tail(x, degrees), law.sf(x));
-                // Each works with exponents of up to the size of x.
+                // Both implementations compute exponents up to the size of x.
                 let bound = 1e-12 * (1.0 + x);
                 assert!(
                     (tail / expected - 1.0).abs() < bound,

@@ -1,4 +1,4 @@
-//! Exact tails, intervals and tests: mathematics that knows nothing of lifts.
+//! Exact tails, intervals and tests, independent of lifts.
 
 pub mod binomial;
 pub mod bisect;

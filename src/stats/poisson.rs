@@ -1,17 +1,16 @@
-//! The exact interval for the mean of a Poisson count [^1]: what a number of events in an hour says of the
-//! number to be expected.
+//! The exact interval for the mean of a Poisson count [^1]: from the events in an hour to the expected number.
 //!
-//! With P(N ≤ n; μ) = P(χ²_{2n+2} ≥ 2μ), the limits at confidence 1 − 2ε are the μ for which as many events or
-//! more, and as many or fewer, have probability ε. They cover the true mean with at least their
-//! confidence where the events are independent; where one event brings others, as false decisions that
-//! share their samples do, they are too narrow.
+//! With P(N ≤ n; μ) = P(χ²_{2n+2} ≥ 2μ), the limits at confidence 1 − 2ε are the μ for which n or more
+//! events, and n or fewer, have probability ε. They cover the true mean with at least their confidence if
+//! the events are independent. For clustered events, such as false decisions that share samples, they are
+//! too narrow.
 //!
 //! [^1]: F. Garwood, "Fiducial limits for the Poisson distribution", Biometrika 28, 1936.
 
 use crate::stats::bisect::bisect;
 use crate::stats::chi_squared;
 
-/// The two-sided interval for the mean behind `count` events.
+/// The two-sided interval for the mean, given `count` events.
 pub fn interval(count: u64, confidence: f64) -> (f64, f64) {
     let tail = (1.0 - confidence) / 2.0;
     let at_most = |n: u64, mean: f64| chi_squared::upper_tail(2.0 * mean, 2 * n as usize + 2);
@@ -32,7 +31,8 @@ pub fn interval(count: u64, confidence: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// Closed forms: none at all, −ln ε; one, 1 − e^{−μ} = ε. Published limits of Garwood for 10: 4.795, 18.39.
+    /// Closed forms: −ln ε for no events, and 1 − e^{−μ} = ε for one. Garwood's published limits for 10 events:
+    /// 4.795 and 18.39.
     #[test]
     fn values() {
         let (low, high) = interval(0, 0.95);
@@ -47,7 +47,7 @@ mod tests {
         );
     }
 
-    /// Summed over every count that matters, the coverage is never below the confidence.
+    /// The coverage, summed over all counts of relevant probability, is never below the confidence.
     #[test]
     fn covers() {
         let intervals: Vec<(f64, f64)> = (0..200).map(|count| interval(count, 0.9)).collect();

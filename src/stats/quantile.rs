@@ -1,15 +1,15 @@
-//! Quantiles by order statistics [^1], with intervals that hold for every law.
+//! Quantiles by order statistics [^1], with distribution-free intervals.
 //!
 //! Of n independent values K are at most the quantile ξ_p, and K ~ Binomial(n, p) where the law is continuous. So
-//! P(ξ_p < x₍l₎) = P(K < l) and P(ξ_p ≥ x₍u₎) = P(K ≥ u), and l is the largest and u the smallest place for which
-//! these are at most half of what is left to the confidence. Ties only raise the coverage. Values may be
-//! infinite: what never came to pass took longer than anything.
+//! P(ξ_p < x₍l₎) = P(K < l) and P(ξ_p ≥ x₍u₎) = P(K ≥ u), and l is the largest and u the smallest rank for which
+//! these are at most (1 − confidence)/2. Ties only raise the coverage. Values may be infinite: the delay of an
+//! event that never happened is +∞.
 //!
 //! [^1]: H. A. David, H. N. Nagaraja, "Order Statistics", 3rd ed., 2003, section 7.1.
 
 use crate::stats::binomial::critical_count;
 
-/// A quantile and its interval, infinite where no order statistic would do.
+/// A quantile and its interval, infinite where no order statistic gives a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantile {
     /// x₍⌈np⌉₎.
@@ -21,8 +21,8 @@ pub struct Quantile {
 }
 
 impl Quantile {
-    /// The quantile `p` in (0, 1) of ascending values, each with how many are at most that; from nothing
-    /// follows nothing.
+    /// The quantile `p` in (0, 1) of ascending values, each with the number of values up to it. For no
+    /// values the estimate is +∞ and the interval (−∞, ∞).
     pub fn of(ascending: &[(f64, u64)], p: f64, confidence: f64) -> Self {
         let n = ascending.last().map_or(0, |(_, number)| *number);
         let tail = (1.0 - confidence) / 2.0;
@@ -48,7 +48,7 @@ mod tests {
     use super::*;
     use crate::stats::binomial::mass;
 
-    /// Against sums of the binomial law, place by place: the interval covers, and each end is the nearest that does.
+    /// Against sums of the binomial law, rank by rank: the interval covers, and no narrower one does.
     #[test]
     fn the_narrowest_places_that_cover() {
         for n in [1u64, 5, 6, 20, 59, 200] {
@@ -70,7 +70,7 @@ mod tests {
         }
     }
 
-    /// Of six values the extremes hold the median with 96.9 %, and nothing does with 97 %.
+    /// The extremes of six values contain the median with 96.9 % confidence; no interval does with 97 %.
     #[test]
     fn a_textbook_case() {
         let values = [1.0, 2.0, 3.0, 4.0, 5.0, f64::INFINITY];

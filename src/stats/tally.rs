@@ -1,9 +1,9 @@
-//! Counts that add, and what may be concluded from them: the exact binomial interval [^1], the
-//! number of trials that a wanted half-width takes, and a one-sided test with Holm's correction [^2].
+//! Binomial counts and inference from them: the exact interval [^1], the number of trials for a given
+//! half-width, and a one-sided test with Holm's correction [^2].
 //!
 //! Counts are stored and rates derived. The interval of Clopper and Pearson covers the true
-//! probability with at least its confidence for every n and p; the number of trials is fixed
-//! before a run, which is what makes that true.
+//! probability with at least its confidence for every n and p, because the number of trials is fixed
+//! before a run.
 //!
 //! [^1]: C. Clopper, E. Pearson, "The use of confidence or fiducial limits", Biometrika 26, 1934.
 //! [^2]: S. Holm, "A simple sequentially rejective multiple test procedure", 1979.
@@ -11,13 +11,13 @@
 use crate::stats::binomial;
 use crate::stats::bisect::bisect;
 
-/// More trials than anyone can run; the exact tails take time that grows with their root.
+/// More trials than are practical; the time of the exact tails grows with the square root of their number.
 pub const MOST_TRIALS: u64 = 100_000_000_000;
 
-/// How often something happened in a number of independent trials.
+/// The number of hits in a number of independent trials.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
-    /// Times it happened (k).
+    /// Hits (k).
     pub hits: u64,
     /// Trials (n).
     pub trials: u64,
@@ -29,7 +29,7 @@ impl Tally {
         self.hits as f64 / self.trials as f64
     }
 
-    /// The two-sided Clopper–Pearson interval for the probability behind the rate.
+    /// The two-sided Clopper–Pearson interval for the probability of a hit.
     pub fn interval(self, confidence: f64) -> (f64, f64) {
         let (k, n) = (self.hits, self.trials);
         let tail = (1.0 - confidence) / 2.0;
@@ -68,7 +68,7 @@ pub fn power_against(truth: f64, nominal: f64, level: f64, trials: u64) -> f64 {
     binomial::upper_tail(critical, trials, truth)
 }
 
-/// The smallest number of trials whose interval is nowhere wider than ± `half_width`: an interval
+/// The smallest number of trials whose interval is at most ± `half_width` at every rate. The interval
 /// is widest at a rate of one half.
 pub fn trials_for_half_width(half_width: f64, confidence: f64) -> u64 {
     let wide = |trials: u64| {

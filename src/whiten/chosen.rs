@@ -1,4 +1,4 @@
-//! A filter of the order that a record of rest asks for, and one of an order that is given.
+//! A filter whose order is chosen on a record of rest, and one of a given order.
 
 use super::fit::Fitter;
 use super::normal_equations::covariances;
@@ -6,10 +6,10 @@ use super::order::SAMPLES_PER_COEFFICIENT;
 use super::schwarz::{Schwarz, is_constant};
 use super::{Fit, Whitening};
 
-/// The filter of the order that a record asks for.
+/// A filter whose order was chosen on its record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chosen {
-    /// a_1 … a_m; none where the record looks white.
+    /// a_1 … a_m; empty if the record looks white.
     pub coefficients: Vec<f64>,
     /// The criterion of each order from 0 on.
     pub criteria: Vec<f64>,
@@ -26,18 +26,18 @@ pub enum OrderError {
     TooShort {
         /// The highest order.
         most: usize,
-        /// What it needs.
+        /// The samples needed.
         needed: usize,
-        /// What there is.
+        /// The samples available.
         samples: usize,
     },
 }
 
 impl Chosen {
-    /// The best of the orders 0 … `most` for this record of rest, its coefficients by `fit`.
+    /// Chooses among the orders 0 … `most` for this record of rest and fits the coefficients by `by`.
     ///
     /// # Errors
-    /// Where the record has fewer than five samples per coefficient of the highest order.
+    /// If the record has fewer than five samples per coefficient of the highest order.
     pub fn new(record: &[f64], most: usize, by: Fit) -> Result<Self, OrderError> {
         let needed = SAMPLES_PER_COEFFICIENT * most.max(1);
         if record.len() < needed {
@@ -47,7 +47,7 @@ impl Chosen {
                 samples: record.len(),
             });
         }
-        // The mean of equal samples may miss them by a rounding, which is no noise to whiten.
+        // Rounding may separate equal samples from their mean, and that difference is not noise to whiten.
         let mean = if is_constant(record.iter()) {
             record[0]
         } else {
@@ -68,8 +68,8 @@ impl Chosen {
     }
 }
 
-/// a_1 … a_m of the filter of order `order` for this record of rest; none of order 0. The record must be long
-/// enough for the fit.
+/// a_1 … a_m of the filter of order `order` for this record of rest; empty for order 0. The record must be
+/// long enough for the fit.
 pub fn coefficients(record: &[f64], order: usize, by: Fit) -> Vec<f64> {
     if order == 0 {
         return Vec::new();
@@ -89,8 +89,8 @@ mod tests {
         tests::record(ar, samples, 2014, index)
     }
 
-    /// Filters run over the common samples: none leaves less than the criterion says, and the one fitted to
-    /// these samples no more, but for the mean of the few before them: 0.01 of some hundreds here.
+    /// Filters run over the common samples: no filter leaves less than the criterion says, and the one fitted to
+    /// these samples leaves no more, up to the mean of the few samples before them: 0.01 of some hundreds here.
     #[test]
     fn criteria_are_those_of_fitted_filters() {
         let record = record(&[0.6, -0.3], 300, 0);
@@ -121,8 +121,8 @@ mod tests {
         );
     }
 
-    /// The true order is found in 95 % of records or more: at 95 % exactly, as few hits as this bound lets
-    /// through happen once in three million, three times.
+    /// The true order is found in at least 95 % of records: at exactly 95 %, each of the three checks fails with
+    /// probability 3e-7.
     #[test]
     fn finds_the_order() {
         let (trials, samples) = (300, 1000);

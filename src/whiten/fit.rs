@@ -14,12 +14,12 @@ pub struct Fitter<V: Value = f64> {
     whitening: Whitening,
     coefficients: Vec<V>,
     products: Vec<V>,
-    /// Where each trial chooses its order.
+    /// The choice of order, if each trial makes one.
     choice: Option<Schwarz>,
     solver: Solver,
 }
 
-/// Solves for one trial after the other.
+/// Solves for the coefficients of one trial at a time.
 #[derive(Clone, Debug)]
 struct Solver {
     coefficients: Vec<f64>,
@@ -112,7 +112,7 @@ impl Solver {
         solve_normal_equations(&mut self.normal, &mut self.scratch, &mut self.coefficients);
     }
 
-    /// The same from the record in `forward`: products of a higher order leave out its first samples.
+    /// The same from the record in `forward`, since products for a higher order leave out its first samples.
     fn least_squares_of_record(&mut self) {
         let order = self.coefficients.len();
         covariances(&self.forward, 0.0, order, &mut self.normal);
@@ -176,7 +176,7 @@ fn extend(coefficients: &mut [f64], scratch: &mut [f64], m: usize, reflection: f
     coefficients[m] = reflection;
 }
 
-/// Σ x_i in four sums that need not wait for each other.
+/// Σ x_i in four independent sums, so that additions can overlap.
 #[inline(always)]
 fn sum<V: Value>(x: &[V]) -> V {
     let (fours, rest) = x.as_chunks::<4>();

@@ -94,29 +94,29 @@ pub enum WhiteningError {
         fit: Fit,
         /// Its order.
         order: usize,
-        /// What it needs.
+        /// The samples needed.
         needed: usize,
-        /// What it was given.
+        /// The samples given.
         training: usize,
     },
-    /// The training record is too short for a choice between a coefficient and none.
+    /// The training record is too short to choose an order.
     #[error(
         "training: order = \"auto\" needs at least {needed} samples, got {training} \
          (raise training or give order a number)"
     )]
     TooShortToChoose {
-        /// What it needs.
+        /// The samples needed.
         needed: usize,
-        /// What it was given.
+        /// The samples given.
         training: usize,
     },
-    /// A choice among filters that are not fitted.
+    /// An automatic order without a fit.
     #[error(
         "order: \"auto\" chooses among fitted filters, got fit = \"{0}\" \
          (give order a number or fit the filter)"
     )]
     NothingToChoose(Fit),
-    /// A known filter that cannot hold the sensor's coefficients.
+    /// A known filter with too few coefficients for the sensor.
     #[error(
         "order: the known filter of this sensor has order {sensor}, got {order} \
          (raise order to {sensor} or fit the filter)"
@@ -130,7 +130,7 @@ pub enum WhiteningError {
 }
 
 impl WhiteningError {
-    /// The keys that may be to blame, the likeliest first.
+    /// The keys to change, the likeliest cause first.
     pub fn keys(&self) -> &'static [&'static str] {
         match self {
             Self::NoOrder => &["whitening.order"],
@@ -149,8 +149,8 @@ impl Whitening {
     /// A known filter of a sensor of order `sensor_order` has no training.
     ///
     /// # Errors
-    /// Where the order is zero, the training too short for the fit or the choice of an order, the known
-    /// filter too short for the sensor, or there is no fit to choose the order of.
+    /// If the order is zero, the training is too short for the fit or for choosing an order, the known filter is
+    /// too short for the sensor, or an order is to be chosen without a fit.
     pub fn new(
         order: impl Into<Order>,
         fit: Fit,
@@ -167,10 +167,10 @@ impl Whitening {
         whitening.checked(sensor_order)
     }
 
-    /// The same, its parts checked against each other and against a sensor of order `sensor_order`.
+    /// Checks the parts against each other and against a sensor of order `sensor_order`.
     ///
     /// # Errors
-    /// As [`Whitening::new`].
+    /// Same as [`Whitening::new`].
     pub fn checked(self, sensor_order: usize) -> Result<Self, WhiteningError> {
         match self.order {
             Order::Fixed(order) => self.check_order(order, sensor_order)?,
@@ -223,22 +223,22 @@ impl Whitening {
         Ok(())
     }
 
-    /// m, or that it is chosen.
+    /// The order m, or `auto`.
     pub fn order(&self) -> Order {
         self.order
     }
 
-    /// The most coefficients that its filter can have: m where that is given.
+    /// The most coefficients that its filter can have: m if it is given.
     pub fn highest_order(&self) -> usize {
         self.order.highest(self.training)
     }
 
-    /// Where the coefficients come from.
+    /// The method of the fit.
     pub fn fit(&self) -> Fit {
         self.fit
     }
 
-    /// Samples of rest the coefficients are fitted to; none for a known filter.
+    /// Samples of rest the coefficients are fitted to; 0 for a known filter.
     pub fn training(&self) -> usize {
         self.training
     }
@@ -248,7 +248,7 @@ impl Whitening {
         self.includes_reference
     }
 
-    /// How many samples a record must have before X.
+    /// The number of samples needed before X.
     pub fn lead(&self) -> usize {
         self.training.max(self.highest_order())
     }
@@ -264,13 +264,13 @@ pub fn step<V: Value>(coefficients: &[V], past: &[V], sample: V) -> V {
     rest
 }
 
-/// Whitens `record[start..]` into `whitened`; what precedes the record counts as zero. The same as one
-/// [`step`] after the other, but one coefficient after the other, over all samples at once.
+/// Whitens `record[start..]` into `whitened`; samples before the record count as zero. The result is that of
+/// [`step`] at each sample, computed coefficient by coefficient over all samples.
 pub fn whiten(coefficients: &[f64], record: &[f64], start: usize, whitened: &mut [f64]) {
     let length = whitened.len().min(record.len() - start);
     whitened[..length].copy_from_slice(&record[start..start + length]);
     for (back, a) in (1..).zip(coefficients) {
-        // What lies before the record has no part in the first samples.
+        // The first samples get nothing from before the record.
         let missing = length.min(back - back.min(start));
         let past = &record[start + missing - back.min(start + missing)..];
         for (y, r) in whitened[missing..length].iter_mut().zip(past) {

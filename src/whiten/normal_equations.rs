@@ -4,7 +4,7 @@
 use crate::simd::Value;
 use std::ops::Range;
 
-/// Σ (x_i − mean)(x_{i−lag} − mean) over `range`, in four sums that need not wait for each other.
+/// Σ (x_i − mean)(x_{i−lag} − mean) over `range`, in four independent sums, so that additions can overlap.
 #[inline(always)]
 pub fn lagged_product<V: Value>(x: &[V], mean: V, lag: usize, range: Range<usize>) -> V {
     let late = &x[range.clone()];
@@ -42,8 +42,8 @@ pub fn covariances<V: Value>(x: &[V], mean: V, order: usize, products: &mut [V])
 }
 
 /// Solves Σ_k c_jk a_k = c_j0 for j, k = 1…m by elimination in place. The matrix is positive
-/// semidefinite, so no row needs exchanging; a pivot that rounding has swallowed (below 1e-14 of
-/// what stood there) drops its coefficient.
+/// semidefinite, so no pivoting is needed; a pivot lost to rounding (below 1e-14 of its original
+/// diagonal element) sets its coefficient to zero.
 pub fn solve_normal_equations(normal: &mut [f64], diagonal: &mut [f64], solution: &mut [f64]) {
     let order = solution.len();
     let at = |row: usize, column: usize| row * (order + 1) + column;

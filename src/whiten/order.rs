@@ -1,4 +1,4 @@
-//! How many coefficients a filter has: a number, or `"auto"`.
+//! The order of a filter: a number, or `"auto"`.
 //!
 //! `"auto"` chooses for each record of rest among the orders from 0 to 8, and no more than one for every five
 //! samples, as [`Chosen`](super::Chosen) does. Of 4000 records of 256 samples from a sensor of order 2 it gives
@@ -9,12 +9,12 @@ use serde::de::{Deserializer, Error, Unexpected, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 use std::fmt;
 
-/// How many coefficients a filter has.
+/// The order of a filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
     /// m.
     Fixed(usize),
-    /// As many as each record of rest asks for.
+    /// Chosen for each record of rest.
     Auto,
 }
 
@@ -32,15 +32,15 @@ impl schemars::JsonSchema for Order {
     }
 }
 
-/// Samples for each coefficient of the highest order, below which the likelihood ratio is far from its
-/// limit law and the criterion adds coefficients as it likes.
+/// Samples for each coefficient of the highest order. With fewer, the likelihood ratio is far from its limit
+/// law and the criterion adds useless coefficients.
 pub(super) const SAMPLES_PER_COEFFICIENT: usize = 5;
 
 /// The highest order that [`Order::Auto`] tries.
 pub const MOST_ORDER: usize = 8;
 
 impl Order {
-    /// The most coefficients that a filter fitted to so many samples can have.
+    /// The most coefficients of a filter fitted to `samples` samples.
     pub fn highest(self, samples: usize) -> usize {
         match self {
             Self::Fixed(order) => order,
@@ -104,7 +104,7 @@ impl Visitor<'_> for OrderVisitor {
         }
     }
 
-    // States that were saved before `"auto"` had a name.
+    // Saved states used to write `null` for `"auto"`.
     fn visit_unit<E: Error>(self) -> Result<Order, E> {
         Ok(Order::Auto)
     }

@@ -1,14 +1,14 @@
-//! What colour a filter has left: the portmanteau test of Ljung and Box [^1].
+//! The portmanteau test of Ljung and Box [^1] for residual colour after a filter.
 //!
 //! Q = n(n + 2) Σ_{k=1}^{h} ρ_k²/(n − k) over the correlations of n residuals of a filter of order m is
-//! nearly χ² with h − m degrees of freedom where they are white. Many lags dilute a lack of fit, few miss it,
-//! and the law needs n ≫ h: h = m + 20 here, and a fifth of the residuals at most.
+//! nearly χ² with h − m degrees of freedom if they are white. Many lags dilute a lack of fit, few miss it,
+//! and the law needs n ≫ h. Here h = m + 20, and at most a fifth of the residuals.
 //!
 //! [^1]: G. M. Ljung, G. E. P. Box, "On a measure of lack of fit in time series models", Biometrika 65, 1978.
 
 use crate::stats::chi_squared;
 
-/// The statistic of some residuals and what it says.
+/// The result of the test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LjungBox {
     /// h.
@@ -17,7 +17,7 @@ pub struct LjungBox {
     pub degrees: usize,
     /// Q.
     pub statistic: f64,
-    /// The probability of a Q as large of white residuals.
+    /// The probability of a Q at least as large for white residuals.
     pub p_value: f64,
 }
 
@@ -49,7 +49,7 @@ impl LjungBox {
     /// Tests residuals of a filter of order `order`, by as many lags as their number allows.
     ///
     /// # Errors
-    /// Where a fifth of the residuals is no more than the order, or all are equal.
+    /// If the order is at least a fifth of the number of residuals, or all residuals are equal.
     pub fn of_residuals(residuals: &[f64], order: usize) -> Result<Self, PortmanteauError> {
         let lags = (order + LAGS_BEYOND_ORDER).min(residuals.len() / 5);
         Self::new(residuals, order, lags)
@@ -58,7 +58,7 @@ impl LjungBox {
     /// Tests residuals of a filter of order `order` by their first `lags` correlations.
     ///
     /// # Errors
-    /// Where `lags` is not between the order and the number of residuals, or all residuals are equal.
+    /// If `lags` is not between the order and the number of residuals, or all residuals are equal.
     pub fn new(residuals: &[f64], order: usize, lags: usize) -> Result<Self, PortmanteauError> {
         let length = residuals.len();
         if !(lags > order && lags < length) {
@@ -106,7 +106,7 @@ mod tests {
         tests::record(ar, samples, 2015, index)
     }
 
-    /// Tests what a filter with these coefficients, fitted to this record, leaves of it.
+    /// Tests the residuals of a record whitened by a filter with these coefficients.
     fn of_filter(coefficients: &[f64], record: &[f64]) -> Result<LjungBox, PortmanteauError> {
         let order = coefficients.len();
         let mut residuals = vec![0.0; record.len().saturating_sub(order)];
@@ -138,8 +138,8 @@ mod tests {
         )
     }
 
-    /// White residuals, and those of a filter of the right order: both as if χ² were exact at n = 2000,
-    /// false failures 1e-6 by that.
+    /// White residuals, and those of a filter of the right order. If χ² were exact at n = 2000, each check would
+    /// fail with probability 1e-6.
     #[test]
     fn holds_its_level() {
         let n = 2000;

@@ -1,12 +1,12 @@
-//! The order of the filter by Schwarz's criterion [^1]: the m that makes n ln σ̂²_m + m ln n least.
+//! The order of the filter by Schwarz's criterion (BIC) [^1]: the m that minimises n ln σ̂²_m + m ln n.
 //!
 //! σ̂²_m is the mean square error of the least-squares filter of order m over the samples from the highest
-//! order on, the same n for every order, so that the criteria can be compared: one matrix of products serves
-//! all, order m has its leading block. The filter of the chosen order is then fitted to the whole record as
-//! anywhere else. Order 0 is a filter without coefficients, which changes nothing.
+//! order on, the same n for every order, so that the criteria can be compared. One matrix of products serves
+//! all orders: order m uses its leading block. The filter of the chosen order is then fitted to the whole
+//! record. Order 0 is a filter without coefficients, which changes nothing.
 //!
-//! On a record of white noise a useless coefficient is let in where its likelihood ratio, χ²₁, exceeds
-//! ln n: in 1 % of records of 1000 samples.
+//! On white noise a useless coefficient is accepted if its likelihood ratio, χ²₁, exceeds ln n: in 1 % of
+//! records of 1000 samples.
 //!
 //! [^1]: G. Schwarz, "Estimating the dimension of a model", Ann. Statist. 6, 1978.
 
@@ -17,7 +17,7 @@ use libm::log;
 /// Chooses the order of one record after the other, without allocating.
 #[derive(Clone, Debug)]
 pub(super) struct Schwarz {
-    /// c_jk for j, k = 0 … the highest order, row by row: to be filled in.
+    /// c_jk for j, k = 0 … the highest order, row by row; to be set before [`Schwarz::order`].
     pub products: Vec<f64>,
     /// Samples that every order is compared on.
     samples: f64,
@@ -42,9 +42,9 @@ impl Schwarz {
         }
     }
 
-    /// The order that the record of the trial in `lane` asks for.
+    /// Chooses the order for the record of the trial in `lane`.
     pub fn order_in<V: Value>(&mut self, lane: usize, record: &[V], products: &[V]) -> usize {
-        // Around the mean of equal samples there may be roundings, which are no noise to whiten.
+        // Rounding may separate equal samples from their mean, and that difference is not noise to whiten.
         if is_constant(record.iter().map(|x| &x.lanes()[lane])) {
             return 0;
         }
@@ -54,7 +54,7 @@ impl Schwarz {
         self.order()
     }
 
-    /// The order that the products ask for, the lowest of equals.
+    /// Chooses the order by the products, the lowest in a tie.
     pub fn order(&mut self) -> usize {
         let mut best = 0;
         for order in 0..self.criteria.len() {
@@ -74,6 +74,7 @@ impl Schwarz {
     /// c_00 − Σ a_k c_0k of the filter of order `order`, which the leading block of the products determines.
     fn residual_energy(&mut self, order: usize) -> f64 {
         let rows = self.products.chunks(self.criteria.len()).take(order + 1);
+        // The solver works in place, so it gets a copy of the block.
         self.block.clear();
         self.block.extend(rows.flat_map(|row| &row[..=order]));
         let coefficients = &mut self.coefficients[..order];
@@ -81,7 +82,7 @@ impl Schwarz {
         let explained: f64 = (coefficients.iter().zip(&self.products[1..]))
             .map(|(a, c)| *a * c)
             .sum();
-        // Where nothing is left, rounding may have taken more.
+        // Rounding may make the residual of a perfect fit negative.
         (self.products[0] - explained).max(0.0)
     }
 }

@@ -1,5 +1,5 @@
-//! Every bad input: exit 2, one message that says where, what was got and what to do, no panic, and
-//! nothing left behind.
+//! Every bad input: exit 2, one message with the place, the value and the remedy, no panic, and no files left
+//! behind.
 
 use super::{liftsim, outcome};
 use std::fmt::Write;
@@ -7,7 +7,7 @@ use std::fs;
 
 pub const GOOD: &str = "question = \"?\"\nseed = 1\ntrials = 10\n";
 
-/// What the message is about, and the rest of a config that earns it.
+/// The subject of each message, and the rest of the config that causes it.
 pub const CONFIGS: &[(&str, &str)] = &[
     ("unknown key", "trails = 5\n[axis]\ndelta = [1.0]\n"),
     (
@@ -89,7 +89,7 @@ pub const CONFIGS: &[(&str, &str)] = &[
     ),
     ("order of 0", "[axis]\norder = [0, 2]\n"),
     (
-        "an order that is none",
+        "an invalid order",
         "[axis]\ndelta = [1.0]\n[whitening]\norder = \"many\"\n",
     ),
     (
@@ -413,7 +413,7 @@ pub const CONFIGS: &[(&str, &str)] = &[
     ),
 ];
 
-/// What a sweep of each config says, after its exit code and what it leaves behind are checked.
+/// The messages of a sweep of each config, after checks of its exit code and of files left behind.
 fn messages(configs: &[(&str, &str)], good: impl Fn(&str) -> String) -> String {
     let directory = tempfile::tempdir().unwrap();
     let mut messages = String::new();
@@ -433,7 +433,7 @@ fn messages(configs: &[(&str, &str)], good: impl Fn(&str) -> String) -> String {
 
 #[test]
 fn configs() {
-    // A half-width stands in the place of the number of trials.
+    // A half-width replaces the number of trials.
     let good = |rest: &str| match rest.starts_with("half_width = 0.0000") {
         true => GOOD.replace("trials = 10\n", ""),
         false => GOOD.to_owned(),
@@ -441,7 +441,7 @@ fn configs() {
     insta::assert_snapshot!("configs", messages(CONFIGS, good));
 }
 
-/// Drawings that repeat nothing and so have no trials.
+/// Studies without trials.
 const DRAWINGS: &[(&str, &str)] = &[
     ("no phases", "[trace]\nphases = []\n"),
     ("an unknown phase", "[trace]\nphases = [{ resting = 5 }]\n"),
@@ -535,7 +535,7 @@ const DRAWINGS: &[(&str, &str)] = &[
     ),
 ];
 
-/// Tables of rides that are wrong in their own ways.
+/// Wrong tables of rides.
 pub const RIDES: &[(&str, &str)] = &[
     ("no measure", "[ride.axis]\nrate = [100]\n"),
     (
@@ -687,8 +687,7 @@ fn missing_keys() {
     insta::assert_snapshot!("missing_keys", messages);
 }
 
-/// What the command line and the file system can do wrong. Messages of the system itself are not
-/// part of the snapshot.
+/// Errors of the command line and the file system. Messages of the system itself are not part of the snapshot.
 #[test]
 fn arguments_and_places() {
     let directory = tempfile::tempdir().unwrap();

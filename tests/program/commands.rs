@@ -1,4 +1,4 @@
-//! What else users type.
+//! Other commands.
 
 use super::survival::{Bench, TINY};
 use super::{liftsim, outcome, project};
@@ -30,7 +30,7 @@ fn threshold_prints_a_table() {
     insta::assert_snapshot!("threshold", run(&SIZES));
 }
 
-/// JSON says the same as the table, and every rule and alternative has a region.
+/// JSON and the table agree, and every rule and alternative has a region.
 #[test]
 fn threshold_prints_json() {
     for rule in ["wilcoxon", "product", "disjunction", "conjunction"] {
@@ -60,7 +60,7 @@ fn threshold_draws_the_plane() {
     let draw = [&SIZES[..], &["--figure", path.to_str().unwrap()]].concat();
     run(&draw);
     assert!(fs::read(&path).unwrap().starts_with(b"\x89PNG"));
-    // What is there is not replaced unasked.
+    // Existing files are not replaced without --force.
     fs::write(&path, "old").unwrap();
     let (code, _, err) = outcome(liftsim().args(&draw));
     assert_eq!(code, 2);
@@ -70,7 +70,7 @@ fn threshold_draws_the_plane() {
     assert!(fs::read(&path).unwrap().starts_with(b"\x89PNG"));
 }
 
-/// The largest sizes that are promised.
+/// The largest supported sizes.
 #[test]
 fn threshold_at_large_sizes() {
     let sizes = ["--reference", "200", "--shift", "200", "--scale", "200"];
@@ -78,7 +78,7 @@ fn threshold_at_large_sizes() {
     assert!(out.contains("exact size 0.00"), "{out}");
 }
 
-/// What would take more than there is, is refused before it is paid for: in an address space of 200 MB.
+/// Sizes that need too much memory are refused before any is allocated: in an address space of 200 MB.
 #[cfg(target_os = "linux")]
 #[test]
 fn huge_sizes_are_refused_at_once() {
@@ -127,7 +127,7 @@ fn huge_sizes_are_refused_at_once() {
     }
 }
 
-/// Whatever is typed, no message repeats more than 200 characters of it.
+/// No message repeats more than 200 characters of any input.
 #[test]
 fn messages_repeat_little_of_what_was_typed() {
     let long = "x".repeat(100_000);
@@ -260,7 +260,7 @@ fn completions_and_manual() {
     }
 }
 
-/// A reader that has seen enough is no error.
+/// A reader that closes the pipe early is not an error.
 #[test]
 fn closed_pipe_is_no_error() {
     let program = assert_cmd::cargo::cargo_bin("liftsim");
@@ -276,7 +276,7 @@ fn closed_pipe_is_no_error() {
     assert!(String::from_utf8_lossy(&output.stdout).ends_with("\n0\n"));
 }
 
-/// What is wrong in a text is said before anything runs, with every name that would do.
+/// Errors in a text are reported before anything runs, with the known names.
 #[test]
 fn an_unknown_label_in_a_text_names_every_curve() {
     let bench = Bench::new(&format!("text = \"D is {{rate:TYPO@1.0}}.\"{TINY}"));
@@ -286,7 +286,7 @@ fn an_unknown_label_in_a_text_names_every_curve() {
     assert!(err.contains(sentence), "{err}");
 }
 
-/// The experiment that the README shows is one, and all its links lead somewhere.
+/// The experiment in the README runs, and all its links have targets.
 #[test]
 fn the_readme_is_right() {
     let readme = fs::read_to_string(project().join("README.md")).unwrap();

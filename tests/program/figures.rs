@@ -76,7 +76,7 @@ fn read(place: &Path, name: &str) -> String {
     fs::read_to_string(place.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// What became of an experiment, as the table says.
+/// The outcome of an experiment in the table.
 fn note<'a>(out: &'a str, name: &str) -> &'a str {
     let line = out.lines().find(|line| line.starts_with(name));
     line.unwrap_or_else(|| panic!("{name}: {out}"))
@@ -119,13 +119,13 @@ fn complete_results_are_skipped() {
     run(elsewhere.path(), &[]);
     assert_eq!(read(elsewhere.path(), "results/README.md"), report);
     assert!(!report.contains(place.path().to_str().unwrap()));
-    // Simulated afresh they are the same again.
+    // A new simulation gives the same again.
     let out = run(place.path(), &["--fresh", "--only", "power"]);
     assert_eq!(note(&out, "power"), "unchanged");
 }
 
-/// Every number with an interval in the report stands in a CSV beside it. (A gain is computed from
-/// the rows, and has no row of its own.)
+/// Every number with an interval in the report is in a CSV beside it. (A gain is computed from the rows and
+/// has no row of its own.)
 #[test]
 fn numbers_come_from_the_files() {
     let place = workshop();
@@ -134,7 +134,7 @@ fn numbers_come_from_the_files() {
     assert!(numbers_found(&place.path().join("results"), &report, "They cost decibels") >= 9);
 }
 
-/// The same of the report that is committed, but for the crossings that gains are measured between.
+/// The same for the committed report, except for the crossings of gains.
 #[test]
 fn numbers_of_the_committed_report_come_from_the_files() {
     let results = project().join("results");
@@ -142,8 +142,8 @@ fn numbers_of_the_committed_report_come_from_the_files() {
     assert!(numbers_found(&results, &report, " reaches 0.9 at ") > 150);
 }
 
-/// How many numbers with intervals a report holds, each of which must be in a result file; lines with
-/// `apart` in them are left out.
+/// The number of intervals in a report, each of which must be in a result file; lines with `apart` are left
+/// out.
 fn numbers_found(results: &Path, report: &str, apart: &str) -> usize {
     let mut known = BTreeSet::new();
     for entry in fs::read_dir(results).unwrap() {
@@ -189,7 +189,7 @@ fn numbers_found(results: &Path, report: &str, apart: &str) -> usize {
     found
 }
 
-/// `--only` runs one; the report waits for the others, and then says what it says of all.
+/// `--only` runs one experiment; the report is written once all are complete.
 #[test]
 fn only_one() {
     let (place, all) = (workshop(), workshop());
@@ -209,7 +209,7 @@ fn only_one() {
     assert_eq!(report(place.path()), report(all.path()));
 }
 
-/// Words are drawn anew from the stored counts; a claim about other points, or another seed, is not.
+/// Changed words need no simulation; a claim about other points, or another seed, does.
 #[test]
 fn changes_cost_what_they_must() {
     let place = workshop();
@@ -225,7 +225,7 @@ fn changes_cost_what_they_must() {
     };
     assert_eq!(change("title = \"Power\"", "title = \"Might\""), "redrawn");
     assert!(read(place.path(), "results/README.md").contains("## Might"));
-    // Another level makes other intervals from the same counts.
+    // Another level gives other intervals from the same counts.
     let comparisons = read(place.path(), "results/power/comparisons.csv");
     assert_eq!(
         change("margin = 0.05", "margin = 0.04\nlevel = 0.05"),
@@ -242,21 +242,21 @@ fn changes_cost_what_they_must() {
         read(place.path(), "results/power/points.csv"),
         points.replace("loud", "noisy")
     );
-    // These points have not been compared before: their counts are made again, and come out the same.
+    // These points have not been compared before: they are counted again, with the same result.
     let pair = "first = \"quiet\", second = \"noisy\"";
     let swapped = "first = \"noisy\", second = \"quiet\"";
     assert_eq!(change(pair, swapped), "written");
     assert_eq!(change("seed = 5", "seed = 6"), "written");
     let manifest = read(place.path(), "results/power/run.json");
     assert!(manifest.contains("--seed 6"), "{manifest}");
-    // Without claims nothing is compared, and nothing stays behind.
+    // Without claims nothing is compared, and no file of comparisons is left.
     let text = fs::read_to_string(&config).unwrap();
     fs::write(&config, text.split("[[claim]]").next().unwrap()).unwrap();
     assert_eq!(note(&run(place.path(), &[]), "power"), "redrawn");
     assert!(!place.path().join("results/power/comparisons.csv").exists());
 }
 
-/// A damaged, missing or shortened file is made again, whatever it is.
+/// Any damaged, missing or shortened file is made again.
 #[test]
 fn damaged_results_are_rebuilt() {
     let place = workshop();
@@ -282,7 +282,7 @@ fn damaged_results_are_rebuilt() {
     assert_eq!(read(place.path(), "results/README.md"), report);
 }
 
-/// What cannot be done is refused before the first trial, and nothing is lost.
+/// Errors are reported before the first trial, and no results are lost.
 #[test]
 fn refusals() {
     let place = workshop();
@@ -310,7 +310,7 @@ fn refusals() {
     );
     fs::write(place.path().join("configs/bad.toml"), "question = \"?\"\n").unwrap();
     refused(&[], "bad.toml");
-    // A broken neighbour keeps the report, not the one asked for.
+    // A broken config prevents the report, but not the experiment asked for.
     let (code, _, err) = figures(place.path(), &["--only", "power"]);
     assert!(
         code == 0 && err.contains("no complete results of bad"),

@@ -1,4 +1,4 @@
-//! The gate passes where the level holds, and fails or abstains where it must.
+//! The gate passes if the level holds, and fails or is inconclusive otherwise.
 
 use super::{config, liftsim, outcome};
 

@@ -1,4 +1,4 @@
-//! The reference of keys and the schema are those of the types that read a config.
+//! The reference of keys and the schema match the types that read a config.
 
 use super::bad_input::{CONFIGS, GOOD, RIDES};
 use super::{liftsim, outcome, project};
@@ -55,7 +55,8 @@ fn every_shipped_config_names_the_schema_and_keeps_it() {
     assert!(configs > 30);
 }
 
-/// What the schema lets pass of what the program refuses: rules between values, which no schema has.
+/// Configs that the schema accepts and the program refuses: they break rules between values, which a schema
+/// cannot express.
 #[test]
 fn broken_configs_are_refused_where_a_schema_can() {
     let validator = validator();

@@ -28,7 +28,7 @@ fn project() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// A config of the tests' own.
+/// A config of the tests.
 fn config(name: &str) -> PathBuf {
     project().join("tests/program/configs").join(name)
 }

@@ -59,7 +59,7 @@ fn sweep(directory: &Path, out: &str, threads: &str, vectors: &str) -> String {
     fs::read_to_string(directory.join(out).join("points.csv")).unwrap()
 }
 
-/// The same bytes on 1, 2 and 7 threads and at every width of vectors, with and without shared noise.
+/// The same bytes on 1, 2 and 7 threads and at every vector width, with and without shared noise.
 #[test]
 fn counts_are_the_same_on_any_machine() {
     for shared in ["", "common_random_numbers = false\n"] {
@@ -74,7 +74,7 @@ fn counts_are_the_same_on_any_machine() {
     }
 }
 
-/// Rows say `auto` and are read again: a finished sweep simulates nothing, and its picture is drawn anew.
+/// Rows with `auto` can be read: a finished sweep simulates nothing, and its picture is drawn again.
 #[test]
 fn rows_say_auto() {
     let directory = tempfile::tempdir().unwrap();

@@ -1,5 +1,5 @@
 //! `liftsim detect` and `liftsim monitor`: the rides of a recording, the same from a pipe; and every bad input:
-//! exit 2, a message that says where, what was got and what to do, no panic, and nothing left behind.
+//! exit 2, a message with the place, the value and the remedy, no panic, and no files left behind.
 
 use super::{liftsim, outcome};
 use serde_json::Value;
@@ -28,7 +28,7 @@ fn monitor(directory: &Path, arguments: &[&str], input: impl Into<Vec<u8>>) -> S
     outcome(&mut command)
 }
 
-/// What must go well, without a word of warning.
+/// Runs a command that must succeed without warnings.
 fn well((code, out, err): Said) -> String {
     assert_eq!((code, err.as_str()), (0, ""), "{out}");
     out
@@ -49,7 +49,7 @@ fn found(directory: &Path, arguments: &[&str]) -> Value {
     serde_json::from_str(&out).unwrap()
 }
 
-/// The times and the vertical acceleration of `ride.csv`, as they are written there.
+/// The times and the vertical acceleration of `ride.csv`, as written there.
 fn rows(directory: &Path) -> Vec<(String, String)> {
     let text = fs::read_to_string(directory.join("ride.csv")).unwrap();
     let row = |line: &str| {
@@ -59,7 +59,7 @@ fn rows(directory: &Path) -> Vec<(String, String)> {
     text.lines().skip(1).map(row).collect()
 }
 
-/// The same as lines, their cells parted by `separator`.
+/// The same as lines with cells separated by `separator`.
 fn lines(directory: &Path, separator: &str) -> String {
     let line = |(time, acceleration)| format!("{time}{separator}{acceleration}\n");
     rows(directory).into_iter().map(line).collect()
@@ -115,7 +115,7 @@ fn writes_csv_and_pictures() {
     );
     let rides = fs::read_to_string(path("rides.csv")).unwrap();
     assert_eq!(rides.lines().count(), 3, "{rides}");
-    // What is there is not replaced unasked, and nothing else is then written.
+    // Existing files are not replaced without --force, and then nothing else is written.
     for (flag, name) in [
         ("--csv", "rides.csv"),
         ("--figure", "ride.png"),
@@ -132,7 +132,7 @@ fn writes_csv_and_pictures() {
         directory.path(),
         &[&["ride.csv", "--force"], &outputs[..]].concat(),
     ));
-    // No rides are a table too.
+    // Without rides there is an empty table.
     let still = recorded(&["--still"]);
     let along_z = ["ride.csv", "--axis", "z", "--csv", "rides.csv"];
     well(detect(still.path(), &along_z));
@@ -140,8 +140,7 @@ fn writes_csv_and_pictures() {
     assert_eq!(Some(none.trim_end()), rides.lines().next());
 }
 
-/// The monitor says what the detection found, from the same knowledge and the same samples, however their
-/// cells are parted.
+/// The monitor reports what `detect` finds, from the same knowledge and samples, with any separator.
 #[test]
 fn the_monitor_says_the_same() {
     let directory = recorded(&[]);
@@ -169,7 +168,7 @@ fn the_monitor_says_the_same() {
             assert_eq!(found["events"], expected["events"], "{separator:?}");
         }
     }
-    // How a record begins is known of that record alone.
+    // The beginning of a record is known only for that record.
     let input = lines(path, ",");
     let said = |input: &str| objects(&well(monitor(path, &["--state", "lift.json"], input)));
     assert_eq!(said(&input)[1..], events[..]);
@@ -221,7 +220,7 @@ fn slack_is_an_alarm() {
     );
 }
 
-/// Where nobody listens any more, the monitor ends in peace.
+/// If its output is closed, the monitor ends without an error.
 #[test]
 fn a_closed_pipe_ends_the_monitor() {
     let directory = recorded(&[]);
@@ -248,7 +247,7 @@ fn a_closed_pipe_ends_the_monitor() {
     assert_eq!((output.status.code(), output.stderr.len()), (Some(0), 0));
 }
 
-/// Five million samples leave no trace in memory.
+/// Memory does not grow with five million samples.
 #[cfg(target_os = "linux")]
 #[test]
 fn memory_stays_constant() {
@@ -278,7 +277,7 @@ fn memory_stays_constant() {
 
 const NO_TABLE: &[u8] = b"PK\x05\x06\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0";
 
-/// What the message is about, the recording, and further arguments.
+/// The subject of each message, the recording, and further arguments.
 const RECORDINGS: &[(&str, &[u8], &[&str])] = &[
     ("an empty file", b"", &[]),
     ("a header only", b"time,acc\n", &[]),
@@ -379,7 +378,7 @@ const RECORDINGS: &[(&str, &[u8], &[&str])] = &[
     ),
 ];
 
-/// Adds a refusal to what is read aloud, after its exit code and what it leaves behind are checked.
+/// Adds a refusal to the snapshot, after checks of its exit code and of files left behind.
 fn note(messages: &mut String, about: &str, (code, out, err): Said) {
     assert_eq!(code, 2, "{about}: {err}{out}");
     assert!(
@@ -422,7 +421,7 @@ fn bad_recordings() {
     insta::assert_snapshot!("recordings", messages);
 }
 
-/// What can be read, and should not be believed unseen.
+/// Recordings that are read with a warning.
 #[test]
 fn warnings() {
     let directory = recorded(&[]);
@@ -453,10 +452,10 @@ fn warnings() {
     fs::write(path.join("counts.csv"), raised).unwrap();
     let (code, _, err) = detect(path, &["counts.csv"]);
     assert_eq!(code, 0);
-    assert!(err.contains("in which unit are the readings?"), "{err}");
+    assert!(err.contains("give the unit with --unit"), "{err}");
 }
 
-/// What the message is about, what comes through the pipe, and further arguments.
+/// The subject of each message, the input from the pipe, and further arguments.
 const PIPES: &[(&str, &str, &[&str])] = &[
     ("nothing", "", &[]),
     ("nothing at a rate", "", &["--rate", "100"]),
@@ -481,7 +480,7 @@ const PIPES: &[(&str, &str, &[&str])] = &[
         &["--rate", "100"],
     ),
     (
-        "a drum that is not told",
+        "a missing drum",
         "9.8,1\n9.8\n",
         &["--rate", "100", "--expected-moving"],
     ),
@@ -524,7 +523,7 @@ fn bad_pipes() {
     insta::assert_snapshot!("pipes", messages);
 }
 
-/// Lines that cannot be read are passed over where that is asked for, with a word on each.
+/// Unreadable lines are skipped on request, with a warning for each.
 #[test]
 fn keeps_going() {
     let directory = recorded(&[]);
@@ -541,7 +540,7 @@ fn keeps_going() {
     insta::assert_snapshot!("passed_over", err);
 }
 
-/// Warnings are best effort: where nobody can read them, the work goes on.
+/// Warnings are best effort: if standard error is closed, the work continues.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_standard_error_stops_nothing() {
@@ -567,6 +566,6 @@ fn a_full_standard_error_stops_nothing() {
     let text = "question = \"?\"\nseed = 1\ntrials = 10\n[axis]\ndelta = [1]\n";
     fs::write(path.join("small.toml"), text).unwrap();
     assert_eq!(run("sweep small.toml --out small --json").0, Some(0));
-    // What cannot be used is refused as ever, if without a word.
+    // Unusable input is still refused, though without a message.
     assert_eq!(run("sweep nowhere.toml").0, Some(2));
 }

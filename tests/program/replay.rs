@@ -1,4 +1,4 @@
-//! `liftsim replay`: one trial laid open.
+//! `liftsim replay`: every stage of one trial.
 
 use super::{liftsim, outcome};
 use std::collections::BTreeMap;

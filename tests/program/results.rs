@@ -1,4 +1,4 @@
-//! Same config, same seed: same bytes, whatever the threads, the clock or the place.
+//! The same config and seed give the same bytes, whatever the threads, the clock or the directory.
 
 use super::{liftsim, outcome, project};
 use std::fs;
@@ -80,7 +80,7 @@ fn plot_draws_the_same_picture_from_the_counts() {
     }
 }
 
-/// More trials extend a result, labels do not matter, anything else is refused.
+/// More trials extend a result, labels do not matter, and any other change is refused.
 #[test]
 fn results_of_another_experiment_are_kept() {
     let directory = tempfile::tempdir().unwrap();
@@ -131,7 +131,7 @@ fn results_of_another_experiment_are_kept() {
     assert!(read(directory.path(), "points.csv") != before);
 }
 
-/// The committed results are those of the committed configs, each of them, and no others.
+/// Every committed config has its committed results, and there are no others.
 #[test]
 fn manifests_vouch_for_the_files_beside_them() {
     let mut stems: Vec<String> = fs::read_dir(project().join("configs"))

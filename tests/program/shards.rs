@@ -1,4 +1,4 @@
-//! Many machines, one result.
+//! Shards on many machines give one result.
 
 use super::survival::{Bench, STUDIES, TINY};
 use liftsim::counts::Counts;
@@ -18,7 +18,7 @@ fn shard(bench: &Bench, number: u64, count: u64, more: &[&str]) -> String {
     out
 }
 
-/// In any number, joined in any order; a shard leaves its counts and nothing else.
+/// Any number of shards can be merged in any order; a shard leaves only its counts.
 #[test]
 fn shards_merge_to_the_same_bytes() {
     let bench = Bench::new(TINY);
@@ -44,7 +44,7 @@ fn shards_merge_to_the_same_bytes() {
     }
 }
 
-/// The same of every study that counts trials.
+/// The same for every study that counts trials.
 #[test]
 fn shards_of_studies_merge_to_the_same_bytes() {
     for study in STUDIES {
@@ -70,7 +70,7 @@ fn shards_of_studies_merge_to_the_same_bytes() {
     }
 }
 
-/// By default shards lie below the experiment's place, and `merge` and `status` find theirs.
+/// By default shards are below the experiment's directory, and `merge` and `status` find them.
 #[test]
 fn shards_have_their_places() {
     let bench = Bench::new(TINY);
@@ -132,7 +132,7 @@ fn shards_that_do_not_go_together_are_named() {
     refused(&[&a, "nowhere"], &["nowhere", "no counts.json"]);
 }
 
-/// Shards are checked one by one: what none of them can have counted might add up to what all of them can.
+/// Shards are checked one by one, since impossible counts of single shards might add up to possible ones.
 #[test]
 fn shards_that_cannot_be_are_refused() {
     let bench = Bench::new(TINY);
@@ -180,7 +180,7 @@ fn shards_that_cannot_be_are_refused() {
             "trials 2048 to 2048 are of another shard",
         ],
     );
-    // Fewer than the trials of both shards, more than those of the one.
+    // Fewer than the trials of both shards, more than those of one.
     let many = |counter: &mut Value| {
         let counts = counter["sums"]["counts"].as_array_mut().unwrap();
         counts.iter_mut().for_each(|count| *count = json!(1025));
@@ -214,7 +214,7 @@ fn shards_that_cannot_be_are_refused() {
     );
 }
 
-/// What a shard says of its file is what has become of it.
+/// A shard reports correctly whether it has written its file.
 #[test]
 fn a_shard_says_whether_its_counts_are_new() {
     for text in [TINY, STUDIES[3]] {
@@ -238,15 +238,15 @@ fn a_shard_says_whether_its_counts_are_new() {
         bench.write(&text.replace("question = \"", "question = \"Really? "));
         says("24", "1/1", "written");
         says("24", "1/1", "unchanged");
-        // A share of no trials has a file all the same.
+        // A shard without trials has a file too.
         std::fs::remove_file(bench.path("out/counts.json")).unwrap();
         says("1", "1/3", "written");
         says("1", "1/3", "unchanged");
     }
 }
 
-/// A finished shard learns new words; one that lacks a pair is not finished; and few counts are not put in the
-/// place of many.
+/// A finished shard takes changed words; one that lacks a pair is not finished; and a shard of fewer trials does
+/// not replace one of more.
 #[test]
 fn shards_follow_their_config() {
     let bench = Bench::new(TINY);
@@ -264,7 +264,7 @@ fn shards_follow_their_config() {
     assert!(bench.path("new/points.csv").exists() && !bench.path("new/counts.json").exists());
 }
 
-/// Trials that nobody has are named, and a sweep there does them.
+/// Missing trials are listed, and a sweep in the directory runs them.
 #[test]
 fn missing_shards_are_named() {
     let bench = Bench::new(TINY);
@@ -282,7 +282,7 @@ fn missing_shards_are_named() {
     assert!(bench.files("out") == bench.files("whole"));
 }
 
-/// Prints how many shards are checked and joined in a second: those of Fig. 6, 156 points and 180 pairs each.
+/// Prints how many shards are checked and merged per second: those of Fig. 6, 156 points and 180 pairs each.
 #[test]
 fn merge_is_linear() {
     let bench = Bench::new(&std::fs::read_to_string("configs/fig6.toml").unwrap());

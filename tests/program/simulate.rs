@@ -20,7 +20,7 @@ fn refused(flags: &[&str]) -> String {
     err
 }
 
-/// The ride that the README begins with: the same bytes on every machine, which are those of the defaults.
+/// The ride of the README: the same bytes on every machine, equal to those of the defaults.
 #[test]
 fn the_ride_of_the_readme() {
     let directory = tempfile::tempdir().unwrap();
@@ -43,7 +43,7 @@ fn the_ride_of_the_readme() {
     assert!(read("default.csv") == read("ride.csv"));
 }
 
-/// Flags go over the config, and what is wrong in the config is shown there.
+/// Flags override the config, and errors in the config point into it.
 #[test]
 fn a_config_is_read_strictly() {
     let directory = tempfile::tempdir().unwrap();
@@ -99,7 +99,7 @@ fn replaces_nothing_unasked() {
     assert_ne!(fs::read(directory.path().join("ride.csv")).unwrap(), first);
 }
 
-/// A link in the way is not followed, and a disk that fills up leaves the old files whole and nothing else.
+/// Links are not followed, and a full disk leaves the old files whole and no others.
 #[cfg(unix)]
 #[test]
 fn files_are_replaced_whole_or_not_at_all() {

@@ -1,4 +1,4 @@
-//! Experiments that are no sweep, run, drawn again, kept from each other.
+//! Studies other than sweeps: run, drawn again, and kept apart.
 
 use super::{liftsim, outcome, project};
 use liftsim::results::{Directory, sha256};
@@ -41,7 +41,7 @@ fn sweep(name: &str, out: &Path, arguments: &[&str]) -> (i32, String, String) {
     outcome(command.args(arguments))
 }
 
-/// Every file that `run.json` vouches for.
+/// Every file listed in `run.json`.
 fn files(directory: &Path) -> BTreeMap<String, Vec<u8>> {
     let manifest = Directory::new(directory).manifest().unwrap();
     let mut files = BTreeMap::new();
@@ -147,7 +147,7 @@ fn results_of_another_study_are_kept() {
     assert_eq!(sweep("fig5", directory.path(), &["--fresh"]).0, 0);
 }
 
-/// A sweep's directory is kept from another study too.
+/// A sweep's directory is not given to another study either.
 #[test]
 fn results_of_a_sweep_are_kept_from_another_study() {
     let directory = tempfile::tempdir().unwrap();
@@ -160,7 +160,7 @@ fn results_of_a_sweep_are_kept_from_another_study() {
     );
 }
 
-/// A verb that needs a sweep says so; so does one that is given too few trials.
+/// A command that needs a sweep says so, and so does one with too few trials.
 #[test]
 fn verbs_that_need_a_sweep() {
     let (code, out, err) = outcome(liftsim().args(["check", "configs/fig5.toml"]));
@@ -193,7 +193,7 @@ fn studies_are_planned() {
     }
 }
 
-/// Rows that were changed by hand are not drawn.
+/// Rows changed by hand are not drawn.
 #[test]
 fn changed_rows_are_not_drawn() {
     let directory = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! A run that ends however it ends goes on where it stopped, and comes to the same bytes.
+//! A run that was interrupted in any way continues where it stopped and gives the same bytes.
 
 use super::{liftsim, outcome};
 use liftsim::results::{Checkpoint, Directory, sha256};
@@ -38,7 +38,7 @@ claim = "D grows"
 test = { grows = { curves = ["laplace"] } }
 "#;
 
-/// One small config of each study that counts trials, apart from sweeps.
+/// One small config of each study that counts trials, except sweeps.
 pub const STUDIES: [&str; 4] = [
     "question = \"?\"\nseed = 3\ntrials = 400\n[autocorrelation]\nlags = 5\nlength = 300\n",
     "question = \"?\"\nseed = 3\ntrials = 9000\n[impulse_law]\nnu = [0.1, 0.3]\nlength = 20\n",
@@ -71,7 +71,7 @@ impl Bench {
         outcome(liftsim().current_dir(self.0.path()).args(arguments))
     }
 
-    /// Sweeps into `out`; how many trial-points were simulated.
+    /// Sweeps into `out`; returns the number of trial-points simulated.
     pub fn sweep(&self, out: &str, more: &[&str]) -> u64 {
         let arguments = [&["sweep", "tiny.toml", "--json", "--out", out], more].concat();
         let (code, _, err) = self.run(&arguments);
@@ -81,7 +81,7 @@ impl Bench {
         first["total"].as_u64().unwrap()
     }
 
-    /// Starts a sweep and leaves it to itself.
+    /// Starts a sweep in the background.
     pub fn start(&self, out: &str, more: &[&str]) -> Child {
         Command::new(assert_cmd::cargo::cargo_bin("liftsim"))
             .current_dir(self.0.path())
@@ -94,7 +94,7 @@ impl Bench {
             .unwrap()
     }
 
-    /// All that does not tell how it came about.
+    /// The result files, except the record of the run itself.
     pub fn files(&self, out: &str) -> BTreeMap<String, Vec<u8>> {
         let names = self.names(out).into_iter();
         names
@@ -110,7 +110,7 @@ impl Bench {
     }
 }
 
-/// Waits until a run has got somewhere; a run that ends before has failed.
+/// Waits until a run has made progress; a run that ends before has failed.
 fn wait_until(child: &mut Child, has_happened: impl Fn() -> bool) {
     while !has_happened() {
         let ended = child.try_wait().unwrap();
@@ -126,9 +126,9 @@ fn signal(child: &Child, name: &str) {
     assert!(sent.unwrap().success());
 }
 
-/// Kills that come in time, spread over the whole of a run; after each the same command. How long a run takes
-/// changes with what else the machine does, so the instants follow it: a kill that comes too late makes those after it
-/// earlier, one before the first save makes them later.
+/// Kills spread over a whole run, each followed by the same command. The duration of a run depends on the load
+/// of the machine, so the times adapt: a kill that comes too late makes the next ones earlier, one before the
+/// first save makes them later.
 fn kill_and_go_on(text: &str, enough: u32) {
     let most_attempts = 40 * enough;
     let bench = Bench::new(text);
@@ -182,8 +182,8 @@ fn a_killed_study_comes_to_the_same_bytes() {
     }
 }
 
-/// A result that is only to be drawn anew, and whose run ends between the first file and the manifest that
-/// vouches for it: here because no file may grow beyond what the counts need and the picture does not.
+/// A result that only needs to be drawn again, and whose run ends between the first file and the manifest: here
+/// because of a limit on file size that the counts keep and the picture exceeds.
 #[test]
 fn an_interrupted_redraw_loses_nothing() {
     let bench = Bench::new(TINY);
@@ -212,7 +212,7 @@ fn an_interrupted_redraw_loses_nothing() {
     assert_eq!(bench.names("out"), bench.names("fresh"));
 }
 
-/// What is there is not simulated again, and what is added comes to the bytes of a run of its own.
+/// Existing counts are not simulated again, and an extended result has the bytes of a single run.
 #[test]
 fn only_what_is_missing_is_simulated() {
     let bench = Bench::new(TINY);
@@ -330,10 +330,10 @@ fn damaged_counts_are_refused() {
     assert!(bench.run(&["status", "out"]).1.contains("finished"));
 }
 
-/// Hours of work, on any machine.
+/// A run of hours, on any machine.
 const LONG: [&str; 2] = ["--trials", "100000000000"];
 
-/// One run at a time; a signal stops it in order, and the same command goes on.
+/// One run at a time; a signal stops it cleanly, and the same command continues.
 #[test]
 fn a_stopped_run_says_how_to_go_on() {
     let bench = Bench::new(TINY);
@@ -385,7 +385,7 @@ impl Drop for Disk<'_> {
     }
 }
 
-/// Nothing that was saved is lost, and nothing is counted twice.
+/// On a full disk no saved counts are lost, and nothing is counted twice.
 #[test]
 fn a_full_or_read_only_disk_is_a_clear_error() {
     let bench = Bench::new(TINY);
@@ -395,7 +395,7 @@ fn a_full_or_read_only_disk_is_a_clear_error() {
     };
     let mut child = bench.start("disk/out", &LONG);
     wait_until(&mut child, || place.join("out/counts.json").exists());
-    // As much as there is room for.
+    // Fill the disk.
     while fs::write(place.join("filler"), vec![0; 96 << 10]).is_ok() {}
     let output = child.wait_with_output().unwrap();
     let err = String::from_utf8(output.stderr).unwrap();
@@ -441,7 +441,7 @@ fn a_full_or_read_only_disk_is_a_clear_error() {
     assert_eq!(child.wait_with_output().unwrap().status.code(), Some(130));
 }
 
-/// Counts that cannot have been counted are refused, though their hash is right.
+/// Impossible counts are refused, even if their hash is right.
 #[test]
 fn impossible_counts_are_refused() {
     let bench = Bench::new(TINY);
@@ -456,7 +456,7 @@ fn impossible_counts_are_refused() {
         let text = state.to_string();
         let json = match serde_json::from_str::<Checkpoint>(&text) {
             Ok(state) => state.to_json(),
-            // What cannot even be read is written by hand.
+            // Counts that cannot even be represented are written by hand.
             Err(_) => format!("{{\"sha256\":\"\",\"checkpoint\":{text}}}").into_bytes(),
         };
         fs::write(bench.path("out/counts.json"), json).unwrap();
@@ -494,8 +494,8 @@ fn impossible_counts_are_refused() {
     refused(&lonely, "at one of them alone");
 }
 
-/// The same of rides, whose numbers must agree with each other; and a file of few bytes that says that there are many
-/// delays takes no more memory than they do.
+/// The same for rides, whose numbers must be consistent; and a small file that claims many delays takes little
+/// memory.
 #[test]
 fn impossible_rides_are_refused() {
     let bench = Bench::new(STUDIES[3]);
@@ -557,7 +557,7 @@ fn impossible_rides_are_refused() {
     }
 }
 
-/// A row with more detections than trials is refused, though the manifest vouches for it.
+/// A row with more detections than trials is refused, even if the manifest has its hash.
 #[test]
 fn impossible_rows_are_refused() {
     let bench = Bench::new(TINY);
@@ -581,7 +581,7 @@ fn impossible_rows_are_refused() {
     assert!(err.contains("3001 detections in 3000 trials"), "{err}");
 }
 
-/// Counts are written before anything is drawn, and what cannot be drawn is refused before anything is counted.
+/// Counts are written before anything is drawn, and a config that cannot be drawn is refused before counting.
 #[test]
 fn what_cannot_be_drawn_loses_no_counts() {
     let mut text = TINY.split("[[curve]]").next().unwrap().to_owned();
@@ -597,7 +597,7 @@ fn what_cannot_be_drawn_loses_no_counts() {
     assert!(!bench.path("results").exists());
 }
 
-/// Sizes are checked before they are paid for.
+/// Sizes are checked before memory is allocated.
 #[test]
 fn what_nobody_could_wait_for_is_refused() {
     let head = "question = \"?\"\nseed = 1\n[axis]\n";

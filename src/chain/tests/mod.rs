@@ -51,9 +51,9 @@ fn auto(fit: Fit, training: usize, includes_reference: bool) -> Whitening {
     Whitening::new(Order::Auto, fit, training, includes_reference, 2).unwrap()
 }
 
-/// Points that exercise every part of the layout, all different, some sharing their noise. Steps
-/// are not so coarse that the fitted coefficients become simple fractions: then different records
-/// whiten to equal values, and rounding decides their order in either chain.
+/// Points that exercise every part of the layout, all different, some sharing their noise. Quantisation
+/// steps are fine enough that the fitted coefficients are not simple fractions: otherwise different records
+/// would whiten to equal values, and rounding would decide their order in either chain.
 fn scenarios() -> Vec<Scenario> {
     let plain = Samples::contiguous(12, 12, 12).unwrap();
     let spread = Samples::new(9, 7, 8, 3, 2).unwrap();
@@ -204,7 +204,7 @@ fn refuses_a_record_that_does_not_fit() {
     assert!(refusal.to_string().contains("GB"), "{refusal}");
 }
 
-/// What a point counts does not depend on where it stands, with shared noise or without.
+/// The counts of a point do not depend on its position in the list, with shared noise or without.
 #[test]
 fn counts_do_not_depend_on_the_order_of_points() {
     for common_random_numbers in [true, false] {
@@ -246,8 +246,8 @@ fn purposes_draw_apart() {
     assert_eq!(first.len(), streams);
 }
 
-/// The clairvoyant of the chain against its definition on the same draws: Δ · the whitened shape and θ ·
-/// impulses that start where they are said to, here with the first sample of Y₂.
+/// The clairvoyant of the chain against its definition on the same draws: Δ · the whitened shape, and θ ·
+/// impulses that start at the stated sample, here the first of Y₂.
 #[test]
 fn clairvoyant_sees_the_stated_motion() {
     let samples = Samples::contiguous(4, 3, 2).unwrap();

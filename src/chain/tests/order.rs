@@ -36,7 +36,7 @@ fn scenarios(fit: Fit) -> Vec<Scenario> {
     ]
 }
 
-/// Every trial is that of a filter of the order which a criterion written anew asks for.
+/// Every trial equals that of a filter of the order chosen by an independent criterion.
 #[test]
 fn a_trial_is_that_of_the_order_it_chooses() {
     let mut chosen = [0; 9];
@@ -48,7 +48,7 @@ fn a_trial_is_that_of_the_order_it_chooses() {
                 let order = naive_order(training);
                 chosen[order] += 1;
                 let mut fixed = scenario.clone();
-                // A filter of order 0 is none.
+                // Order 0 means no filter.
                 let (coefficients, fit) = if order == 0 {
                     (1, Fit::None)
                 } else {
@@ -101,8 +101,8 @@ fn finds_the_order_of_the_sensor() {
     assert!(p > 3e-7);
 }
 
-/// The level holds at 256 samples of training: at a true rate of α, more false alarms than this happen once in
-/// a million, two times.
+/// The level holds at 256 samples of training: at a true rate of α, each of the two checks fails with
+/// probability 1e-6.
 #[test]
 fn keeps_the_level() {
     let orders = [

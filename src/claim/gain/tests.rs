@@ -1,4 +1,4 @@
-//! Gains of made-up curves, and the truth in their brackets.
+//! Gains of constructed curves, and the coverage of their brackets.
 
 use super::*;
 use crate::claim::{Axis, Outcome, Scope, judge as judge_claim};
@@ -13,7 +13,7 @@ fn claim(from: f64) -> Claim {
     .unwrap()
 }
 
-/// What two curves on these values show, whose powers are these functions of Δ.
+/// The results of two curves on these values whose powers are these functions of Δ.
 fn evidence(values: &[f64], trials: u64, powers: [&dyn Fn(f64) -> f64; 2]) -> Evidence {
     let outcomes = ["a", "b"]
         .into_iter()
@@ -80,7 +80,7 @@ fn within_the_axis() {
 }
 
 /// A curve that never reaches the power needs more than Δ = 2: over it a gains at least
-/// 20 lg(2/0.6) = 10.46 dB, and that is all that is known. Two such curves say nothing.
+/// 20 lg(2/0.6) = 10.46 dB, and only this bound is known. Two such curves give no bound.
 #[test]
 fn beyond_the_axis() {
     assert_eq!(verdict([1.0, 0.1], 10.0), Verdict::Holds);
@@ -99,8 +99,8 @@ fn beyond_the_axis() {
 }
 
 /// On a short axis, for crossings below its first value, inside, beyond its last and close to either end,
-/// of either curve: the interval has the truth in it, an end is open where a curve leaves it open, and no
-/// verdict is wrong.
+/// of either curve: the interval contains the truth, an end is open if a curve leaves it open, and no verdict
+/// is wrong.
 #[test]
 fn the_truth_is_never_refuted() {
     let values: Vec<f64> = (6..=12).map(|step| f64::from(step) / 20.0).collect();

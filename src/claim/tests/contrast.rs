@@ -8,17 +8,17 @@ const EXCEEDS: &str = "{ exceeds = { first = \"a\", second = \"b\" } }";
 fn exceeds_verdicts() {
     let verdict = |intervals: [(f64, f64); 4]| verdict(EXCEEDS, &intervals);
     assert_eq!(verdict([FLAT, UP, UP, FLAT]), Verdict::Holds);
-    // Neighbours make a range, a lone value none; a wrong run would join across the fall.
+    // Only neighbours make a range; a wrong one would join values across the fall.
     assert_eq!(verdict([UP, DOWN, UP, UP]), holds_where("Δ/σ_ξ in [1, 2]"));
     assert_eq!(verdict([UP, DOWN, UP, DOWN]), Verdict::DoesNotHold);
     assert_eq!(verdict([FLAT; 4]), Verdict::DoesNotHold);
     assert_eq!(verdict([DOWN, FLAT, WIDE, FLAT]), Verdict::DoesNotHold);
     assert_eq!(verdict([WIDE, FLAT, FLAT, FLAT]), Verdict::Undecided);
-    // Somewhere above, elsewhere perhaps below: not yet.
+    // Above at some values, undetermined at another.
     assert_eq!(verdict([UP, WIDE, UP, UP]), Verdict::Undecided);
-    // Above or equal, whichever, is not below.
+    // Not below is enough at values that are not clearly above.
     assert_eq!(verdict([UP, (0.001, 0.1), UP, UP]), Verdict::Holds);
-    // What is sure to be no more than the margin is no superiority.
+    // Differences shown to be within the margin refute superiority.
     assert_eq!(verdict([(-0.1, MARGIN); 4]), Verdict::DoesNotHold);
 }
 

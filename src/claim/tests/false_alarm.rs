@@ -14,7 +14,7 @@ fn false_alarm_verdicts() {
     let n = 200_000;
     let verdict = |trials, hits| false_alarms(trials, hits, "\"alpha_held\"").verdict;
     assert_eq!(verdict(n, [2000, 1990]), Verdict::Holds);
-    // Half again too many in one curve: a counter-example, whatever the other does.
+    // Fifty percent too many in one curve: a counter-example, whatever the other shows.
     assert_eq!(verdict(n, [3000, 1990]), Verdict::DoesNotHold);
     let evidence = false_alarms(n, [3000, 1990], "\"alpha_held\"").evidence;
     assert!(
@@ -22,12 +22,12 @@ fn false_alarm_verdicts() {
         "{evidence}"
     );
     assert_eq!(verdict(n, [3000, 3000]), Verdict::DoesNotHold);
-    // Few trials cannot exclude 1.2 α; to call that held would be to look at a picture.
+    // Few trials cannot exclude 1.2 α, so the claim is undecided.
     assert_eq!(verdict(2_000, [20, 20]), Verdict::Undecided);
     // Only the rows of the curves named count.
     let one = "{ alpha_held = { curves = [\"b\"] } }";
     assert_eq!(false_alarms(n, [3000, 1990], one).verdict, Verdict::Holds);
-    // A narrower excess takes more trials.
+    // A smaller excess needs more trials.
     let strict = "{ alpha_held = { excess = 1.01 } }";
     assert_eq!(
         false_alarms(n, [2000, 2000], strict).verdict,
@@ -35,8 +35,8 @@ fn false_alarm_verdicts() {
     );
 }
 
-/// At the boundary of rejection Holm's first step is half of level/2 for two rows; half the level as it is
-/// would reject more, and so break the family-wise promise.
+/// At the boundary of rejection: Holm's first step is half of level/2 for two rows. Half the full level would
+/// reject more and break the family-wise level.
 #[test]
 fn false_alarm_boundary() {
     let (trials, level) = (200_000, 0.001);
@@ -51,7 +51,7 @@ fn false_alarm_boundary() {
     assert_eq!(verdict(critical), Verdict::DoesNotHold);
 }
 
-/// Where the sweep of two curves has rows at rest for each of four rules or sizes, held by some.
+/// The verdict on a sweep of two curves along this axis with these false alarms.
 fn held_along(axis: &str, hits: [[u64; 3]; 2]) -> Judgement {
     let text = format!(
         "question = \"?\"\nseed = 1\n[impulses]\nnu = 0.0\n[axis]\n{axis}\n[[curve]]\nlabel = \"a\"\n\
@@ -91,7 +91,7 @@ fn false_alarms_along_an_axis() {
     );
 }
 
-/// A rate of 1.08 α passes in enough trials: the words of the rule must not promise more.
+/// A rate of 1.08 α passes in enough trials, so the words of the rule must not promise α.
 #[test]
 fn false_alarms_in_words() {
     // 1040 of 100 000 is 1.04 α, p = 0.1; its upper limit is 0.0115.

@@ -32,7 +32,7 @@ fn growth_compares_later_with_earlier() {
     }
 }
 
-/// Where nothing moves the points at rest are compared, also those that another curve has first.
+/// Without motion the points at rest are compared, including those that an earlier curve shares.
 #[test]
 fn pairs_at_rest() {
     let text = "question = \"?\"\nseed = 1\n[impulses]\nnu = 0.0\n[axis]\ntraining = [64, 128]\n\
@@ -45,9 +45,9 @@ fn pairs_at_rest() {
     let found: Vec<_> = (pairs.iter())
         .map(|pair| (pair.claim, pair.first, pair.second))
         .collect();
-    assert_eq!(plan.points.len(), 2, "θ is no difference at rest");
+    assert_eq!(plan.points.len(), 2, "θ makes no difference at rest");
     assert_eq!(found, [(0, 0, 0), (0, 1, 1), (1, 1, 0), (1, 1, 0)]);
-    // A point is as often right as itself: its difference from itself is nought in every trial.
+    // The difference of a point from itself is 0 in every trial.
     let tally = Tally {
         hits: 5_000,
         trials: 10_000,
@@ -89,13 +89,13 @@ fn level_is_shared_within_a_claim() {
 #[test]
 fn growth_verdicts() {
     assert_eq!(growth(GROWING), Verdict::Holds);
-    // A fall is named away, range by range: one that loses ranges would say "a" alone.
+    // The ranges leave out the fall.
     let fallen = [UP, DOWN, UP, UP];
     let places = "\"a\"; \"b\": Δ/σ_ξ in [0, 0.5], Δ/σ_ξ in [1, 2]";
     assert_eq!(growth(fallen), holds_where(places));
-    // Flat steps add up to no growth, so there is no range to name: the curve is a counter-example.
+    // Flat steps do not add up to growth, so there is no range, and the curve is a counter-example.
     assert_eq!(growth([FLAT, DOWN, FLAT, DOWN]), Verdict::DoesNotHold);
-    // A curve that is flat over all refutes growth without a single fall.
+    // A curve that is flat overall refutes growth without a single fall.
     let flat = judged("\"grows\"", &[GROWING, [FLAT; 4]].concat());
     assert_eq!(flat.verdict, Verdict::DoesNotHold);
     assert!(
@@ -103,12 +103,12 @@ fn growth_verdicts() {
             .ends_with("; 1 of 2 curves is a counter-example"),
         "{flat:?}"
     );
-    // One step that is not sure, or growth that is not: more trials, not a verdict.
+    // An uncertain step or uncertain growth leaves the claim undecided.
     assert_eq!(growth([UP, WIDE, UP, UP]), Verdict::Undecided);
     assert_eq!(growth([FLAT, FLAT, FLAT, WIDE]), Verdict::Undecided);
 }
 
-/// A fall everywhere, or a fall and no growth, refutes; "undecided" would spare a false claim.
+/// A fall everywhere, or a fall without growth, refutes the claim; "undecided" would be wrong.
 #[test]
 fn growth_refuted() {
     let both = |curve: [(f64, f64); 4]| verdict("\"grows\"", &[curve, curve].concat());
@@ -118,8 +118,8 @@ fn growth_refuted() {
     assert_eq!(verdict("\"grows\"", &mixed), Verdict::DoesNotHold);
 }
 
-/// At the margin itself: a step may reach −margin, a rise must pass +margin, a fall must pass −margin.
-/// A strict sign in the place of a weak one shows here.
+/// At the margin itself: a step may reach −margin, a rise must pass +margin, a fall must pass −margin. The
+/// test distinguishes < from ≤.
 #[test]
 fn growth_boundaries() {
     let step = |low: f64| growth([UP, (low, 0.1), UP, UP]);
@@ -153,7 +153,7 @@ fn growth_between_two_values() {
         judgement.how.contains("1 paired comparison,"),
         "{judgement:?}"
     );
-    // Comparisons of another claim say nothing here.
+    // Comparisons of another claim do not count.
     let of_second = comparisons
         .into_iter()
         .map(|c| Comparison { claim: 2, ..c });

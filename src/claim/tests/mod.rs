@@ -1,4 +1,4 @@
-//! Every verdict of every test on made-up results, and the boundaries between verdicts.
+//! Every verdict of every test on constructed results, and the boundaries between verdicts.
 
 use super::*;
 use crate::experiment::SweepConfig;
@@ -106,7 +106,7 @@ fn quantity_verdicts() {
     assert_eq!(verdict(1.01, 1.1, "to = 1"), Verdict::DoesNotHold);
     assert_eq!(verdict(-1.0, -0.1, "from = 0"), Verdict::DoesNotHold);
     assert_eq!(verdict(5.0, 9.0, "from = 0"), Verdict::Holds);
-    // An open side says nothing: the other decides, or nothing does.
+    // With an open side only the other side can decide.
     let (down, up) = (f64::NEG_INFINITY, f64::INFINITY);
     assert_eq!(verdict(2.0, up, "from = 1"), Verdict::Holds);
     assert_eq!(verdict(2.0, up, "from = 1, to = 3"), Verdict::Undecided);
@@ -116,7 +116,7 @@ fn quantity_verdicts() {
     assert_eq!(verdict(down, 2.0, "from = 3"), Verdict::DoesNotHold);
 }
 
-/// What is missing is said, not judged.
+/// Missing results give an error, not a verdict.
 #[test]
 fn evidence_that_is_missing() {
     let missing = |test: &str, rows: &[Row]| {
@@ -133,7 +133,7 @@ fn evidence_that_is_missing() {
     assert!(missing(quantity, &[]).contains("`largest`: not among the results, which have none"));
 }
 
-/// Digits follow the interval; nought has no sign.
+/// The number of digits follows the interval; zero has no sign.
 #[test]
 fn numbers_in_words() {
     use super::words::{exact, interval};

@@ -1,4 +1,4 @@
-//! The values of Δ that crossings are counted at, and where among them two lines cross.
+//! The grid of values of Δ, and where two lines cross on it.
 
 use crate::simd::{Wide, least};
 
@@ -9,7 +9,7 @@ pub(super) struct Grid {
     pub even: Option<Even>,
 }
 
-/// Values in equal steps.
+/// A grid of equal steps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Even {
     pub start: f64,
@@ -37,7 +37,8 @@ impl Grid {
         }
     }
 
-    /// The first Δ from which on Δ · `closing` exceeds `ahead`, and how near to it that comes at any Δ.
+    /// The index of the first Δ from `ahead` / `closing` on, and the smallest |Δ · `closing` − `ahead`| on the
+    /// grid.
     #[inline(always)]
     pub fn cross<const N: usize>(&self, ahead: Wide<N>, closing: Wide<N>) -> ([u32; N], Wide<N>) {
         match self.even {
@@ -65,11 +66,12 @@ impl Even {
     pub fn cross<const N: usize>(&self, ahead: Wide<N>, closing: Wide<N>) -> ([u32; N], Wide<N>) {
         let (start, step) = (Wide::all(self.start), Wide::all(self.step));
         let place = self.clamp((ahead / closing - start) * self.steps_per_unit);
+        // On an even grid only the point nearest to the crossing can be a near tie.
         let nearby = start + step * round(place).least(Wide::all(self.last));
         (round_up(place), (ahead - closing * nearby).abs())
     }
 
-    /// Half a step outside is as good as any.
+    /// Moves crossings beyond the grid to half a step outside, where they count the same.
     #[inline(always)]
     pub fn clamp<const N: usize>(&self, place: Wide<N>) -> Wide<N> {
         place
@@ -78,7 +80,7 @@ impl Even {
     }
 }
 
-/// Adding this to a number below 2⁵¹ rounds it to a whole number, which is in the lowest bits of the sum.
+/// Adding this to a number below 2⁵¹ rounds it to a whole number, held in the lowest bits of the sum.
 const ROUND: f64 = 1.5 * (1u64 << 52) as f64;
 
 #[inline(always)]
@@ -86,7 +88,7 @@ pub(super) fn round<const N: usize>(place: Wide<N>) -> Wide<N> {
     (place + Wide::all(ROUND)) - Wide::all(ROUND)
 }
 
-/// The next whole number above; either neighbour of a whole number itself, which is in doubt anyway.
+/// Rounds up; a whole number may go to either neighbour, because it is a near tie anyway.
 #[inline(always)]
 pub(super) fn round_up<const N: usize>(place: Wide<N>) -> [u32; N] {
     ((place + Wide::all(0.5)) + Wide::all(ROUND)).low_bits()

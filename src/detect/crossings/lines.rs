@@ -1,4 +1,4 @@
-//! Samples as lines in Δ, and where those of Y₁ cross another.
+//! Samples as lines in Δ, and the crossings of those of Y₁ with another line.
 
 use super::grid::{Grid, round, round_up};
 use crate::simd::{Wide, greatest, least};
@@ -6,14 +6,14 @@ use crate::simd::{Wide, greatest, least};
 /// Samples as lines in Δ.
 #[derive(Clone, Copy, Debug)]
 pub struct Lines<'a> {
-    /// Their values at Δ = 0, finite.
+    /// The values at Δ = 0, finite.
     pub base: &'a [f64],
-    /// What Δ = 1 adds to them.
+    /// The slopes: the change for Δ = 1.
     pub slope: &'a [f64],
 }
 
 impl Lines<'_> {
-    /// The largest value that any of them may have on the grid.
+    /// An upper bound of their absolute values on the grid.
     #[inline(always)]
     pub(super) fn largest(self, grid: &Grid) -> f64 {
         let delta = grid.deltas[0]
@@ -30,33 +30,32 @@ impl Lines<'_> {
     }
 }
 
-/// Y₁: lines that all others are compared with, one after the other; the last array is filled up with
-/// copies.
+/// Y₁ in arrays: the lines that all others are compared with. The last array is filled up with copies.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Field {
-    /// How many are no copies.
+    /// The number of lines without the copies.
     pub length: usize,
     pub lines: Vec<Several>,
     pub least_slope: f64,
-    /// The first Δ behind each crossing with the other line.
+    /// The index of the first Δ after each crossing with the other line.
     pub behind: Vec<[u32; SEVERAL]>,
-    /// How near any line has come to another at any Δ.
+    /// The smallest distance between two lines at any Δ so far.
     pub nearest: Wide<SEVERAL>,
 }
 
-/// Lines side by side.
+/// Several lines side by side.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Several {
     base: Wide<SEVERAL>,
     pub slope: Wide<SEVERAL>,
-    /// Steps of the grid for each unit that a line without slope is ahead.
+    /// Steps of the grid until the crossing, for each unit that a line without slope is ahead.
     pace: Wide<SEVERAL>,
-    /// What one step is worth: |slope| · step; where that is nothing, 1 stands in `flat`.
+    /// The change in one step, |slope| · step; for a zero slope `flat` is 1.
     stride: Wide<SEVERAL>,
     flat: Wide<SEVERAL>,
 }
 
-/// Three times this are the samples of Fig. 6.
+/// Lines in an array. The 12 samples of Fig. 6 fill three arrays.
 pub(super) const SEVERAL: usize = 4;
 
 impl Field {
@@ -85,7 +84,7 @@ impl Field {
         }
     }
 
-    /// Finds the crossings with a line that has no slope, of this value.
+    /// Finds the crossings with a line of slope zero and this value.
     #[inline(always)]
     pub fn meet_still(&mut self, grid: &Grid, value: f64) {
         let Some(even) = grid.even else {
@@ -100,6 +99,7 @@ impl Field {
             let ahead = value - several.base;
             let place = even.clamp(ahead * several.pace - start);
             *behind = round_up(place);
+            // Steps to the nearest grid point times the change in a step: no division, unlike `meet`.
             let gap = (place - round(place)).abs() * several.stride + ahead.abs() * several.flat;
             nearest = gap.least(nearest);
         }

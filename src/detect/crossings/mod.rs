@@ -5,12 +5,12 @@
 //! Δ* = (a_z − a_y)/(g − h)
 //!
 //! on, and of slope h > g up to there. W and T count such pairs: W those of Y₁ over all others, T those
-//! of min X over Y₂ and of Y₂ over max X. So all values of Δ cost little more than one: every crossing
-//! is found once, counted at the first Δ behind it, and a running sum tells how many pairs are in
-//! that order at each. Neither needs to be monotone: the head of Y₂ has a slope too.
+//! of min X over Y₂ and of Y₂ over max X. Every crossing is found once and counted at the first Δ after it;
+//! a running sum gives the number of ordered pairs at each Δ. So all values of Δ cost little more than one.
+//! Neither statistic needs to be monotone in Δ: the first samples of Y₂ have a slope too.
 //!
-//! The counts are those of comparing the samples at every Δ. Where rounding could make a difference,
-//! because two samples all but tie at some Δ, nothing is returned and the samples have to be compared.
+//! The counts equal those of comparing the samples at every Δ. If two samples nearly tie at some Δ, so that
+//! rounding could matter, nothing is returned and the samples have to be compared.
 
 mod grid;
 mod lines;
@@ -22,8 +22,8 @@ use crate::simd::{Vectors, Wide, greatest, least};
 use grid::Grid;
 use lines::{Field, SEVERAL};
 
-/// Two samples nearer than this share of the largest value may compare one way or the other by
-/// rounding: each value has an error of two units in the last place, each crossing one of ten.
+/// The order of two samples nearer than this share of the largest value may depend on rounding: each value
+/// has an error of two units in the last place, each crossing one of ten.
 const DOUBT: f64 = 1e-11;
 
 /// Counts W and T at every Δ of a list.
@@ -37,21 +37,21 @@ pub struct Crossings {
     statistics: Vec<Statistics>,
 }
 
-/// How many more pairs are in order at each Δ than at the one before.
+/// The change in the number of ordered pairs from each Δ to the next.
 #[derive(Clone, Debug)]
 struct Changes {
-    /// Several counts, one after the other, which take turns and are added in the end: so equal
-    /// neighbours need not wait for each other.
+    /// Several arrays of counts, one after the other, used in turn and added at the end, so that two
+    /// increments of the same place need not wait for each other.
     turns: Vec<i32>,
-    /// Of each.
+    /// The length of each array.
     length: usize,
 }
 
-/// For W, where there are many crossings.
+/// The number of arrays for W, which has many crossings.
 const TURNS: usize = 4;
 
 impl Crossings {
-    /// For `deltas` in ascending order, at least two of them, all different.
+    /// A counter for at least two distinct `deltas` in ascending order.
     pub fn new(vectors: Vectors, deltas: Vec<f64>) -> Self {
         let length = deltas.len() + 1;
         let changes = |turns: usize| Changes {
@@ -68,7 +68,7 @@ impl Crossings {
         }
     }
 
-    /// W and T at every Δ; none where a near tie leaves one in doubt. X does not move.
+    /// W and T at every Δ, where X is at rest; `None` if a near tie makes one of them uncertain.
     pub fn count(
         &mut self,
         reference: &[f64],
@@ -83,12 +83,13 @@ impl Crossings {
         is_certain.then_some(&self.statistics)
     }
 
-    /// Finds all crossings and counts; whether none of them is in doubt.
+    /// Finds and counts all crossings; returns whether all of them are certain.
     #[inline(always)]
     fn find(&mut self, reference: &[f64], shift: Lines, scale: Lines) -> bool {
         self.rank_sums.turns.fill(0);
         self.exceedances.turns.fill(0);
         self.shift.take(shift, &self.grid);
+        // X has slope 0, so its crossings need no division.
         for &x in reference {
             self.shift.meet_still(&self.grid, x);
             self.rank_sums.count(&self.shift, 0.0);
@@ -122,7 +123,7 @@ impl Crossings {
         nearest > DOUBT * greatest(largest, greatest(-low, high))
     }
 
-    /// Running sums of the changes.
+    /// Sets the statistics to running sums of the changes.
     #[inline(always)]
     fn sum(&mut self, shift: usize) {
         let mut rank_sum = smallest_rank_sum(shift);
@@ -145,7 +146,7 @@ impl Crossings {
 }
 
 impl Changes {
-    /// Counts the lines of `field` that are above one of this slope, at every Δ.
+    /// Counts the lines of `field` above a line of this slope, at every Δ.
     #[inline(always)]
     fn count(&mut self, field: &Field, slope: f64) {
         let behind = &field.behind.as_flattened()[..field.length];
@@ -166,15 +167,15 @@ impl Changes {
             return;
         }
         for (i, &place) in behind.iter().enumerate() {
-            // Above from the crossing on, or up to there.
+            // A steeper line is above from the crossing on, a flatter one up to there.
             let falls = field.lines[i / SEVERAL].slope.0[i % SEVERAL] < slope;
             self.turns[0] += i32::from(falls);
             self.turns[place as usize] += if falls { -1 } else { 1 };
         }
     }
 
-    /// Counts a line of this slope where it is above a line without, or where it is not; `ahead` is how far
-    /// that one is ahead at Δ = 0. How near they come at any Δ.
+    /// Counts where a line of this slope is above (`above` = 1) or below (−1) a line of slope zero, which is
+    /// `ahead` of it at Δ = 0. Returns their smallest distance at any Δ.
     #[inline(always)]
     fn cross(&mut self, grid: &Grid, ahead: f64, slope: f64, above: i32) -> f64 {
         let counts = &mut self.turns;
@@ -189,7 +190,7 @@ impl Changes {
         gap
     }
 
-    /// The changes, all turns together.
+    /// The changes, summed over the arrays.
     #[inline(always)]
     fn total(&mut self) -> &[i32] {
         let (sums, others) = self.turns.split_at_mut(self.length);
@@ -226,7 +227,7 @@ mod tests {
         deltas.iter().map(statistics).collect()
     }
 
-    /// Values of a few slopes, zero and negative ones among them, as the head of Y₂ and late motions have.
+    /// A few slopes, some zero or negative, as the first samples of Y₂ and late motions have.
     fn slopes() -> impl Strategy<Value = f64> {
         prop_oneof![Just(0.0), Just(3.287), -2.0..4.0]
     }
@@ -256,7 +257,7 @@ mod tests {
             let expected = compared(&deltas, &values[..n], shift, scale);
             for vectors in Vectors::available() {
                 let mut crossings = Crossings::new(vectors, deltas.clone());
-                // Twice: what is left of a trial must not reach the next.
+                // Twice, because nothing of one trial may leak into the next.
                 for _ in 0..2 {
                     let counted = crossings.count(&values[..n], shift, scale);
                     prop_assert_eq!(counted, Some(&expected[..]));
@@ -265,7 +266,7 @@ mod tests {
         }
     }
 
-    /// Ties at a Δ, and next to one, are not decided here.
+    /// Ties at a Δ, or close to one, are left undecided.
     #[test]
     fn near_ties_are_in_doubt() {
         let mut even = Crossings::new(Vectors::Baseline, vec![0.0, 0.5, 1.0, 1.5]);

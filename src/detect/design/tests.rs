@@ -74,8 +74,8 @@ fn size_is_the_sum_of_the_cells() {
     }
 }
 
-/// The product rule against its definition: order all cells by the exact product of their tail
-/// counts, let groups of equal products enter together, stop before α is exceeded.
+/// The product rule against its definition: order all cells by the exact product of their tail counts, add
+/// groups of equal products together, stop before α is exceeded.
 #[test]
 fn product_enters_cells_in_exact_order() {
     for (samples, alpha) in [
@@ -247,7 +247,7 @@ fn refusals_name_what_can_be_reached() {
     }
 }
 
-/// Large sizes stay well within the seconds a user will wait.
+/// Large sizes take seconds at most.
 #[test]
 fn large_sizes() {
     let region = region(

@@ -7,7 +7,7 @@ fn sizes(n: usize, m1: usize, m2: usize) -> Samples {
     Samples::contiguous(n, m1, m2).unwrap()
 }
 
-/// Every way of writing 0 (X), 1 (Y₁) and 2 (Y₂) in a row: all rank vectors, each once.
+/// All sequences of 0 (X), 1 (Y₁) and 2 (Y₂) with these counts: every rank vector once.
 fn enumerate(left: [usize; 3], row: &mut Vec<u8>, visit: &mut impl FnMut(&[u8])) {
     if left == [0; 3] {
         return visit(row);
@@ -139,7 +139,7 @@ fn anchors() {
     assert_eq!(w.critical(0.0), 367);
 }
 
-/// Nothing overflows, no tail is lost: the last mass is 1/C(600, 200), about 1e-165.
+/// No overflow, and no tail is lost: the last mass is 1/C(600, 200), about 1e-165.
 #[test]
 fn large_sizes_keep_their_tails() {
     let law = NullLaw::rank_sum(&sizes(200, 200, 200)).unwrap();

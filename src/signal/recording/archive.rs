@@ -1,8 +1,8 @@
 //! The one member of a zip archive that is a table of accelerations.
 //!
 //! phyphox packs its table with a `meta` folder of tables about the device; Sensor Logger packs one table
-//! for each sensor, all with the same columns, so that their names must tell them apart. Of several
-//! accelerations the one with gravity is taken: it says which way is up.
+//! for each sensor, all with the same columns, so that only their names distinguish them. Of several
+//! accelerations the one with gravity is taken, because it shows which way is up.
 
 use super::error::{Names, RecordingError, RecordingProblem, nearest};
 use super::layout::Layout;
@@ -14,7 +14,7 @@ use zip::{CompressionMethod, ZipArchive};
 /// The table to be read: the source itself, or a member of it.
 ///
 /// # Errors
-/// Where an archive is damaged, or has no table, or more than one that would do.
+/// If an archive is damaged, or has no suitable table or more than one.
 pub(super) fn table(source: Source, reading: &Reading) -> Result<Source, RecordingError> {
     if is_archive(&source)? {
         return member(&source, reading);
@@ -66,7 +66,7 @@ fn member(source: &Source, reading: &Reading) -> Result<Source, RecordingError> 
         .filter(|found| found.may_be_table())
         .collect();
     if let [only] = candidates[..] {
-        // What is wrong with it is said of it.
+        // An error of the only table is more helpful than "no table".
         return only.open(source);
     }
     let mut tables = Vec::new();
@@ -109,7 +109,7 @@ impl Found {
         }
     }
 
-    /// Tables of numbers, but for those about the device and what a system left behind.
+    /// Whether it may be a table of readings: not a table about the device, and not a file left by a system.
     fn may_be_table(&self) -> bool {
         let name = self.member.name.to_lowercase();
         let is_text = [".csv", ".txt", ".tsv"]

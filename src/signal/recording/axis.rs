@@ -1,13 +1,13 @@
-//! Which way is up.
+//! The choice of the vertical axis.
 
 use super::unknown_name::UnknownName;
 use std::fmt;
 use std::str::FromStr;
 
-/// Which of a sensor's axes is vertical.
+/// The vertical axis of a sensor.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Axis {
-    /// The nearest to gravity; where gravity is taken out, the one with the ride.
+    /// The nearest to gravity; without gravity, the one with the ride.
     #[default]
     Auto,
     /// The axis x.

@@ -1,15 +1,15 @@
 //! Finding the vertical among three axes.
 //!
-//! An accelerometer at rest reads gravity as an acceleration of 9.8 m/s² upwards. Where the mean vector is
-//! about as long, the axis within 25° of it is vertical, and its sign says which end is up; where none is
-//! so near, the readings are projected on it.
+//! An accelerometer at rest reads gravity as an acceleration of 9.8 m/s² upwards. If the mean vector is about
+//! that long, the axis within 25° of it is vertical, and its sign gives the direction; if no axis is that
+//! near, the readings are projected on the mean vector.
 //!
-//! Where gravity has been taken out, the vertical axis is the one with the ride. A ride's pulses last
-//! seconds and lie along one axis, whereas a hand that picks up the device turns it, and moves all
-//! three. So the record is cut into blocks of half a second; each block's mean, less the median over all
-//! blocks, is credited to the axis on which it is largest, by its square up to 1 m/s² less the squares
-//! of the other two. The largest sum wins. Shaking and vibration average out in a block, and a wild
-//! movement counts no more than a strong pulse.
+//! Without gravity the vertical axis is the one with the ride. The pulses of a ride last seconds and lie along
+//! one axis, whereas picking up the device turns it and moves all three. So the record is cut into blocks of
+//! half a second. The median over all blocks is subtracted from each block's mean; its square, at most
+//! (1 m/s²)², less the squares on the other two axes, is credited to the axis on which it is largest. The
+//! axis with the largest sum is taken. Shaking and vibration average out in a block, and a violent movement
+//! counts no more than a strong pulse.
 
 use super::axis::Axis;
 use super::blocks::Blocks;
@@ -20,23 +20,23 @@ use super::source::Source;
 use super::vertical::{Direction, Reason, Vertical, is_gravity};
 use std::sync::Arc;
 
-/// How far from gravity an axis may lie and still be taken for the vertical: its readings are then those
-/// of the vertical times cos 25° = 0.91.
+/// The largest angle from gravity at which an axis is taken as vertical: its readings are then those of the
+/// vertical times cos 25° = 0.91.
 const WIDEST: f64 = 25.0;
 
-/// What is known of the axes after one pass.
+/// Statistics of the axes from one pass.
 #[derive(Debug)]
 pub(super) struct Bearings {
     axes: Vec<(Axis, usize)>,
     sums: Vec<f64>,
     counts: Vec<u64>,
-    /// Rows in which all axes stand.
+    /// Rows with readings of all axes.
     together: u64,
     blocks: Blocks,
 }
 
 impl Bearings {
-    /// Reads the whole table. Its end, and times out of order, are left to the pass after this.
+    /// Reads the whole table. A cut end and times out of order are left to the next pass.
     pub fn take(
         source: &Source,
         layout: &Arc<Layout>,
@@ -67,13 +67,13 @@ impl Bearings {
         Ok(bearings)
     }
 
-    /// The mean vector, where each axis has been read.
+    /// The mean vector, if each axis has readings.
     fn mean(&self) -> Option<Vec<f64>> {
         let mean = |(sum, count): (&f64, &u64)| (*count > 0).then(|| sum / *count as f64);
         self.sums.iter().zip(&self.counts).map(mean).collect()
     }
 
-    /// The mean, where it is gravity's, and its length.
+    /// The mean vector and its length, if it is gravity.
     fn gravity(&self) -> Option<(Vec<f64>, f64)> {
         let mean = self.mean()?;
         let length = mean.iter().map(|m| m * m).sum::<f64>().sqrt();
@@ -100,7 +100,7 @@ impl Bearings {
     /// The direction of gravity itself.
     ///
     /// # Errors
-    /// What is lacking.
+    /// The condition that is not met.
     pub fn project(&self) -> Result<Vertical, &'static str> {
         let &[(_, x), (_, y), (_, z)] = &self.axes[..] else {
             return Err("fewer than three axes");
@@ -121,9 +121,9 @@ impl Bearings {
     }
 
     fn by_ride(&self) -> Vertical {
-        /// (m/s²)² that tell nothing: a second at 0.1 m/s², which is no ride.
+        /// A sum too small for a ride, (m/s²)²: a second at 0.1 m/s².
         const NOTHING: f64 = 0.02;
-        /// A lead that is none.
+        /// A ratio of the two largest sums below this counts as a tie.
         const TIE: f64 = 2.0;
         let credits = self.blocks.credits();
         let mut order: Vec<usize> = (0..credits.len()).collect();

@@ -1,4 +1,4 @@
-//! Which of several axes moves by itself, in blocks of half a second.
+//! Credits for the axis that moves alone, in blocks of half a second.
 
 /// Means over blocks of half a second of several axes, in bounded memory.
 #[derive(Debug)]
@@ -7,14 +7,14 @@ pub(super) struct Blocks {
     sums: Vec<(f64, u64)>,
     /// The means of all axes, block after block.
     means: Vec<f64>,
-    /// Only every so many blocks are kept; twice as many whenever the list is full.
+    /// One of every `stride` blocks is kept; the stride doubles whenever the list is full.
     stride: i64,
 }
 
-/// s.
+/// Length of a block, s.
 const BLOCK: f64 = 0.5;
 
-/// Blocks that are kept: nine hours without a stride.
+/// The most blocks kept: nine hours at a stride of 1.
 const MOST_BLOCKS: usize = 1 << 16;
 
 impl Blocks {
@@ -54,7 +54,7 @@ impl Blocks {
         }
     }
 
-    /// What each axis is credited with.
+    /// The credit of each axis.
     pub fn credits(&self) -> Vec<f64> {
         let axes = self.sums.len();
         let current = self.sums.iter().all(|(_, count)| *count > 0);

@@ -1,19 +1,19 @@
 //! A cell of a table, read as a number.
 
-/// What a cell holds.
+/// The content of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Cell {
     /// Nothing: the sensor was not read in this row.
     Blank,
     /// A finite number.
     Number(f64),
-    /// A number that is none: NaN, an infinity, or beyond what a double holds.
+    /// NaN, an infinity, or a number beyond the range of a double.
     NotFinite,
     /// Anything else.
     Text,
 }
 
-/// The longest text that is taken for a number, bytes.
+/// The longest text read as a number, bytes.
 const LONGEST_NUMBER: usize = 64;
 
 impl Cell {
@@ -50,11 +50,11 @@ impl Cell {
     }
 }
 
-/// The decimal mark of a file, learnt from the first cell that has one. Where cells are parted by commas
-/// it is a point; a file that uses both is refused, since "1,234" would then be anybody's guess.
+/// The decimal mark of a file, learnt from the first cell that has one. If cells are separated by commas it
+/// is a point. A file that uses both is refused, since "1,234" would then be ambiguous.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum DecimalMark {
-    /// No cell has had one.
+    /// No cell has had one yet.
     #[default]
     Unknown,
     /// 9.81
@@ -64,7 +64,7 @@ pub(super) enum DecimalMark {
 }
 
 impl DecimalMark {
-    /// Reads a cell, and learns.
+    /// Reads a cell and learns the mark from it.
     #[inline]
     pub fn read(&mut self, cell: &[u8]) -> Cell {
         if *self == Self::Unknown {

@@ -1,4 +1,4 @@
-//! Which columns of a table are read.
+//! The choice of the columns to read.
 
 use super::axis::Axis;
 use super::column::{Column, Role};
@@ -8,16 +8,16 @@ use super::reading::Reading;
 /// The columns that may hold the vertical acceleration.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Accelerations {
-    /// The reader named it.
+    /// Named by the user.
     Named(usize),
-    /// There is only one.
+    /// The only one.
     Only(usize),
-    /// Some axes, where they stand.
+    /// Several axes with their columns.
     Axes(Vec<(Axis, usize)>),
 }
 
 impl Accelerations {
-    /// Where they stand.
+    /// The indices of the columns.
     pub fn columns(&self) -> Vec<usize> {
         match self {
             Self::Named(column) | Self::Only(column) => vec![*column],
@@ -30,7 +30,7 @@ fn names(columns: &[Column]) -> Names {
     Names(columns.iter().map(|column| column.name.clone()).collect())
 }
 
-/// The column that the reader named, by the whole name or without regard to capitals.
+/// The column named by the user, in exact spelling or ignoring case.
 fn named(columns: &[Column], role: &'static str, got: &str) -> Result<usize, RecordingProblem> {
     let wanted = got.trim();
     let exact = columns.iter().position(|column| column.name == wanted);
@@ -45,7 +45,7 @@ fn named(columns: &[Column], role: &'static str, got: &str) -> Result<usize, Rec
         })
 }
 
-/// The column that the reader named, or else the best clock.
+/// The column named by the user, or else the best clock.
 pub(super) fn time(columns: &[Column], reading: &Reading) -> Result<usize, RecordingProblem> {
     if let Some(name) = &reading.time {
         return named(columns, "time", name);
@@ -60,7 +60,7 @@ pub(super) fn time(columns: &[Column], reading: &Reading) -> Result<usize, Recor
     best.ok_or_else(|| RecordingProblem::NoTime(names(columns)))
 }
 
-/// The column that the reader named, or else the axes, or else the only one.
+/// The column named by the user, or else the axes, or else the only one.
 pub(super) fn accelerations(
     columns: &[Column],
     reading: &Reading,
@@ -93,7 +93,7 @@ pub(super) fn accelerations(
     }
 }
 
-/// The column along `axis`, with gravity where there is a choice.
+/// The column along `axis`, with gravity if there is a choice.
 fn along(columns: &[Column], axis: Axis) -> Option<usize> {
     let found = columns
         .iter()

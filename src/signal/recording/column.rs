@@ -1,7 +1,7 @@
-//! What the name of a column says: time or acceleration, along which axis, in which unit.
+//! Column names: time or acceleration, axis and unit.
 //!
-//! The apps name their columns each in its own way, and phyphox translates them; the unit in brackets and
-//! the letter of the axis stay.
+//! Each app has its own names, and phyphox translates them; the unit in brackets and the letter of the axis
+//! are the same in every language.
 
 use super::axis::Axis;
 use super::reading::{TimeUnit, Unit};
@@ -11,20 +11,20 @@ use super::reading::{TimeUnit, Unit};
 pub(super) struct Column {
     pub name: String,
     pub role: Role,
-    /// As the name says.
+    /// The unit in the name, if any.
     pub time_unit: Option<TimeUnit>,
-    /// As the name says.
+    /// The unit in the name, if any.
     pub unit: Option<Unit>,
 }
 
-/// What a column seems to hold.
+/// The apparent content of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Role {
-    /// Time; of several, the one of least rank is the record's own clock.
+    /// Time; of several, the one with the lowest rank is the record's own clock.
     Time { rank: u8 },
     /// The acceleration along one axis.
     Along { axis: Axis, gravity: Gravity },
-    /// An acceleration that says nothing of an axis.
+    /// An acceleration without an axis in its name.
     Acceleration,
     /// The length of the vector of acceleration, which has no sign.
     Magnitude,
@@ -32,10 +32,10 @@ pub(super) enum Role {
     Other,
 }
 
-/// What the name says of gravity.
+/// Whether a column includes gravity, by its name.
 #[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd)]
 pub(super) enum Gravity {
-    /// Left in, as far as the name goes.
+    /// Left in, or not mentioned.
     In,
     /// Taken out by the device.
     Out,
@@ -66,7 +66,7 @@ const ACCELERATIONS: [&str; 8] = [
     "verticalacceleration",
 ];
 
-/// The same, of a device that takes gravity out.
+/// Names of an acceleration without gravity.
 const LINEAR: [&str; 6] = [
     "linearacceleration",
     "linearaccelerometer",
@@ -76,7 +76,7 @@ const LINEAR: [&str; 6] = [
     "useracceleration",
 ];
 
-/// Words in the name of a file whose x, y and z are something else.
+/// Words in the names of files whose x, y and z are not accelerations.
 const OTHER_SENSORS: [&str; 9] = [
     "gyro",
     "magnet",
@@ -90,8 +90,7 @@ const OTHER_SENSORS: [&str; 9] = [
 ];
 
 impl Column {
-    /// Reads a name. `owner`, the name of the file, tells what columns are that are called x, y and z
-    /// and no more.
+    /// Reads a name. `owner`, the name of the file, decides the meaning of columns called only x, y and z.
     pub fn new(name: &str, owner: &str) -> Self {
         let name = name.trim();
         let (words, unit_name) = parted(name);
@@ -150,7 +149,7 @@ fn role(word: &str, time_unit: Option<TimeUnit>, unit: Option<Unit>, owner: &str
     }
 }
 
-/// The axis at the end of a word and what stands before it.
+/// The axis at the end of a word, and the part before it.
 fn along(word: &str) -> Option<(Axis, &str)> {
     let word = word.strip_suffix("axis").unwrap_or(word);
     let axes = [('x', Axis::X), ('y', Axis::Y), ('z', Axis::Z)];

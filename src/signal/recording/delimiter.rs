@@ -1,8 +1,8 @@
-//! What parts the cells of a line.
+//! The separator between the cells of a line.
 
 use csv_core::{ReadRecordResult, Reader, ReaderBuilder, Terminator};
 
-/// What parts the cells of a line.
+/// The separator between cells.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(super) enum Delimiter {
     Comma,
@@ -13,8 +13,8 @@ pub(super) enum Delimiter {
 impl Delimiter {
     pub const ALL: [Self; 3] = [Self::Tab, Self::Semicolon, Self::Comma];
 
-    /// Of a file that begins with this line: the tab or the semicolon where there is one outside quotes,
-    /// since a comma may then be a decimal mark.
+    /// The separator of a file that begins with this line: the tab or the semicolon if there is one outside
+    /// quotes, since a comma may then be a decimal mark.
     pub fn of(line: &[u8]) -> Self {
         let found = Self::ALL
             .into_iter()
@@ -38,7 +38,7 @@ impl Delimiter {
         }
     }
 
-    /// How often it stands in `line`, outside quotes.
+    /// How often it occurs in `line`, outside quotes.
     pub fn count(self, line: &[u8]) -> usize {
         let mut is_quoted = false;
         line.iter()
@@ -50,7 +50,7 @@ impl Delimiter {
     }
 }
 
-/// Splits lines into cells, quotes taken off, in buffers that are used again.
+/// Splits lines into cells without quotes, in reused buffers.
 #[derive(Debug)]
 pub(super) struct Splitter {
     reader: Reader,
@@ -72,7 +72,7 @@ impl Splitter {
         }
     }
 
-    /// Splits a line without its end; says into how many cells.
+    /// Splits a line without its line end; returns the number of cells.
     pub fn split(&mut self, mut line: &[u8]) -> usize {
         if self.text.len() < line.len() {
             self.text.resize(line.len(), 0);
@@ -87,7 +87,7 @@ impl Splitter {
             written += wrote;
             ended += ends;
             match result {
-                // No input is left: the next call takes that for the end of the line.
+                // No input is left; the next call takes this as the end of the line.
                 ReadRecordResult::InputEmpty => {}
                 ReadRecordResult::OutputFull => self.text.resize(2 * self.text.len() + 1, 0),
                 ReadRecordResult::OutputEndsFull => self.ends.resize(2 * self.ends.len(), 0),
@@ -107,7 +107,7 @@ impl Splitter {
         &self.text[start..self.ends[index]]
     }
 
-    /// All of them.
+    /// All cells of the line split last.
     pub fn cells(&self) -> impl Iterator<Item = &[u8]> {
         (0..self.cells).map(|index| self.cell(index))
     }

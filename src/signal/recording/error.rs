@@ -1,4 +1,4 @@
-//! What is wrong with a recording: the file, the line, the rule, what was found, what to do.
+//! Errors of recordings: the file, the line, the rule, the value and the remedy.
 
 use super::axis::Axis;
 use super::lines::LONGEST_LINE;
@@ -27,12 +27,12 @@ impl RecordingError {
         }))
     }
 
-    /// The line it is about, from 1.
+    /// The line at fault, from 1.
     pub fn line(&self) -> Option<u64> {
         self.0.line
     }
 
-    /// What is wrong.
+    /// The problem.
     pub fn problem(&self) -> &RecordingProblem {
         &self.0.problem
     }
@@ -47,81 +47,81 @@ impl fmt::Display for Report {
     }
 }
 
-/// What is wrong with a recording.
+/// Why a recording was refused.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordingProblem {
-    /// The system refuses.
+    /// The file cannot be read.
     #[error("cannot be read: {0} (check the path and the file)")]
     Unreadable(#[source] io::Error),
-    /// Not a file, and so not to be read twice.
+    /// Not a file, which could be read twice.
     #[error("must be a file, got {0} (a stream of readings is for the monitor)")]
     NotAFile(&'static str),
-    /// A member of what has none.
+    /// A member asked for in a file that is not an archive.
     #[error("no zip archive, so it has no member \"{0}\" (leave out --member)")]
     NotAnArchive(String),
-    /// An archive by its name alone.
-    #[error("ends in .zip, but is no zip archive (was it downloaded whole?)")]
+    /// A file named like an archive that is not one.
+    #[error("ends in .zip, but is not a zip archive (download it again)")]
     NotAZip,
     /// A damaged or unsupported archive.
     #[error("zip archive: {0} (export it anew)")]
     Archive(#[from] zip::result::ZipError),
-    /// A member that is packed in another way.
+    /// An encrypted member, or one with an unsupported compression.
     #[error("zip archive: {0} is encrypted, or packed by another method than deflate (unpack it)")]
     Packing(String),
-    /// A member that is not there.
+    /// An unknown member.
     #[error("zip archive: no member \"{got}\"{} (it holds {found})", did_you_mean(.hint))]
     UnknownMember {
-        /// As asked.
+        /// The one asked for.
         got: String,
-        /// The nearest one.
+        /// The most similar one.
         hint: Option<String>,
-        /// All there are.
+        /// The known ones.
         found: Names,
     },
-    /// An archive of something else.
+    /// An archive without a table of accelerations.
     #[error("zip archive: no member is a table of accelerations, it holds {0} (export as CSV)")]
     NoTable(Names),
-    /// More than one to choose from.
+    /// An archive with several tables of accelerations.
     #[error("zip archive: {0} are tables of accelerations (--member NAME)")]
     SeveralTables(Names),
-    /// Nothing at all.
-    #[error("is empty (was it exported whole?)")]
+    /// An empty file.
+    #[error("is empty (export it again)")]
     Empty,
-    /// Names and no numbers.
-    #[error("has a header and no readings (was it exported whole?)")]
+    /// A header without readings.
+    #[error("has a header and no readings (export it again)")]
     HeaderOnly,
-    /// One reading makes no signal, nor do several at one time.
+    /// Too few readings at different times.
     #[error("must have at least 2 readings of the acceleration at different times, got {0}")]
     TooFew(u64),
-    /// A dead sensor.
-    #[error("every reading of the acceleration is {0} (is this the right column?)")]
+    /// All readings are equal.
+    #[error("every reading of the acceleration is {0} (choose another column with --acceleration)")]
     AllEqual(f64),
-    /// Bytes that are no text.
-    #[error("holds bytes that are no text (is this a table? export as CSV)")]
+    /// A binary file.
+    #[error("holds bytes that are not text (export as CSV)")]
     Binary,
-    /// No end in sight.
-    #[error("must be at most {LONGEST_LINE} bytes long (is this a table of numbers?)")]
+    /// A line that is too long.
+    #[error("must be at most {LONGEST_LINE} bytes long (export a table of numbers)")]
     TooLong,
-    /// A column that is not there.
+    /// An unknown column.
     #[error("no column \"{got}\" for the {role}{} (the columns are {found})", did_you_mean(.hint))]
     UnknownColumn {
         /// Time or acceleration.
         role: &'static str,
-        /// As asked.
+        /// The one asked for.
         got: String,
-        /// The nearest one.
+        /// The most similar one.
         hint: Option<String>,
-        /// All there are.
+        /// The known ones.
         found: Names,
     },
-    /// Numbers alone, of which two might be those.
+    /// A table without a header and with more than two columns.
     #[error(
         "a table of {width} columns must have a header (or give the numbers of two of them: \
          --time 1 --acceleration {})",
         .width.min(&4)
     )]
     Unnamed {
-        /// How many columns there are.
+        /// The number of columns.
         width: usize,
     },
     /// No column looks like time.
@@ -130,31 +130,31 @@ pub enum RecordingProblem {
     /// No column looks like an acceleration.
     #[error("no column looks like an acceleration, the columns are {0} (--acceleration COLUMN)")]
     NoAcceleration(Names),
-    /// A table without the axis that is asked for.
+    /// A table without the axis asked for.
     #[error(
         "no column looks like the acceleration along {axis}, the columns are {found} \
          (--acceleration COLUMN)"
     )]
     NoAxis {
-        /// As asked.
+        /// The one asked for.
         axis: Axis,
-        /// All there are.
+        /// The known ones.
         found: Names,
     },
-    /// Gravity cannot say where up is.
+    /// The direction of gravity cannot be found.
     #[error(
         "vertical along gravity: needs x, y and z in the same rows and a mean of about 9.8 m/s^2, \
          got {0} (--axis x, y or z)"
     )]
     NoGravity(&'static str),
-    /// Words among numbers.
+    /// A cell that is not a number.
     #[error("column \"{column}\": must be a number, got \"{got}\"{remedy}")]
     NotANumber {
-        /// Its name.
+        /// The name of the column.
         column: String,
-        /// As written, shorten.
+        /// The text, shortened.
         got: String,
-        /// What to do, in brackets after a space; or nothing.
+        /// The remedy, in brackets after a space; may be empty.
         remedy: &'static str,
     },
     /// NaN or an infinity.
@@ -162,86 +162,86 @@ pub enum RecordingProblem {
         "column \"{column}\": must be finite, got \"{got}\" (leave the cell blank where nothing was read)"
     )]
     NotFinite {
-        /// Its name.
+        /// The name of the column.
         column: String,
-        /// As written, shorten.
+        /// The text, shortened.
         got: String,
     },
-    /// A number that no lift makes, and that sums of squares would not survive.
+    /// A number that no lift gives and whose square might overflow.
     #[error("column \"{column}\": must lie within 1e{exponent} {unit}, got {got} ({remedy})")]
     OutOfRange {
-        /// Its name.
+        /// The name of the column.
         column: String,
-        /// Of the limit, a power of ten.
+        /// The limit as a power of ten.
         exponent: u8,
-        /// Of the limit.
+        /// The unit of the limit.
         unit: &'static str,
-        /// In that unit.
+        /// The value in that unit.
         got: f64,
-        /// What to do.
+        /// The remedy.
         remedy: &'static str,
     },
-    /// A row of another table.
+    /// A row with a different number of cells.
     #[error("must have {expected} cells as the first row has, got {got}{}", .hint.unwrap_or_default())]
     Cells {
-        /// Of the first row.
+        /// Cells in the first row.
         expected: usize,
-        /// Of this one.
+        /// Cells in this row.
         got: usize,
-        /// What may be the reason, in brackets after a space.
+        /// A possible reason, in brackets after a space.
         hint: Option<&'static str>,
     },
-    /// Two separators in one file.
+    /// A row with another separator.
     #[error(
         "cells are parted by {expected} in the first row, here by {got} (write one of them throughout)"
     )]
     MixedSeparators {
-        /// Of the first row.
+        /// The separator in the first row.
         expected: &'static str,
-        /// Of this one.
+        /// The separator in this row.
         got: &'static str,
     },
-    /// A clock that was set back, or two files in one.
+    /// A time before that of the last reading.
     #[error("time must increase, got {to} s after {from} s (sort the rows, or split the file)")]
     TimeBack {
-        /// The reading before.
+        /// The time before, s.
         from: f64,
-        /// This one.
+        /// The time in this row, s.
         to: f64,
     },
-    /// A clock that cannot be right.
+    /// An impossible rate of the clock.
     #[error(
         "column \"{column}\": counted in {unit} it gives {rate} readings a second (--time-unit {})",
         .likely.map_or("s, ms, us or ns".to_owned(), |unit| unit.to_string())
     )]
     Rate {
-        /// Its name.
+        /// The name of the column.
         column: String,
-        /// As named, or seconds.
+        /// The stated unit, or seconds.
         unit: TimeUnit,
         /// Hz.
         rate: f64,
         /// The unit in which it would be a sensor's clock.
         likely: Option<TimeUnit>,
     },
-    /// A unit that is none.
+    /// A unit that cannot be used.
     #[error("{0}")]
     Unit(#[from] UnitError),
-    /// A rate that is none.
+    /// A rate of resampling out of range.
     #[error("resample must lie in (0, {limit}] Hz, ten times what was recorded, got {got}")]
     Resample {
-        /// As given.
+        /// The rate asked for.
         got: f64,
-        /// The highest one.
+        /// The highest rate allowed.
         limit: f64,
     },
 }
 
-/// Names of columns or members, in print.
+/// A list of column or member names in a message.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Names(pub Vec<String>);
 
-/// Names that a message lists.
+/// The most names in a message.
 const LISTED: usize = 12;
 
 impl fmt::Display for Names {
@@ -276,7 +276,7 @@ pub(super) fn nearest(got: &str, known: &[String]) -> Option<String> {
         .map(|(_, name)| name.clone())
 }
 
-/// A hint in words.
+/// The hint as text.
 fn did_you_mean(hint: &Option<String>) -> String {
     hint.as_ref()
         .map_or(String::new(), |name| format!(", did you mean \"{name}\"?"))

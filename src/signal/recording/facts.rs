@@ -1,4 +1,4 @@
-//! What one pass over a recording tells of its sensor.
+//! Facts about a recording and its sensor, gathered in one pass.
 
 use super::error::{RecordingError, RecordingProblem};
 use super::intervals::{GAP, Gap, Intervals};
@@ -7,33 +7,33 @@ use super::source::Source;
 use super::steps::{LOOKED_AT, Steps};
 use super::vertical::is_gravity;
 
-/// What is known of a recording as it was recorded, before any resampling.
+/// Facts about a recording before any resampling.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
     /// Samples.
     pub samples: u64,
-    /// s, of the first sample.
+    /// Time of the first sample, s.
     pub start: f64,
-    /// s, of the last sample.
+    /// Time of the last sample, s.
     pub end: f64,
-    /// Hz: one over the median interval.
+    /// One over the median interval, Hz.
     pub rate: f64,
-    /// The standard deviation of the intervals over their median, intervals below half of it or above one
-    /// and a half being left out.
+    /// The standard deviation of the intervals over their median, without intervals below 0.5 or above 1.5
+    /// medians.
     pub jitter: f64,
     /// The longest interval.
     pub longest_gap: Gap,
     /// Intervals longer than five medians.
     pub gaps: u64,
-    /// m/s²: the sensor's step, where its first readings lie on a grid.
+    /// The sensor's step, m/s², if its first readings lie on a grid.
     pub quantum: Option<f64>,
     /// The share of samples that equal the one before.
     pub repeats: f64,
-    /// The share of samples at a limit of the sensor, where there clearly is one.
+    /// The share of samples at a limit of the sensor, if there clearly is one.
     pub saturated: Option<f64>,
     /// m/s².
     pub mean: f64,
-    /// m/s², about the mean: rest and ride together.
+    /// The standard deviation over rest and ride together, m/s².
     pub deviation: f64,
     /// m/s².
     pub least: f64,
@@ -45,7 +45,7 @@ pub struct Facts {
     pub blank_rows: u64,
     /// Rows at the time of the row before, which were left out.
     pub repeated_times: u64,
-    /// The line of the first of them.
+    /// The line of the first row with a repeated time.
     pub first_repeated_time: Option<u64>,
     /// The line at which the file is cut off.
     pub cut_line: Option<u64>,
@@ -55,7 +55,7 @@ impl Facts {
     /// Reads a series to its end.
     ///
     /// # Errors
-    /// Those of the series, and where it is no signal.
+    /// If the series has an error, too few samples or only equal ones.
     pub(super) fn of(
         series: &mut Series,
         source: &Source,
@@ -86,7 +86,7 @@ impl Facts {
         })
     }
 
-    /// The same of the signal turned upside down.
+    /// The facts of the inverted signal.
     pub(super) fn turned(self) -> Self {
         Self {
             mean: -self.mean,
@@ -96,7 +96,7 @@ impl Facts {
         }
     }
 
-    /// s: an interval longer than this is a gap.
+    /// The longest interval that is not a gap, s.
     pub fn gap(&self) -> f64 {
         GAP / self.rate
     }
@@ -107,7 +107,7 @@ impl Facts {
     }
 }
 
-/// What is gathered sample by sample, in bounded memory.
+/// Sums gathered sample by sample, in bounded memory.
 #[derive(Debug, Default)]
 struct Survey {
     samples: u64,
@@ -145,7 +145,7 @@ impl Survey {
         self.last = Some(sample);
     }
 
-    /// Skipped rows are for the caller to add.
+    /// The facts without the skipped rows, which the caller adds.
     fn facts(self) -> Facts {
         let time = |sample: Option<Sample>| sample.map_or(0.0, |sample| sample.time);
         let count = self.samples as f64;
@@ -181,10 +181,10 @@ impl Survey {
     }
 }
 
-/// Levels among which a rest may move by itself, on a sensor whose steps are coarse.
+/// The number of levels that the noise at rest may cover on a sensor with coarse steps.
 const FEW_LEVELS: usize = 20;
 
-/// The least or the greatest reading, how often it came, and how often in a row.
+/// The least or the greatest reading, how often it occurred, and how often in a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Extreme {
     value: f64,
@@ -206,9 +206,9 @@ impl Extreme {
         self.longest_run = self.longest_run.max(self.run);
     }
 
-    /// A signal stays at its extreme for three readings where something holds it there: by chance only
-    /// where the sensor's steps are so coarse that its rest knows few levels, and then the extreme lies but
-    /// a few steps from the mean.
+    /// Whether the extreme is a limit of the sensor. A signal stays at its extreme for three readings if it is
+    /// clipped there. By chance this happens only if the steps are so coarse that rest covers few levels, and then
+    /// the extreme is only a few steps from the mean.
     fn is_limit(&self, mean: f64, step: f64) -> bool {
         self.longest_run >= 3 && (self.value - mean).abs() > FEW_LEVELS as f64 * step
     }

@@ -1,17 +1,17 @@
 //! The spacing of samples in time, from a histogram of fixed size.
 //!
-//! A bin is one of 512 equal parts between two powers of two, so it is less than 0.2 % wide at every
-//! length; the mean of what fell into the median's bin is the median, exactly so where the sampling is
-//! regular. Sums and squares about the bin's lower edge make the deviation exact.
+//! A bin is one of 512 equal parts between two powers of two, so its relative width is less than 0.2 %. The
+//! mean of the intervals in the median's bin is taken as the median, which is exact for regular sampling.
+//! Sums and squares about the lower edge of each bin make the standard deviation exact.
 
-/// Bits of the mantissa that tell bins apart.
+/// Bits of the mantissa in the index of a bin.
 const FINENESS: u32 = 9;
 
-/// The powers of two between which intervals are told apart: 2⁻³⁰ s to 2²⁰ s, a nanosecond to twelve days.
+/// The range of the histogram as powers of two: 2⁻³⁰ s to 2²⁰ s, a nanosecond to twelve days.
 const SHORTEST: i32 = -30;
 const LONGEST: i32 = 20;
 
-/// How many times the median an interval must exceed to be called a gap: four samples or more are missing.
+/// An interval above this many medians is a gap: four samples or more are missing.
 pub(super) const GAP: f64 = 5.0;
 
 /// A histogram of intervals.
@@ -26,7 +26,7 @@ pub(super) struct Intervals {
 #[derive(Clone, Copy, Debug, Default)]
 struct Bin {
     count: u64,
-    /// Of what each exceeds the lower edge by.
+    /// Sum of the excesses over the lower edge.
     sum: f64,
     squares: f64,
 }
@@ -34,7 +34,7 @@ struct Bin {
 /// A time without samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Gap {
-    /// s, of the sample before it.
+    /// Time of the sample before it, s.
     pub start: f64,
     /// s.
     pub length: f64,
@@ -71,7 +71,7 @@ impl Intervals {
         }
     }
 
-    /// s; zero where nothing was counted.
+    /// The median interval, s; 0 without intervals.
     pub fn median(&self) -> f64 {
         let mut below = 0;
         for (mean, bin) in self.filled() {
@@ -83,8 +83,8 @@ impl Intervals {
         0.0
     }
 
-    /// The standard deviation of the intervals over their median. Those below half of it or above one and a
-    /// half are left out: they are nearer to no interval or to two, so a sample came double or was lost.
+    /// The standard deviation of the intervals over their median. Intervals below 0.5 or above 1.5 medians are
+    /// left out: there a sample was doubled or lost.
     pub fn jitter(&self) -> f64 {
         let median = self.median();
         let (mut count, mut sum, mut squares) = (0.0, 0.0, 0.0);
@@ -110,7 +110,7 @@ impl Intervals {
         self.longest
     }
 
-    /// How many gaps there are.
+    /// The number of gaps.
     pub fn gaps(&self) -> u64 {
         let gap = GAP * self.median();
         self.filled()
@@ -119,7 +119,7 @@ impl Intervals {
             .sum()
     }
 
-    /// Each bin that holds something, and the mean of what it holds.
+    /// Each non-empty bin with the mean of its intervals.
     fn filled(&self) -> impl Iterator<Item = (f64, &Bin)> {
         let bins = self.bins.iter().enumerate();
         bins.filter(|(_, bin)| bin.count > 0)
@@ -127,7 +127,7 @@ impl Intervals {
     }
 }
 
-/// The bits of the lowest edge that tell bins apart.
+/// The upper bits of the lowest edge, from which bins are numbered.
 const LOWEST: u64 = ((1023 + SHORTEST) as u64) << FINENESS;
 
 /// The bin of a positive length: its exponent and the first bits of its mantissa.

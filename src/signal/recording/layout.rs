@@ -1,4 +1,4 @@
-//! How a table is laid out, found from its first line.
+//! The layout of a table, found from its first line.
 
 use super::cell::{Cell, DecimalMark};
 use super::choice::{Accelerations, accelerations, time};
@@ -10,7 +10,7 @@ use super::reading::{Reading, TimeUnit, Unit};
 use super::source::Source;
 use std::fmt;
 
-/// Which app wrote a table.
+/// The app that wrote a table.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Format {
     /// phyphox: names with units in brackets.
@@ -34,12 +34,12 @@ impl fmt::Display for Format {
     }
 }
 
-/// Where in a table the time and the acceleration stand, and in which units.
+/// The columns of time and acceleration, and their units.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Layout {
     pub format: Format,
     pub delimiter: Delimiter,
-    /// Lines before the first row.
+    /// The number of lines before the first row.
     pub preamble: u64,
     pub is_headed: bool,
     pub columns: Vec<Column>,
@@ -57,7 +57,7 @@ impl Layout {
     /// Reads the first line.
     ///
     /// # Errors
-    /// Where there is none, or no column is what it should be.
+    /// If there is no line, or a column cannot be found.
     pub fn find(source: &Source, reading: &Reading) -> Result<Self, RecordingError> {
         let mut lines = Lines::new(source.text()?);
         let first = first(&mut lines).map_err(|problem| {
@@ -119,8 +119,8 @@ impl Layout {
         })
     }
 
-    /// Whether, by their names, the accelerations are those of a device that leaves gravity in. The
-    /// tables of Sensor Logger say so in the name of the file alone.
+    /// Whether, by their names, the accelerations include gravity. Sensor Logger says so only in the name of the
+    /// file.
     pub fn includes_gravity(&self, owner: &str) -> bool {
         let is_total = |index: &usize| match self.columns[*index].role {
             Role::Along { gravity, .. } => gravity == Gravity::In,
@@ -133,8 +133,7 @@ impl Layout {
     }
 }
 
-/// The first line that says something, passing over blank lines, comments, and the line that tells a
-/// spreadsheet the separator.
+/// The first line with content, after blank lines, comments, and a line that gives spreadsheets the separator.
 fn first<R: std::io::BufRead>(lines: &mut Lines<R>) -> Result<Vec<u8>, RecordingProblem> {
     loop {
         let line = match lines.next() {
@@ -152,13 +151,13 @@ fn first<R: std::io::BufRead>(lines: &mut Lines<R>) -> Result<Vec<u8>, Recording
     }
 }
 
-/// A line that says nothing: blank, or a comment.
+/// Whether a line is blank or a comment.
 pub(super) fn is_remark(line: &[u8]) -> bool {
     let line = line.trim_ascii_start();
     matches!(line.first(), None | Some(b'#' | b'%'))
 }
 
-/// Whether the first line is a row of numbers already.
+/// Whether the first line is a row of numbers, not a header.
 fn is_row(splitter: &Splitter, delimiter: Delimiter) -> bool {
     let mut mark = match delimiter {
         Delimiter::Comma => DecimalMark::Point,
@@ -181,7 +180,7 @@ fn headed(splitter: &Splitter, owner: &str) -> Vec<Column> {
         .collect()
 }
 
-/// Of two columns without names, the first is time and the second the acceleration.
+/// Columns without names: of two, the first is time and the second the acceleration.
 fn numbered(width: usize) -> Vec<Column> {
     let role = |index| match (width, index) {
         (2, 0) => Role::Time { rank: 0 },
@@ -219,7 +218,7 @@ fn format(columns: &[Column], time: usize) -> Format {
     }
 }
 
-/// What the app counts time in, where the name does not say.
+/// The unit of the app's clock, if the name does not state it.
 fn clock_unit(format: Format, clock: &Column) -> Option<TimeUnit> {
     match (format, clock.name.to_lowercase().as_str()) {
         (Format::ScienceJournal, "relative_time" | "timestamp") => Some(TimeUnit::Milliseconds),

@@ -1,15 +1,15 @@
-//! Readings from a pipe, one a line: `acceleration` or `time,acceleration`, and after them, where it is asked
-//! for, whether the drum turns: 0 or 1.
+//! Readings from a pipe, one per line: `acceleration` or `time,acceleration`, followed on request by whether
+//! the drum turns: 0 or 1.
 
 use super::cell::Cell;
 use super::lines::{LONGEST_LINE, Lines, NoLine};
 use std::io::{self, BufRead};
 
-/// Reads a line at a time, as soon as each is complete, in constant memory.
+/// Reads each line as soon as it is complete, in constant memory.
 ///
-/// Cells are parted by a comma, a semicolon, a tab or blanks; the decimal mark is a point. Blank lines and
-/// lines that begin with `#` are passed over, and so is one header line before the first reading. The
-/// first reading says whether all have a time. The order of times is not looked at.
+/// Cells are separated by a comma, a semicolon, a tab or blanks; the decimal mark is a point. Blank lines,
+/// lines that begin with `#`, and one header line before the first reading are skipped. The first reading
+/// decides whether all have a time. The order of times is not checked.
 ///
 /// ```
 /// use liftsim::signal::recording::LineReader;
@@ -24,41 +24,41 @@ use std::io::{self, BufRead};
 #[derive(Debug)]
 pub struct LineReader<R> {
     lines: Lines<R>,
-    /// Whether the last cell is about the drum.
+    /// Whether the last cell is the drum.
     has_drum: bool,
-    /// Cells a line, once known.
+    /// Cells per line, once known.
     cells: Option<usize>,
     is_headed: bool,
 }
 
-/// What a line says, in the units of whoever wrote it.
+/// The reading of a line, in the units of the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineReading {
-    /// The first cell, where there is one more.
+    /// The first cell, if the line has a time.
     pub time: Option<f64>,
-    /// The last cell, or the last but the drum's.
+    /// The last cell, or the last before the drum.
     pub acceleration: f64,
-    /// Whether the drum turns, where it is told.
+    /// Whether the drum turns, if the line has it.
     pub drum_turns: Option<bool>,
 }
 
-/// Why a line was refused. The next call goes on with the line after it.
+/// Why a line was refused. The next call continues with the next line.
 #[derive(Debug, thiserror::Error)]
 pub enum LineError {
-    /// No end in sight.
-    #[error("line {line}: must be at most {LONGEST_LINE} bytes long (is this a table of numbers?)")]
+    /// A line that is too long.
+    #[error("line {line}: must be at most {LONGEST_LINE} bytes long (send one reading per line)")]
     TooLong {
-        /// From 1.
+        /// The number of the line, from 1.
         line: u64,
     },
-    /// A cell that is no number.
+    /// A cell that is not a number.
     #[error("line {line}: must be {}, got \"{got}\"", layout(*.has_drum))]
     NotNumbers {
-        /// From 1.
+        /// The number of the line, from 1.
         line: u64,
-        /// Whether it should end with the drum.
+        /// Whether lines end with the drum.
         has_drum: bool,
-        /// As written, shorten.
+        /// The text, shortened.
         got: String,
     },
     /// NaN or an infinity.
@@ -66,27 +66,27 @@ pub enum LineError {
         "line {line}: numbers must be finite, got \"{got}\" (leave the line out where nothing was read)"
     )]
     NotFinite {
-        /// From 1.
+        /// The number of the line, from 1.
         line: u64,
-        /// As written, shorten.
+        /// The text, shortened.
         got: String,
     },
-    /// A line of another kind.
+    /// A line with a different number of cells.
     #[error("line {line}: must have {expected} as the first reading had, got {got}", expected = cells(*.expected), got = cells(*.got))]
     Cells {
-        /// From 1.
+        /// The number of the line, from 1.
         line: u64,
         /// Cells of the first reading.
         expected: usize,
         /// Cells of this line.
         got: usize,
     },
-    /// The pipe broke.
+    /// The input cannot be read.
     #[error("line {line}: cannot be read: {error}")]
     Io {
-        /// From 1.
+        /// The number of the line, from 1.
         line: u64,
-        /// What the system said.
+        /// The error of the system.
         error: io::Error,
     },
 }
@@ -117,7 +117,7 @@ impl<R: BufRead> LineReader<R> {
         }
     }
 
-    /// The same where every line ends with a cell that says whether the drum turns: 0 or 1.
+    /// Reads from `reader`, where every line ends with a cell for the drum: 0 or 1.
     pub fn with_drum(reader: R) -> Self {
         Self {
             has_drum: true,
@@ -130,10 +130,10 @@ impl<R: BufRead> LineReader<R> {
         self.lines.number()
     }
 
-    /// The next reading; none at the end of the input.
+    /// The next reading; `None` at the end of the input.
     ///
     /// # Errors
-    /// Where a line is too long or holds anything but one or two finite numbers, or the reader fails.
+    /// If a line is too long or holds anything but one or two finite numbers, or the reader fails.
     #[expect(clippy::should_implement_trait, reason = "an error does not end it")]
     pub fn next(&mut self) -> Result<Option<LineReading>, LineError> {
         loop {
@@ -187,7 +187,7 @@ impl<R: BufRead> LineReader<R> {
     }
 }
 
-/// The cells of a line; else the first that is no finite number, or whatever there is too much.
+/// The reading of a line; the error is the first cell that is not a finite number, or a cell too many.
 #[inline]
 fn read(line: &[u8], has_drum: bool) -> Result<LineReading, Cell> {
     let number = |cell: &[u8]| match Cell::read(cell) {
@@ -218,18 +218,18 @@ fn read(line: &[u8], has_drum: bool) -> Result<LineReading, Cell> {
     })
 }
 
-/// What a header consists of.
+/// Whether a line consists of words, as a header does.
 fn is_words(line: &[u8]) -> bool {
     line.iter().all(|&c| c >= b' ' || c == b'\t') && line.iter().any(u8::is_ascii_alphabetic)
 }
 
-/// The line without the mark that some editors put before UTF-8.
+/// The line without the byte order mark of UTF-8.
 fn without_mark(line: &[u8]) -> &[u8] {
     line.strip_prefix("\u{feff}".as_bytes()).unwrap_or(line)
 }
 
-/// What stands before and after the first separator. A cell too many leaves a separator in the last one,
-/// which then is no number.
+/// The parts before and after the first separator. A cell too many leaves a separator in the last part, which
+/// then is not a number.
 #[inline]
 fn split(line: &[u8]) -> (&[u8], Option<&[u8]>) {
     let is_separator = |c: &u8| matches!(c, b',' | b';' | b'\t' | b' ');
@@ -244,7 +244,7 @@ fn split(line: &[u8]) -> (&[u8], Option<&[u8]>) {
     (&line[..end], Some(rest))
 }
 
-/// The beginning of what was written, in print.
+/// The beginning of a text, with control characters escaped.
 pub(super) fn shorten(text: &[u8]) -> String {
     const SHOWN: usize = 40;
     let text = String::from_utf8_lossy(&text[..text.len().min(4 * SHOWN)]);

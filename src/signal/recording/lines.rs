@@ -1,32 +1,32 @@
 //! Lines of bounded length from any reader.
 //!
-//! A line is held in one buffer that is used again for the next, and a line without end, which a damaged
-//! file or a wrong device can hold, is refused before it fills the memory.
+//! All lines share one buffer, and a line without end, as in a damaged file or from a wrong device, is refused
+//! before it fills the memory.
 
 use std::io::{self, BufRead};
 
-/// The longest line that is read, bytes. A table of sensor readings needs some hundred.
+/// The longest line, bytes. A table of sensor readings needs some hundred.
 pub(super) const LONGEST_LINE: usize = 1 << 20;
 
-/// A source of lines that knows where it is.
+/// A source of numbered lines.
 #[derive(Debug)]
 pub(super) struct Lines<R> {
     reader: R,
     buffer: Vec<u8>,
     number: u64,
-    /// The rest of a refused line is still to be passed over.
+    /// Whether the rest of a refused line must be skipped.
     is_inside: bool,
 }
 
-/// A line without its end.
+/// A line without its line end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Line<'a> {
     pub bytes: &'a [u8],
-    /// Whether it ended, or the input did.
+    /// Whether it had a line end, as opposed to the end of the input.
     pub is_ended: bool,
 }
 
-/// Why there is no line.
+/// Why a line cannot be read.
 #[derive(Debug)]
 pub(super) enum NoLine {
     /// It is longer than [`LONGEST_LINE`].
@@ -50,8 +50,8 @@ impl<R: BufRead> Lines<R> {
         self.number
     }
 
-    /// The next line as soon as its end has been read; none after the last. A line that was refused is
-    /// passed over by the next call.
+    /// The next line as soon as its end has been read; `None` after the last. The next call skips the rest of a
+    /// refused line.
     pub fn next(&mut self) -> Result<Option<Line<'_>>, NoLine> {
         if self.is_inside {
             self.pass_over()?;
@@ -98,10 +98,10 @@ impl<R: BufRead> Lines<R> {
     }
 }
 
-/// What the reader has, once it has anything; nothing at its end.
+/// The bytes available in the reader; empty at its end.
 fn available(reader: &mut impl BufRead) -> Result<&[u8], NoLine> {
-    // Asked twice because a loop that returns a borrow from inside is not accepted; the second answer
-    // comes from the reader's buffer.
+    // Called twice because the borrow checker refuses to return a borrow from inside the loop; the second call
+    // is answered from the reader's buffer.
     loop {
         match reader.fill_buf() {
             Ok(_) => break,

@@ -1,25 +1,24 @@
-//! Recordings of real lifts: what a phone or a logger wrote down, as one signal.
+//! Recordings of real lifts by a phone or a logger, read as one signal.
 //!
 //! A [`Recording`] is a table of text: from phyphox, Science Journal or Sensor Logger, or plainly
-//! `time,acceleration`; by itself or in a zip archive; its cells parted by commas, semicolons or tabs,
-//! with decimal points or commas, in UTF-8 or UTF-16. Opening it reads it through once or twice, in bounded
-//! memory whatever its size: to find which way is up, and to gather the [`Facts`] and [`Warning`]s that
-//! should be known before the signal is trusted. [`Recording::samples`] then reads it once more.
+//! `time,acceleration`; by itself or in a zip archive; its cells separated by commas, semicolons or tabs,
+//! with decimal points or commas, in UTF-8 or UTF-16. Opening it reads it once or twice, in bounded memory
+//! whatever its size, to find the vertical axis and to gather [`Facts`] and [`Warning`]s about the quality of
+//! the signal. [`Recording::samples`] then reads it once more.
 //!
-//! What is read is in s and m/s², up positive, times strictly increasing; nothing else is changed. In
+//! Samples are in s and m/s², up positive, with strictly increasing times; nothing else is changed. In
 //! particular:
 //!
 //! - a row whose time or acceleration is blank gives no sample, since apps write a row for every sensor;
-//! - of rows with one time the first counts, and a time that goes back is refused, since no order of
-//!   the rows is then to be trusted;
-//! - a last row that is cut short is left out with a warning. A number that lost its last digits and is
-//!   still a number cannot be told from a whole one;
-//! - everything else that is no finite number is refused with its line;
-//! - only where [`Reading::resample`] asks for it are samples brought to a uniform grid: each is then the
-//!   mean over a block of 1/rate of the straight lines that join the readings, and where a gap reaches
-//!   into a block there is none.
+//! - of rows with equal times the first counts, and a time that goes back is refused, since the order of the
+//!   rows is then unreliable;
+//! - a last row that is cut short is left out with a warning. A number that lost only some digits cannot be
+//!   distinguished from a complete one;
+//! - any other cell that is not a finite number is refused with its line;
+//! - samples are resampled to a uniform grid only if [`Reading::resample`] is set: each is then the mean of
+//!   the linear interpolation over a block of 1/rate, and blocks that a gap reaches into are left out.
 //!
-//! A [`LineReader`] reads what comes through a pipe, a line at a time.
+//! A [`LineReader`] reads from a pipe, line by line.
 //!
 //! ```
 //! use liftsim::signal::recording::{Reading, Recording};
@@ -79,7 +78,7 @@ use source::Source;
 use std::path::Path;
 use std::sync::Arc;
 
-/// A file that has been looked through, and can be read.
+/// A recording that has been checked and can be read.
 #[derive(Clone, Debug)]
 pub struct Recording {
     source: Source,
@@ -91,18 +90,18 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Looks through a file.
+    /// Opens and checks a file.
     ///
     /// # Errors
-    /// Where it is no recording, or cannot be read as asked.
+    /// If the file is not a recording, or cannot be read with these options.
     pub fn open(path: &Path, reading: &Reading) -> Result<Self, RecordingError> {
         Self::look_through(Source::file(path)?, reading)
     }
 
-    /// The same of a file that is held in memory, under the name that messages give it.
+    /// Checks a file held in memory; messages call it `name`.
     ///
     /// # Errors
-    /// Where it is no recording, or cannot be read as asked.
+    /// If the file is not a recording, or cannot be read with these options.
     pub fn from_bytes(
         name: &str,
         bytes: impl Into<Arc<[u8]>>,
@@ -134,12 +133,12 @@ impl Recording {
         })
     }
 
-    /// What is known of the signal as it was recorded.
+    /// Facts about the signal before any resampling.
     pub fn facts(&self) -> &Facts {
         &self.facts
     }
 
-    /// What should be known before it is trusted.
+    /// Warnings about the quality of the signal.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
@@ -154,7 +153,7 @@ impl Recording {
         self.source.member()
     }
 
-    /// The name of the time column, and what it is counted in.
+    /// The name and the unit of the time column.
     pub fn time_column(&self) -> (&str, TimeUnit) {
         (
             &self.layout.columns[self.layout.time].name,
@@ -175,17 +174,17 @@ impl Recording {
             .collect()
     }
 
-    /// What accelerations are counted in, never [`Unit::Found`].
+    /// The unit of the accelerations, never [`Unit::Found`].
     pub fn unit(&self) -> Unit {
         self.layout.unit
     }
 
-    /// Which way is up, and how that is known.
+    /// The vertical direction, and how it was found.
     pub fn vertical(&self) -> &Vertical {
         &self.vertical
     }
 
-    /// Hz: of the samples that are read, resampled if that was asked.
+    /// The rate of the samples, Hz, after any resampling.
     pub fn rate(&self) -> f64 {
         self.resample.unwrap_or(self.facts.rate)
     }
@@ -193,7 +192,7 @@ impl Recording {
     /// The samples, from the first.
     ///
     /// # Errors
-    /// Where the file can no longer be opened.
+    /// If the file can no longer be opened.
     pub fn samples(&self) -> Result<Samples, RecordingError> {
         let series = Series::open(&self.source, &self.layout, &self.vertical.direction)?;
         Ok(Samples(match self.resample {
@@ -224,7 +223,7 @@ impl Iterator for Samples {
     }
 }
 
-/// Which way is up: said, or found in a pass of its own.
+/// The vertical direction: given, or found in a separate pass.
 fn vertical(
     source: &Source,
     layout: &Arc<Layout>,
@@ -256,8 +255,8 @@ fn vertical(
     }
 }
 
-/// Seconds are a guess where nothing is said, and a rate that no sensor of lifts has shows it to be wrong.
-/// What is said is believed, but for rates that no clock can tell.
+/// Checks the rate of the clock. If no unit is stated, seconds are assumed, and a rate that no such sensor has
+/// is refused. A stated unit is refused only for impossible rates.
 fn check_clock(layout: &Layout, facts: &Facts) -> Result<(), RecordingProblem> {
     let believed = if layout.is_time_unit_stated {
         1e-3..=1e7
@@ -276,7 +275,7 @@ fn check_clock(layout: &Layout, facts: &Facts) -> Result<(), RecordingProblem> {
     }
 }
 
-/// The coarsest unit in which a clock would be that of a sensor.
+/// The coarsest unit in which the clock would have the rate of a sensor.
 fn likely_unit(unit: TimeUnit, rate: f64) -> Option<TimeUnit> {
     let a_tick = rate / unit.per_second();
     TimeUnit::ALL
@@ -284,7 +283,7 @@ fn likely_unit(unit: TimeUnit, rate: f64) -> Option<TimeUnit> {
         .find(|unit| (2.0..=5e4).contains(&(a_tick * unit.per_second())))
 }
 
-/// A grid must not be finer than the clock's own numbers, nor pretend to what was not recorded.
+/// Checks that the grid is neither finer than the clock resolves nor much finer than the recording.
 fn check_resample(reading: &Reading, facts: &Facts) -> Result<(), RecordingProblem> {
     let latest = facts.start.abs().max(facts.end.abs());
     let limit = (10.0 * facts.rate).min(1.0 / (16.0 * f64::EPSILON * latest));

@@ -1,30 +1,30 @@
-//! How a recording is to be read; whatever is left open is found in the file.
+//! Options for reading a recording; unset options are found from the file.
 
 use super::axis::Axis;
 use super::unknown_name::UnknownName;
 use std::fmt;
 use std::str::FromStr;
 
-/// How a file is to be read. The default finds everything.
+/// Options for reading a file. By default all are found from the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
     /// The name of the time column. Columns of a file without a header are named "1", "2", ….
     pub time: Option<String>,
     /// The name of the one column that holds the vertical acceleration.
     pub acceleration: Option<String>,
-    /// What time is counted in.
+    /// The unit of time.
     pub time_unit: Option<TimeUnit>,
-    /// What acceleration is counted in.
+    /// The unit of acceleration.
     pub unit: Unit,
-    /// Which way is up, where a file has three axes.
+    /// The vertical axis, if a file has three axes.
     pub axis: Axis,
-    /// Hz, of a uniform grid to bring the signal to; as recorded where absent.
+    /// The rate of a uniform grid to resample to, Hz; `None` leaves the signal as recorded.
     pub resample: Option<f64>,
     /// The file to read within a zip archive.
     pub member: Option<String>,
 }
 
-/// What time is counted in.
+/// A unit of time.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum TimeUnit {
     /// s.
@@ -60,7 +60,7 @@ impl TimeUnit {
         Self::Nanoseconds,
     ];
 
-    /// How many of them make a second. Dividing by it keeps 20 ms the double nearest to 0.02 s, which
+    /// The number of units in a second. Dividing by it turns 20 ms into the double nearest to 0.02 s, which
     /// multiplying by 0.001 would not.
     pub(super) fn per_second(self) -> f64 {
         match self {
@@ -86,10 +86,10 @@ impl fmt::Display for TimeUnit {
 /// Standard gravity, m/s².
 pub const GRAVITY: f64 = 9.80665;
 
-/// What acceleration is counted in.
+/// A unit of acceleration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Unit {
-    /// As the header says; m/s² where it says nothing.
+    /// The unit in the header, or m/s² by default.
     #[default]
     Found,
     /// m/s².
@@ -100,9 +100,9 @@ pub enum Unit {
     Milligravity,
     /// Readings of a converter: (count − offset) · scale.
     Counts {
-        /// m/s² a count; negative where counts fall as acceleration rises.
+        /// m/s² per count; negative if counts fall as acceleration rises.
         scale: f64,
-        /// The count of no acceleration.
+        /// The count at zero acceleration.
         offset: f64,
     },
 }
@@ -110,34 +110,34 @@ pub enum Unit {
 /// Why a unit was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum UnitError {
-    /// No unit of an acceleration.
+    /// An unknown name.
     #[error("unit: {0}")]
     Name(UnknownName),
-    /// Counts of nobody knows what.
+    /// Counts without a scale.
     #[error("unit: counts need a scale (say how many m/s^2 one count is)")]
     NoScale,
-    /// A converter's number beside a unit that has none.
+    /// A scale or an offset for another unit than counts.
     #[error("{key}: is for counts alone, the unit is {unit} (leave one of them out)")]
     NotCounts {
         /// Scale or offset.
         key: &'static str,
-        /// As given.
+        /// The unit given.
         unit: Unit,
     },
-    /// A scale or an offset that is none.
+    /// A scale or an offset out of range.
     #[error("unit: {key} must be {rule}, got {got}")]
     Counts {
-        /// Which one.
+        /// Scale or offset.
         key: &'static str,
-        /// What would do.
+        /// The rule for it.
         rule: &'static str,
-        /// As given.
+        /// The value given.
         got: f64,
     },
 }
 
 impl UnitError {
-    /// Which of unit, scale and offset is to be mended.
+    /// The option at fault: unit, scale or offset.
     pub fn key(&self) -> &'static str {
         match self {
             Self::Name(_) | Self::NoScale => "unit",
@@ -147,11 +147,10 @@ impl UnitError {
 }
 
 impl Unit {
-    /// The unit that a user's words come to, if there are any. Counts need not be called so where their
-    /// scale is given.
+    /// The unit from a user's options, or `None` without any. With a scale the name `counts` may be left out.
     ///
     /// # Errors
-    /// Where the name is none, counts have no scale, another unit has one, or a number is out of its range.
+    /// If the name is unknown, counts have no scale, another unit has one, or a number is out of its range.
     pub fn told(
         name: Option<&str>,
         scale: Option<f64>,
@@ -180,7 +179,7 @@ impl Unit {
         }
     }
 
-    /// The unit of a name: m/s^2, g or mg, in their usual spellings.
+    /// The unit with this name: m/s^2, g or mg, in the usual spellings.
     pub fn from_name(name: &str) -> Option<Self> {
         let name: String = name.to_lowercase().split_whitespace().collect();
         match name.as_str() {
@@ -205,7 +204,7 @@ impl Unit {
     }
 
     /// # Errors
-    /// Where a scale or an offset is no number to calculate with.
+    /// If a scale or an offset is out of range.
     pub(super) fn check(self) -> Result<(), UnitError> {
         let Self::Counts { scale, offset } = self else {
             return Ok(());

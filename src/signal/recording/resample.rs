@@ -1,16 +1,16 @@
-//! A uniform grid for a signal whose samples come unevenly, or too often.
+//! Resampling of a signal to a uniform grid.
 //!
 //! The samples are joined by straight lines, and sample k of the result is the mean of that line over the
-//! block of length 1/rate that begins at t₀ + k/rate; its time is the block's middle. One rule serves both
-//! ways:
+//! block of length 1/rate that begins at t₀ + k/rate; its time is the block's middle. The same rule lowers and
+//! raises the rate:
 //!
 //! - a lower rate is a block average, whose zeros lie at the multiples of the new rate, where vibration
-//!   would be folded down to the frequencies of a ride. It has no overshoot and needs no more memory than
-//!   its sum, and unlike a mean of samples it does not care how unevenly they lie in the block;
-//! - a higher rate is linear interpolation, but for a mean over less than an interval.
+//!   would be aliased to the frequencies of a ride. It has no overshoot, needs no memory but its sum, and,
+//!   unlike a mean of samples, does not depend on how unevenly they lie in the block;
+//! - a higher rate is linear interpolation, averaged over less than an interval.
 //!
-//! Blocks that a gap reaches into are left out: what was not measured is not made up. Averaging changes the
-//! colour and the deviation of the noise, which is why it is done only when asked.
+//! Blocks that a gap reaches into are left out, because nothing was measured there. Averaging changes the
+//! colour and the variance of the noise, so it is done only on request.
 
 use super::error::RecordingError;
 use super::series::{Sample, Series};
@@ -19,15 +19,15 @@ use super::series::{Sample, Series};
 pub(super) struct Resampled {
     series: Series,
     rate: f64,
-    /// s; nothing is interpolated over a longer interval.
+    /// The longest interval that is interpolated, s.
     gap: f64,
     origin: f64,
     last: Option<Sample>,
-    /// The sample that the line goes to.
+    /// The sample at the end of the current line.
     next: Option<Sample>,
-    /// The block that is being summed.
+    /// The current block.
     block: f64,
-    /// The integral over it up to `last`.
+    /// The integral over the current block up to `last`.
     area: f64,
 }
 
@@ -98,7 +98,7 @@ impl Resampled {
             };
             self.area = 0.0;
             self.block += 1.0;
-            // The line goes on from the end of the block.
+            // The line continues from the end of the block.
             self.last = Some(Sample {
                 time: end,
                 acceleration: at(end),
@@ -142,7 +142,7 @@ mod tests {
         }
     }
 
-    /// The mean of a straight line over a block is its value in the middle, however the samples lie.
+    /// The mean of a straight line over a block is its value in the middle, for any spacing of samples.
     #[test]
     fn a_line_stays_a_line() {
         let line = |t: f64| (t, 3.0 * t - 1.0);

@@ -13,12 +13,12 @@ use std::sync::Arc;
 pub struct Sample {
     /// s, by the file's clock.
     pub time: f64,
-    /// m/s², up positive; bias, and gravity where the file has it, left in.
+    /// m/s², up positive; bias and any gravity are left in.
     pub acceleration: f64,
 }
 
-/// Times and accelerations beyond these are no recording of a lift: 30 000 years, and ten thousand times
-/// what a shock sensor measures.
+/// No recording of a lift has times or accelerations beyond these: 30 000 years, and ten thousand times the
+/// range of a shock sensor.
 const LATEST: (u8, f64) = (12, 1e12);
 const STRONGEST: (u8, f64) = (9, 1e9);
 
@@ -29,7 +29,7 @@ pub(super) struct Skipped {
     pub blank: u64,
     /// The time was that of the row before.
     pub repeated: u64,
-    /// The line of the first of these.
+    /// The line of the first repeated time.
     pub first_repeat: Option<u64>,
     /// The line at which the file is cut off.
     pub cut: Option<u64>,
@@ -59,7 +59,7 @@ impl Series {
         })
     }
 
-    /// What has been passed over so far.
+    /// The rows skipped so far.
     pub fn skipped(&self) -> Skipped {
         Skipped {
             cut: self.readings.table.cut(),
@@ -83,7 +83,7 @@ impl Series {
                     let problem = RecordingProblem::TimeBack { from, to: time };
                     return Err(self.readings.table.error(problem));
                 }
-                // The first of several readings at one time is kept: which one is right cannot be known.
+                // Of several readings at one time the first is kept, since nothing shows which one is right.
                 Some(from) if time == from => {
                     self.skipped.repeated += 1;
                     let line = self.readings.table.line();
@@ -177,12 +177,12 @@ impl Readings {
         }
         let is_clock = column == self.layout.time;
         let remedy = match (is_clock && !self.layout.is_time_unit_stated, got.abs()) {
-            // Seconds since 1970 are 1e9 to 1e10 of them.
+            // Times since 1970 are 1e9 to 1e10 s.
             (true, 1e12..1e13) => "--time-unit ms, if these are milliseconds since 1970",
             (true, 1e15..1e16) => "--time-unit us, if these are microseconds since 1970",
             (true, 1e18..1e19) => "--time-unit ns, if these are nanoseconds since 1970",
-            _ if is_clock => "is the unit right? --time-unit s, ms, us or ns",
-            _ => "is the unit right? --unit m/s^2, g, mg or counts",
+            _ if is_clock => "check the unit: --time-unit s, ms, us or ns",
+            _ => "check the unit: --unit m/s^2, g, mg or counts",
         };
         let column = self.layout.columns[column].name.clone();
         Err(self.table.error(RecordingProblem::OutOfRange {

@@ -1,7 +1,7 @@
-//! Where a recording's text comes from, to be read from the start as often as asked.
+//! The source of a recording's text, which can be read several times.
 //!
-//! Text in UTF-16 is told by its mark and turned into UTF-8; everything else is passed as it is. A member
-//! of a zip archive is unpacked as it is read.
+//! Text in UTF-16 is recognised by its byte order mark and converted to UTF-8; everything else is passed
+//! unchanged. A member of a zip archive is unpacked as it is read.
 
 use super::error::{RecordingError, RecordingProblem};
 use encoding_rs_io::DecodeReaderBytesBuilder;
@@ -12,7 +12,7 @@ use std::io::{self, BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Bytes that a reader takes at a time.
+/// The size of a read buffer, bytes.
 const BUFFER: usize = 1 << 16;
 
 /// A reader of lines.
@@ -32,7 +32,7 @@ enum Bytes {
     Memory(Arc<[u8]>),
 }
 
-/// Where in an archive a member lies.
+/// The position of a member in an archive.
 #[derive(Clone, Debug)]
 pub(super) struct Member {
     pub name: String,
@@ -47,7 +47,7 @@ impl<T: Read + Seek + Send> ReadSeek for T {}
 
 impl Source {
     /// # Errors
-    /// Where there is no such file, or it cannot be read twice.
+    /// If there is no such file, or it cannot be read twice.
     pub fn file(path: &Path) -> Result<Self, RecordingError> {
         let name = path.display().to_string();
         let refused = |problem| RecordingError::new(&name, None, problem);
@@ -83,7 +83,7 @@ impl Source {
         }
     }
 
-    /// What messages call it.
+    /// The name in messages.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -93,12 +93,12 @@ impl Source {
         self.member.as_ref().map(|member| member.name.as_str())
     }
 
-    /// Something is wrong with it, in a line where one is given.
+    /// An error of this source, in a line if one is given.
     pub fn error(&self, line: Option<u64>, problem: RecordingProblem) -> RecordingError {
         RecordingError::new(&self.name, line, problem)
     }
 
-    /// Its bytes, packed as they may be.
+    /// Its bytes, which may be packed.
     pub fn bytes(&self) -> Result<Box<dyn ReadSeek>, RecordingError> {
         match &self.bytes {
             Bytes::File(path) => match File::open(path) {
@@ -137,7 +137,7 @@ fn decoded(bytes: impl Read + Send + 'static) -> Text {
     Box::new(BufReader::with_capacity(BUFFER, utf8))
 }
 
-/// Unpacked bytes whose checksum is compared at their end.
+/// Unpacked bytes whose checksum is verified at their end.
 struct Checked<R> {
     reader: CrcReader<R>,
     checksum: u32,

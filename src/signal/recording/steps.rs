@@ -1,41 +1,41 @@
-//! The sensor's step, where its readings lie on a grid.
+//! The quantisation step of the sensor, if its readings lie on a grid.
 //!
-//! From the first few thousand readings: sorted, the distances of neighbours are whole multiples of the
-//! smallest where there is a grid, and any number where there is none. The estimate is refined from the
-//! short multiples to the long, so that its error never reaches a tenth of a step.
+//! It is estimated from the first few thousand readings. After sorting, the distances of neighbours on a grid
+//! are integer multiples of the smallest. The estimate is refined from the short multiples to the long, so
+//! that its error never reaches a tenth of a step.
 
 use super::reading::GRAVITY;
 
-/// Readings that are looked at.
+/// The number of readings used.
 pub(super) const LOOKED_AT: usize = 8192;
 
-/// Readings are equal where they differ by less than this share of the largest of them, or of gravity: apps
-/// keep numbers in single precision, whose neighbours lie 1.2e-7 apart, and gravity has been taken out of
-/// such numbers.
+/// Readings count as equal if they differ by less than this share of the largest of them, or of gravity: apps
+/// store numbers in single precision, whose neighbours lie 1.2e-7 apart, and may have subtracted gravity from
+/// them.
 const EQUAL: f64 = 4.0 * f32::EPSILON as f64;
 
-/// How far from a multiple a distance may lie, in steps. Distances that know no grid lie so near by chance
-/// one time in five.
+/// The largest deviation of a distance from a multiple, in steps. Without a grid one distance in five lies so
+/// near by chance.
 const NEAR: f64 = 0.1;
 
-/// Distances longer than this many steps say nothing: the error of the step would tell.
+/// Distances longer than this many steps are not used, because the error of the step would matter.
 const LONG: f64 = 50.0;
 
-/// Distances needed: five that fit by chance are 3e-4 likely.
+/// The number of distances needed: five fit by chance with probability 3e-4.
 const FEWEST: u64 = 5;
 
-/// The share of ties that proves a grid by itself, however few its levels.
+/// The share of ties that proves a grid of even a few levels.
 const TIED: f64 = 0.9;
 
 /// The share of distances that may lie off the grid.
 const ASTRAY: f64 = 0.01;
 
-/// What the first readings say.
+/// The result for the first readings.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Steps {
     /// m/s².
     pub quantum: Option<f64>,
-    /// Values that differ.
+    /// The number of distinct values.
     pub levels: usize,
 }
 
@@ -57,7 +57,7 @@ impl Steps {
     }
 }
 
-/// The step of which `distances`, from the shortest, are multiples: at least the `fewest` of them.
+/// The step of which `distances`, in ascending order, are multiples; `None` if fewer than `fewest` fit.
 fn grid(distances: &[f64], fewest: u64) -> Option<f64> {
     let mut step = *distances.first()?;
     let (mut sum, mut multiples) = (0.0, 0.0);
@@ -121,7 +121,7 @@ mod tests {
         assert_eq!(Steps::of(vec![1.0; 9]).quantum, None);
     }
 
-    /// Gravity, in single precision, leaves a grid that is none of the sensor's.
+    /// Gravity in single precision leaves a grid that is not the sensor's.
     #[test]
     fn the_grid_of_the_numbers_is_no_step() {
         let without_gravity = |x: f64| f64::from((9.8 + x) as f32) - 9.8;

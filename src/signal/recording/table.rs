@@ -46,8 +46,8 @@ impl Table {
         Ok(table)
     }
 
-    /// Goes to the next row; says whether there is one. A last line without its end that has too few cells
-    /// is no row: the file was cut there.
+    /// Goes to the next row; returns whether there is one. A last line without a line end and with too few cells
+    /// is not a row: the file was cut there.
     pub fn advance(&mut self) -> Result<bool, RecordingError> {
         let expected = self.layout.columns.len();
         loop {
@@ -75,7 +75,7 @@ impl Table {
         }
     }
 
-    /// The number in a cell of the row; none where the cell is blank, or was cut off with the file.
+    /// The number in a cell of the row; `None` if the cell is blank or was cut off with the file.
     #[inline]
     pub fn number(&mut self, column: usize) -> Result<Option<f64>, RecordingError> {
         let cell = self.splitter.cell(column);
@@ -109,7 +109,7 @@ impl Table {
         self.lines.number()
     }
 
-    /// Something is wrong with the row.
+    /// An error in this row.
     pub fn error(&self, problem: RecordingProblem) -> RecordingError {
         self.source.error(Some(self.lines.number()), problem)
     }
@@ -142,7 +142,7 @@ impl Table {
     }
 }
 
-/// Whether a cell looks like a date, 2013-11-25 or 25.11.2013, or has a time of day in it.
+/// Whether a cell looks like a date, 2013-11-25 or 25.11.2013, or contains a time of day.
 fn is_date(cell: &[u8]) -> bool {
     let digits = |part: &[u8]| part.iter().take_while(|c| c.is_ascii_digit()).count();
     let parts: Vec<usize> = cell
@@ -157,7 +157,7 @@ fn is_date(cell: &[u8]) -> bool {
     }
 }
 
-/// Why a line has not as many cells as the first.
+/// The error for a line with a different number of cells than the first.
 fn wrong_cells(line: &[u8], delimiter: Delimiter, expected: usize, got: usize) -> RecordingProblem {
     if line.iter().any(|&c| c.is_ascii_control() && c != b'\t') {
         return RecordingProblem::Binary;

@@ -1,6 +1,6 @@
-//! A name that a user may not give.
+//! The error for a name that is not one of several known ones.
 
-/// A name that stands for nothing here.
+/// An unknown name, with the known ones.
 #[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
 #[error("must be {known}, got \"{got}\"")]
 pub struct UnknownName {

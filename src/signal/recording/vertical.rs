@@ -1,15 +1,15 @@
-//! Which way is up, and how that is known.
+//! The vertical direction, and how it was found.
 
 use super::axis::Axis;
 use super::reading::GRAVITY;
 use std::fmt;
 
-/// Which way is up, and how that is known.
+/// The vertical direction, and how it was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vertical {
-    /// Which way.
+    /// The direction.
     pub direction: Direction,
-    /// How that is known.
+    /// How it was found.
     pub reason: Reason,
 }
 
@@ -18,16 +18,16 @@ pub struct Vertical {
 pub enum Direction {
     /// Along one column.
     Along {
-        /// Its place in the table, from 0.
+        /// Its index in the table, from 0.
         column: usize,
-        /// Its axis, where it has one.
+        /// Its axis, if it has one.
         axis: Option<Axis>,
-        /// −1 where it points down.
+        /// −1 if it points down.
         sign: f64,
     },
-    /// Along a direction between three of them.
+    /// Along a direction between three columns.
     Projected {
-        /// Their places in the table, from 0.
+        /// Their indices in the table, from 0.
         columns: [usize; 3],
         /// A vector of length 1.
         up: [f64; 3],
@@ -37,20 +37,20 @@ pub enum Direction {
 /// How the vertical was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reason {
-    /// The reader said so.
+    /// Given by the user.
     Given,
-    /// There is no other.
+    /// The only column.
     Only,
-    /// It lies this near to gravity, in degrees.
+    /// The nearest to gravity, at this angle in degrees.
     Gravity(f64),
-    /// The ride is along it, more than along any other by this factor.
+    /// The one with the ride, more than any other by this factor.
     Ride(f64),
-    /// No axis stands out: z where there is one.
+    /// No axis stands out; z if there is one.
     NearTie,
 }
 
 impl Vertical {
-    /// The same upside down.
+    /// The opposite direction.
     pub(super) fn turned(mut self) -> Self {
         match &mut self.direction {
             Direction::Along { sign, .. } => *sign = -*sign,
@@ -91,7 +91,7 @@ impl fmt::Display for Vertical {
     }
 }
 
-/// Whether a mean is gravity: 9.8 m/s² but for the bias of a bad sensor, and the tilt of one axis.
+/// Whether a mean is gravity: 9.8 m/s² up to the bias of a poor sensor and the tilt of an axis.
 pub(super) fn is_gravity(mean: f64) -> bool {
     (0.87 * GRAVITY..=1.13 * GRAVITY).contains(&mean.abs())
 }

@@ -1,4 +1,4 @@
-//! What does not forbid a recording's use, and should be known.
+//! Warnings about the quality of a recording.
 
 use super::column::Role;
 use super::facts::Facts;
@@ -7,12 +7,12 @@ use super::layout::Layout;
 use super::vertical::{Direction, Reason, Vertical};
 use std::fmt;
 
-/// What should be known of a recording before its signal is trusted.
+/// A warning about the quality of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Warning {
-    /// Samples come at uneven intervals.
+    /// Samples are unevenly spaced.
     Uneven {
-        /// As in [`Facts`].
+        /// [`Facts::jitter`].
         jitter: f64,
     },
     /// Samples are missing.
@@ -43,7 +43,7 @@ pub enum Warning {
     },
     /// The sensor was at its limit.
     Saturated {
-        /// Of the samples.
+        /// The share of samples at the limit.
         share: f64,
         /// m/s².
         least: f64,
@@ -57,7 +57,7 @@ pub enum Warning {
         /// The share of samples that equal the one before.
         repeats: f64,
     },
-    /// Many samples equal the one before, on no grid: a slow sensor read too often.
+    /// Many samples equal the one before without a grid: a slow sensor was read too often.
     Held {
         /// The share of samples that equal the one before.
         repeats: f64,
@@ -76,28 +76,28 @@ pub enum Warning {
     },
     /// The mean is far beyond gravity's.
     PerhapsCounts {
-        /// As read.
+        /// The mean as read.
         mean: f64,
     },
     /// The header names no unit, and the mean is 1.
     PerhapsGravity {
-        /// As read.
+        /// The mean as read.
         mean: f64,
     },
 }
 
-/// Jitter that is worth a word. Sensors with a clock of their own stay below 0.1 %, apps that write down
-/// when they were called are above 10 %.
+/// The smallest jitter with a warning. Sensors with their own clock stay below 0.1 %; apps that record the time
+/// of their call are above 10 %.
 const UNEVEN: f64 = 0.05;
 
-/// The share of equal neighbours at which a step is coarse. Normal noise of deviation s on steps q has
-/// 0.28 q/s of them: here q is 0.7 s.
+/// The share of equal neighbours from which a step counts as coarse. For normal noise of standard deviation s
+/// and steps q the share is 0.28 q/s: here q is 0.7 s.
 const COARSE: f64 = 0.2;
 
 /// Degrees.
 const TILTED: f64 = 25.0;
 
-/// m/s², twice that of gravity: no recording of a lift has such a mean.
+/// A mean that no recording of a lift has, m/s²: twice gravity.
 const BEYOND_GRAVITY: f64 = 20.0;
 
 impl Warning {
@@ -116,7 +116,7 @@ impl Warning {
             (Direction::Along { .. }, Reason::Gravity(angle)) => Some(angle),
             _ => None,
         };
-        // A signal at its limit repeats itself too.
+        // Samples at a limit are equal too, but for another reason.
         let is_held = facts.repeats - facts.saturated.unwrap_or(0.0) >= COARSE;
         let found = [
             magnitude,
@@ -209,7 +209,7 @@ impl fmt::Display for Warning {
             ),
             Self::Held { repeats } => write!(
                 f,
-                "{:.0} % of the samples equal the one before (was a slow sensor read too often?)",
+                "{:.0} % of the samples equal the one before (a slow sensor was probably read too often)",
                 percent(*repeats)
             ),
             Self::NearTie(vertical) => write!(f, "vertical axis: {vertical} (--axis x, y or z)"),
@@ -224,7 +224,7 @@ impl fmt::Display for Warning {
             ),
             Self::PerhapsCounts { mean } => write!(
                 f,
-                "the mean is {mean:.1} m/s^2, that of gravity 9.8 (in which unit are the readings? --unit says it)"
+                "the mean is {mean:.1} m/s^2, that of gravity 9.8 (give the unit with --unit)"
             ),
             Self::PerhapsGravity { mean } => write!(
                 f,

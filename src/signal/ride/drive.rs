@@ -1,22 +1,22 @@
-//! How a drive brings a cage from rest to a speed: limited in jerk, acceleration and speed.
+//! The start of a cage by a drive with limited jerk, acceleration and speed.
 //!
 //! The jerk is J for t_j, 0 for t_a, −J for t_j. With a = J t_j and T = 2 t_j + t_a the speed reached is
-//! v = a (t_j + t_a), and by the point symmetry v(T − t) = v − v(t) the way is vT/2. Solved for t_j and T:
+//! v = a (t_j + t_a), and by the point symmetry v(T − t) = v − v(t) the distance is vT/2. Solved for t_j and T:
 //!
 //! | | t_j | T |
 //! |---|---|---|
 //! | v ≥ A²/J: the acceleration A is reached | A/J | v/A + A/J |
 //! | below | √(v/J) | 2 t_j |
 //!
-//! Braking is the same reversed in time, so a trip of speed v that does without uniform motion has
-//! D = vT. With T from the table the highest such speed is
+//! Braking is the same reversed in time, so a trip of speed v without uniform motion has D = vT. With T from
+//! the table the highest such speed is
 //!
 //! | | v |
 //! |---|---|
 //! | D ≥ 2A³/J²: v² + (A²/J) v − AD = 0 | 2AD/(A²/J + √(A⁴/J² + 4AD)) |
 //! | below: D = 2 J t_j³ | J t_j², t_j = ∛(D/2J) |
 //!
-//! and a trip for which it exceeds V runs at V, and uniformly for D/V − T.
+//! A trip for which it exceeds V has speed V, with uniform motion for D/V − T.
 
 use libm::{cbrt, sqrt};
 
@@ -119,13 +119,13 @@ impl Start {
         }
     }
 
-    /// In the first half.
+    /// The speed in the first half.
     fn early_speed(&self, time: f64) -> f64 {
         let curved = time.min(self.ramp);
         self.jerk * curved * (curved / 2.0 + (time - curved))
     }
 
-    /// In the first half.
+    /// The distance in the first half.
     fn early_way(&self, time: f64) -> f64 {
         let curved = time.min(self.ramp);
         let straight = time - curved;

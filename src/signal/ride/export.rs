@@ -1,13 +1,13 @@
 //! A simulated ride as files: the record as phyphox exports it, the truth beside it.
 //!
-//! The clock of a record starts with the period that its first sample is the mean of, so sample i stands at
-//! (i + ½)/rate, and the truth is moved by as much. Numbers in print do not depend on the machine.
+//! The clock of a record starts with the period of its first sample, which is a mean, so sample i is at
+//! (i + ½)/rate, and the truth is shifted by half a period too. Printed numbers do not depend on the machine.
 
 use super::{Journey, Ride};
 use libm::sqrt;
 use std::io::{self, Write};
 
-/// The layout of an export: which of phyphox's experiments a record looks like.
+/// The layout of an export: that of one of phyphox's experiments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ExportLayout {
     /// Acceleration without g.
@@ -28,7 +28,7 @@ impl ExportLayout {
 /// Writes three axes (m/s²) of equal length, without a final newline, as phyphox does.
 ///
 /// # Errors
-/// Where `out` does not take them.
+/// If writing to `out` fails.
 pub fn write_phyphox(
     out: &mut impl Write,
     layout: ExportLayout,
@@ -49,11 +49,11 @@ pub fn write_phyphox(
     Ok(())
 }
 
-/// Writes the trips, one a line: times in s on the clock of the record, `uniform` and `braking` where the
-/// uniform motion begins and ends, the distance in m, up positive, the highest speed in m/s.
+/// Writes the trips, one per line: times in s on the clock of the record, with the start and end of uniform
+/// motion in `uniform` and `braking`, the distance in m, up positive, and the highest speed in m/s.
 ///
 /// # Errors
-/// Where `out` does not take them.
+/// If writing to `out` fails.
 pub fn write_truth(out: &mut impl Write, ride: &Ride) -> io::Result<()> {
     writeln!(
         out,

@@ -1,9 +1,9 @@
-//! Whole rides in physical units: a cage stands, makes its trips, stands again, and a sensor in it writes
-//! down the acceleration (m/s², up positive, samples i/rate in s).
+//! Whole rides in physical units: a cage rests and makes trips in turn, and a sensor in it records the
+//! acceleration (m/s², up positive, sample i at i/rate in s).
 //!
-//! A sample is the mean of the acceleration over one sampling period about its time, as a sensor gives it
-//! that integrates between readings: the change of speed over the period, divided by it. So samples add up
-//! to speeds exactly, however short a jam is against the period.
+//! A sample is the mean acceleration over the sampling period around its time, as from a sensor that
+//! integrates between readings: the change of speed in the period, divided by its length. So samples add up
+//! to speeds exactly, even if a jam is short compared with the period.
 //!
 //! ```
 //! use liftsim::signal::{Drive, Ending, Pickup, Ride, Trip};
@@ -42,10 +42,10 @@ pub struct Ride {
     courses: Vec<Course>,
 }
 
-/// A part of a ride in which the cage does one thing.
+/// A part of a ride in one phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
-    /// What it does.
+    /// The phase of the cage.
     pub phase: Phase,
     /// s from the first sample.
     pub from: f64,
@@ -55,20 +55,20 @@ pub struct Stretch {
     pub direction: i8,
 }
 
-/// A trip as it came to be.
+/// A trip as made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Journey {
     /// s from the first sample.
     pub start: f64,
-    /// When it stops gaining speed, s.
+    /// End of the acceleration, s.
     pub uniform: f64,
-    /// When it begins to lose speed, by braking or by a jam, s.
+    /// Start of the braking or the jam, s.
     pub braking: f64,
-    /// When the cage stands again, s.
+    /// Time at which the cage stands again, s.
     pub stop: f64,
     /// 1 up, −1 down.
     pub direction: i8,
-    /// The way made, m, up positive.
+    /// The distance travelled, m, up positive.
     pub distance: f64,
     /// The highest speed, m/s.
     pub speed: f64,
@@ -77,7 +77,7 @@ pub struct Journey {
 }
 
 impl Journey {
-    /// When it jammed, s from the first sample.
+    /// Time of the jam, s from the first sample.
     pub fn jam(&self) -> Option<f64> {
         self.jammed.then_some(self.braking)
     }
@@ -86,25 +86,25 @@ impl Journey {
 /// Why a ride was refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum RideError {
-    /// A rate that is none.
+    /// A rate out of range.
     #[error("rate must lie in [1e-3, 1e9] Hz, got {0}")]
     Rate(f64),
     /// Rests do not enclose the trips.
     #[error("rests: {trips} trips need {needed}, got {rests} (before, between and after them)")]
     Rests {
-        /// How many trips there are.
+        /// The number of trips.
         trips: usize,
-        /// How many rests they need.
+        /// The number of rests needed.
         needed: usize,
-        /// How many there are.
+        /// The number of rests given.
         rests: usize,
     },
-    /// A rest of no time.
+    /// A rest of negative or infinite duration.
     #[error("rest {number} must last zero or more seconds, got {seconds}")]
     Rest {
         /// Which one, from 1.
         number: usize,
-        /// As given.
+        /// The duration given.
         seconds: f64,
     },
     /// A trip that cannot be made.
@@ -116,12 +116,12 @@ pub enum RideError {
         #[source]
         reason: TripError,
     },
-    /// No samples, or too many of them to be held.
+    /// No samples, or too many.
     #[error("a ride must have 1 to {most} samples, got {samples} ({seconds} s at {rate} Hz)")]
     Length {
-        /// The most that is allowed.
+        /// The most samples allowed.
         most: usize,
-        /// How many it has.
+        /// The number of samples.
         samples: f64,
         /// Its duration.
         seconds: f64,
@@ -137,8 +137,8 @@ impl Ride {
     /// `trips` with `rests` (s) before, between and after them, sampled at `rate` Hz.
     ///
     /// # Errors
-    /// Where the rate or a rest is out of range, a trip cannot be made, the rests do not enclose the
-    /// trips, or the whole has no samples or too many.
+    /// If the rate or a rest is out of range, a trip cannot be made, the rests do not enclose the trips, or the
+    /// ride has no samples or too many.
     pub fn new(rate: f64, rests: Vec<f64>, trips: Vec<Trip>) -> Result<Self, RideError> {
         if !(1e-3..=1e9).contains(&rate) {
             return Err(RideError::Rate(rate));
@@ -171,10 +171,10 @@ impl Ride {
         .of_some_length()
     }
 
-    /// A rest of so many seconds.
+    /// A ride of a single rest.
     ///
     /// # Errors
-    /// As [`Ride::new`].
+    /// Same as [`Ride::new`].
     pub fn still(rate: f64, seconds: f64) -> Result<Self, RideError> {
         Self::new(rate, vec![seconds], Vec::new())
     }
@@ -199,28 +199,28 @@ impl Ride {
         self.rate
     }
 
-    /// Before, between and after the trips, s.
+    /// The rests before, between and after the trips, s.
     pub fn rests(&self) -> &[f64] {
         &self.rests
     }
 
-    /// As asked for.
+    /// The trips as asked for.
     pub fn trips(&self) -> &[Trip] {
         &self.trips
     }
 
-    /// The whole, s.
+    /// The duration of the ride, s.
     pub fn duration(&self) -> f64 {
         let moving = self.courses.iter().map(Course::duration).sum::<f64>();
         self.rests.iter().sum::<f64>() + moving
     }
 
-    /// How many samples there are of it.
+    /// The number of samples.
     pub fn samples(&self) -> usize {
         (self.duration() * self.rate).round() as usize
     }
 
-    /// What the cage does and when, without gaps; stretches of no length are left out.
+    /// The phases of the cage in order, without gaps; phases of no length are left out.
     pub fn truth(&self) -> Vec<Stretch> {
         let mut now = 0.0;
         let mut stretches = Vec::new();
@@ -246,7 +246,7 @@ impl Ride {
         stretches
     }
 
-    /// Its trips as they come to be.
+    /// The trips as made.
     pub fn journeys(&self) -> Vec<Journey> {
         self.started()
             .map(|(start, course)| {
@@ -265,7 +265,7 @@ impl Ride {
             .collect()
     }
 
-    /// Each trip's motion and when it starts, s from the first sample.
+    /// Each trip's start, s from the first sample, and its motion.
     pub fn started(&self) -> impl Iterator<Item = (f64, &Course)> {
         let mut now = 0.0;
         (self.rests.iter().zip(&self.courses)).map(move |(rest, course)| {

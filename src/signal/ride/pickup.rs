@@ -1,11 +1,12 @@
-//! What a sensor in the cage adds to the acceleration.
+//! The model of a sensor in the cage.
 //!
-//! r = bias + a cos φ + σ(x + d + v + λ): φ is the angle between its axis and the vertical, x is the noise of the sensor, d what disturbs it at rest and in motion
-//! alike, v vibration and λ impulses, both in motion alone; then the digitiser. σ is the deviation of the
-//! noise that drives the sensor, in m/s²: the unit of everything else in [`crate::signal`].
+//! r = bias + a cos φ + σ(x + d + v + λ): φ is the angle between its axis and the vertical, x the noise of the
+//! sensor, d a disturbance at rest and in motion alike, v vibration and λ impulses, both only in motion; then
+//! the digitiser. σ is the standard deviation of the noise that drives the sensor, in m/s²: the unit of
+//! everything else in [`crate::signal`].
 //!
-//! The deviation of x alone is gσ with g² = Σ h_k², the energy of the sensor's impulse response; g = 1 where
-//! the noise is white. In uniform motion at the drive's full speed it is √(g² + v²) σ.
+//! The standard deviation of σx is gσ with g² = Σ h_k², the energy of the sensor's impulse response; g = 1 for
+//! white noise. In uniform motion at the drive's full speed it is √(g² + v²) σ.
 
 use crate::signal::{Digitiser, Disturbance, Impulses, Law, Noise, Sensor};
 
@@ -14,18 +15,18 @@ use crate::signal::{Digitiser, Disturbance, Impulses, Law, Noise, Sensor};
 pub struct Pickup {
     /// σ, m/s².
     pub sigma: f64,
-    /// What colours the noise.
+    /// The sensor, which colours the noise.
     pub sensor: Sensor,
     /// The law of the noise that drives the sensor.
     pub noise: Noise,
     /// Step and limits, in σ.
     pub digitiser: Digitiser,
-    /// What is written down for no acceleration, m/s²; gravity may be put here.
+    /// The reading at zero acceleration, m/s²; it may include gravity.
     pub bias: f64,
-    /// cos φ: 1 upright, 0 for an axis that does not feel the motion.
+    /// cos φ: 1 for a vertical axis, 0 for a horizontal one.
     pub cosine: f64,
-    /// Deviation, in σ, of the white normal noise that is added at the drive's full speed; in proportion
-    /// to the speed below, for a cage that starts is still quiet.
+    /// Standard deviation, in σ, of the white normal noise added at the drive's full speed. At lower speeds it is
+    /// proportional to the speed, because a cage that starts is still quiet.
     pub vibration: f64,
     /// λ, θ in σ; every trip starts from S = 0.
     pub impulses: Impulses,
@@ -36,23 +37,22 @@ pub struct Pickup {
 /// Why a pickup was refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum PickupError {
-    /// A unit that is none.
+    /// σ out of range.
     #[error("sigma must lie in [1e-12, 1e12] m/s², got {0}")]
     Sigma(f64),
-    /// A bias that is no acceleration.
+    /// A bias out of range.
     #[error("bias must lie in [-1e12, 1e12] m/s², got {0}")]
     Bias(f64),
-    /// A cosine that is none.
+    /// A cosine outside [−1, 1].
     #[error("cosine must lie in [-1, 1], got {0}")]
     Cosine(f64),
-    /// A deviation that is none.
+    /// A standard deviation out of range.
     #[error("vibration must lie in [0, 1e6] sigma, got {0}")]
     Vibration(f64),
 }
 
 impl Pickup {
-    /// White normal noise of deviation `sigma` m/s², written down as it is, and nothing else: a start
-    /// for struct updates.
+    /// White normal noise of standard deviation `sigma` m/s² without a digitiser, as a base for struct updates.
     pub fn white(sigma: f64) -> Self {
         Self {
             sigma,
@@ -67,10 +67,10 @@ impl Pickup {
         }
     }
 
-    /// Accepts a pickup whose numbers are such.
+    /// Checks the numbers of a pickup.
     ///
     /// # Errors
-    /// Where one is out of its range.
+    /// If a number is out of its range.
     pub fn checked(self) -> Result<Self, PickupError> {
         if !(1e-12..=1e12).contains(&self.sigma) {
             return Err(PickupError::Sigma(self.sigma));

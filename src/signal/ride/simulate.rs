@@ -1,7 +1,7 @@
 //! A realisation of a ride.
 //!
-//! Each kind of draw has a stream of its own, so that rides that differ in strength alone share their
-//! draws: the same noise serves every Δ/σ.
+//! Each kind of draw has its own stream, so that rides that differ only in strength share their draws: the
+//! same noise serves every Δ/σ.
 
 use super::{Course, Journey, Pickup, Ride, Stretch};
 use crate::rng::{Generator, Stream};
@@ -9,14 +9,14 @@ use crate::signal::{During, ImpulseMemory, Law, Noise, Phase};
 use rand::Rng;
 use std::ops::Range;
 
-/// What a sensor in the cage wrote down, and what was true.
+/// A simulated record and its truth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulated {
     /// Hz: sample i belongs to the time i/rate.
     pub rate: f64,
     /// m/s².
     pub record: Vec<f64>,
-    /// What the cage did and when.
+    /// The phases of the cage in order.
     pub truth: Vec<Stretch>,
     /// The trips.
     pub journeys: Vec<Journey>,
@@ -117,7 +117,7 @@ fn add_noise(pickup: &Pickup, generator: &mut Generator, record: &mut Vec<f64>) 
     record.drain(..burn_in);
 }
 
-/// From σ to m/s², by way of the digitiser.
+/// Digitises the record and converts it from σ to m/s².
 fn write_down(pickup: &Pickup, record: &mut [f64]) {
     let (digitiser, bias) = (&pickup.digitiser, pickup.bias / pickup.sigma);
     let unit = digitiser.unit() * pickup.sigma;

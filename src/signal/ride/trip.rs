@@ -1,16 +1,16 @@
-//! One trip: from rest over a distance to rest again, or to where the cage jams.
+//! One trip: from rest over a distance to rest again, or to a jam.
 //!
-//! A commanded trip ends as it began, reversed in time. A cage that jams in uniform motion at speed v comes
-//! to a stand within w seconds by a half-sine of deceleration, a(t) = −(πv/2w) sin(πt/w), the shape of
-//! shock tests: v(t) = v (1 + cos(πt/w))/2, and the way to the stand is vw/2. At 1 m/s and 0.1 s its peak
-//! is 15.7 m/s². The cage stays where it jammed.
+//! A commanded trip ends like its start, reversed in time. A cage that jams in uniform motion at speed v stops
+//! within w seconds by a half-sine deceleration, a(t) = −(πv/2w) sin(πt/w), the shape used in shock tests:
+//! v(t) = v (1 + cos(πt/w))/2, and the stopping distance is vw/2. At 1 m/s and 0.1 s the peak is 15.7 m/s².
+//! The cage stays where it jammed.
 
 use super::drive::{Drive, Start};
 use crate::signal::Phase;
 use libm::{cos, sin};
 use std::f64::consts::PI;
 
-/// A trip as it is asked for.
+/// A trip as asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trip {
     /// m, up positive.
@@ -28,9 +28,9 @@ pub enum Ending {
     Commanded,
     /// By a jam in uniform motion.
     Jam {
-        /// When, s from the start of the trip.
+        /// Time of the jam, s from the start of the trip.
         after: f64,
-        /// s from there to a stand.
+        /// Stopping time, s.
         within: f64,
     },
 }
@@ -38,10 +38,10 @@ pub enum Ending {
 /// Why a trip was refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TripError {
-    /// No way to go.
+    /// A zero or infinite distance.
     #[error("distance must be finite and not zero, got {0} (positive is up)")]
     Distance(f64),
-    /// A limit of the drive, or the time of a jam, that is no size.
+    /// A limit of the drive, or the time of a jam, that is not positive.
     #[error("{name} must be positive and finite, got {value}")]
     NotPositive {
         /// Which one.
@@ -49,7 +49,7 @@ pub enum TripError {
         /// Its value.
         value: f64,
     },
-    /// A jam of a trip that always speeds up or brakes.
+    /// A jam of a trip without uniform motion.
     #[error(
         "jam: a trip of {distance} m never moves uniformly (lengthen it, or lower the drive's speed)"
     )]
@@ -71,22 +71,22 @@ pub enum TripError {
     },
 }
 
-/// A trip worked out: its motion at any time, in seconds from its start.
+/// The motion of a trip at any time, in seconds from its start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Course {
     direction: f64,
     start: Start,
-    /// s of uniform motion.
+    /// Duration of the uniform motion, s.
     uniform: f64,
-    /// s to a stand, where it ends in a jam.
+    /// Stopping time, s, if it ends in a jam.
     jam: Option<f64>,
 }
 
 impl Trip {
-    /// Works it out.
+    /// Computes the motion.
     ///
     /// # Errors
-    /// Where the distance is zero, a limit is not positive, or the jam is not in uniform motion.
+    /// If the distance is zero, a limit is not positive, or the jam is not in uniform motion.
     pub fn course(&self) -> Result<Course, TripError> {
         let Drive {
             speed,
@@ -126,7 +126,7 @@ impl Course {
     fn jammed(self, after: f64, within: f64, distance: f64) -> Result<Self, TripError> {
         positive("jam.within", within)?;
         let (from, to) = self.uniform_motion();
-        // Where the drive just reaches its speed, rounding may leave a motion of no time.
+        // If the drive just reaches its speed, rounding may leave a uniform motion of almost no duration.
         if self.uniform < 1e-9 {
             return Err(TripError::NeverUniform { distance });
         }
@@ -155,22 +155,22 @@ impl Course {
         self.jam.is_some()
     }
 
-    /// From when to when it moves uniformly, s from the start; of no length where it never does.
+    /// Start and end of the uniform motion, s from the start; equal if there is none.
     pub fn uniform_motion(&self) -> (f64, f64) {
         (self.start.duration, self.start.duration + self.uniform)
     }
 
-    /// s from the start to the stand.
+    /// The duration of the trip, s.
     pub fn duration(&self) -> f64 {
         self.braking_from() + self.braking()
     }
 
-    /// The way made, m, up positive.
+    /// The distance travelled, m, up positive.
     pub fn distance(&self) -> f64 {
         self.position_at(self.duration())
     }
 
-    /// Its phases in order, each with its duration in s; none of no length.
+    /// Its phases in order, each with its duration in s; phases of no length are left out.
     pub fn phases(&self) -> impl Iterator<Item = (Phase, f64)> {
         let phases = [
             (Phase::Accelerating, self.start.duration),
@@ -180,7 +180,7 @@ impl Course {
         phases.into_iter().filter(|(_, duration)| *duration > 0.0)
     }
 
-    /// What the cage does at `time`.
+    /// The phase at `time`.
     pub fn phase_at(&self, time: f64) -> Phase {
         match time {
             _ if !(0.0..self.duration()).contains(&time) => Phase::Rest,
@@ -227,7 +227,7 @@ impl Course {
         self.direction * (self.start.way_at(time) + self.start.speed * uniform + of_braking)
     }
 
-    /// s from the start to where the braking, or the jam, begins.
+    /// Start of the braking or the jam, s from the start.
     fn braking_from(&self) -> f64 {
         self.uniform_motion().1
     }

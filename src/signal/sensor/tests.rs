@@ -58,7 +58,7 @@ fn step_and_colour_agree() {
     }
 }
 
-/// |pole|² = 0.75056, so the deficit falls by that factor a sample: 1e-9 takes about 72.
+/// |pole|² = 0.75056, so the missing variance falls by that factor per sample: 1e-9 takes about 72 samples.
 #[test]
 fn burn_in_follows_from_the_poles() {
     let burn_in = Sensor::adxl105().burn_in();

@@ -1,4 +1,4 @@
-//! Whatever the bytes, nothing panics, and what is yielded is a signal.
+//! For any bytes, nothing panics, and an accepted recording is a valid signal.
 
 use super::*;
 use proptest::prelude::*;

@@ -103,7 +103,7 @@ fn refusals() {
         open(TABLE.as_bytes())
             .unwrap_err()
             .to_string()
-            .contains("is no zip archive")
+            .contains("is not a zip archive")
     );
     let whole = archive(&[("a.csv", TABLE)]);
     let error = open(&whole[..whole.len() / 2]).unwrap_err().to_string();

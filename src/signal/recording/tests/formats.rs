@@ -1,4 +1,4 @@
-//! What the apps write.
+//! The formats of the apps.
 
 use super::*;
 
@@ -138,7 +138,7 @@ fn names_and_units_are_given() {
     assert_eq!(read(&recording), [(0.0, 1.5), (0.01, 2.5)]);
 }
 
-/// Gravity tells up from down, whichever end the sensor calls positive.
+/// Gravity shows which way is up, for either sign of the sensor's axis.
 #[test]
 fn down_is_turned_up() {
     let recording = open("time,x,y,z\n0.00,0,0,-9.75\n0.01,0,0,-10\n0.02,0,0,-9.5\n");
@@ -175,7 +175,7 @@ fn tilted_axes_are_projected() {
         "{}",
         recording.facts().mean
     );
-    // In different rows they cannot be.
+    // Axes in different rows cannot be projected.
     let apart = |i: i32| match i % 2 {
         0 => format!("{},0,{half},\n", 0.01 * f64::from(i)),
         _ => format!(
@@ -191,7 +191,7 @@ fn tilted_axes_are_projected() {
     assert!(recording.warnings().iter().any(is_tilted));
 }
 
-/// A pulse along y, among shaking along x that averages out, and a hand at the end that moves all.
+/// A pulse along y, shaking along x that averages out, and handling at the end that moves all axes.
 #[test]
 fn the_axis_with_the_ride() {
     let row = |i: i32| {

@@ -1,4 +1,4 @@
-//! Whole recordings, from small texts in memory; and from real lifts where they are at hand.
+//! Whole recordings, from small texts in memory and, if available, from real lifts.
 
 use super::*;
 

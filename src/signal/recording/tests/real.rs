@@ -1,4 +1,4 @@
-//! Recordings of real lifts, where `LIFTSIM_RECORDINGS` names the folder that holds them.
+//! Recordings of real lifts, from the folder named by `LIFTSIM_RECORDINGS`.
 
 use super::*;
 use std::env;
@@ -41,7 +41,7 @@ fn phyphox_without_gravity() {
         assert!(facts.jitter < 1e-3 && facts.gaps == 0);
         assert_eq!((facts.quantum, facts.saturated), (None, None), "{name}");
         assert!(!facts.has_gravity);
-        // The least lead of the five is that of the record with people moving, 11.8.
+        // The smallest lead of the five, 11.8, is that of the record with people moving.
         let lead = match recording.vertical().reason {
             Reason::Ride(lead) => lead,
             _ => 1.0,

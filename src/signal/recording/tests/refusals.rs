@@ -1,11 +1,11 @@
-//! What is refused, and in which words; and what is passed with a warning.
+//! Refusals with their messages, and warnings.
 
 use super::*;
 use std::io::Write;
 
 #[test]
 fn no_table() {
-    assert_eq!(refused(""), "ride.csv: is empty (was it exported whole?)");
+    assert_eq!(refused(""), "ride.csv: is empty (export it again)");
     assert_eq!(refused("\n\n# nothing\n"), refused(""));
     assert!(refused("time,acc\n").contains("has a header and no readings"));
     assert!(
@@ -19,10 +19,10 @@ fn no_table() {
     );
     assert!(
         refused([0x7f, b'E', b'L', b'F', 2, 1, 1, 0])
-            .contains("ride.csv:1: holds bytes that are no text")
+            .contains("ride.csv:1: holds bytes that are not text")
     );
     assert!(
-        refused("time,acc\n0,1\n0.1,\0\n").contains("ride.csv:3: holds bytes that are no text")
+        refused("time,acc\n0,1\n0.1,\0\n").contains("ride.csv:3: holds bytes that are not text")
     );
     let long = "9".repeat(lines::LONGEST_LINE + 1);
     assert!(refused(&long).contains("ride.csv:1: must be at most 1048576 bytes long"));
@@ -114,7 +114,7 @@ fn rows_of_another_kind() {
     assert!(
         refused("time;acc\n0,1;9,5\n0,2;9.5\n").contains(":3: column \"acc\": must be a number")
     );
-    // A separator at the end of a row is no cell.
+    // A separator at the end of a row does not add a cell.
     assert_eq!(read(&open("time,acc\n0,1,\n0.1,2,\n")).len(), 2);
 }
 
@@ -139,7 +139,7 @@ fn time() {
         once.warnings()[0].to_string(),
         "line 4: time repeats once (the first reading is kept)"
     );
-    // Milliseconds that nobody called so.
+    // Milliseconds without a stated unit.
     let counted = "time,acc\n0,1\n20,2\n40,1\n";
     assert!(refused(counted).contains(
         "column \"time\": counted in s it gives 0.05 readings a second (--time-unit ms)"

@@ -36,7 +36,7 @@ fn courses() -> Vec<(Trip, Course)> {
     trips.into_iter().map(course).collect()
 }
 
-/// The way is what was asked for, and the limits are kept: 1e-12 of the size is a thousand roundings.
+/// The distance is the one asked for, and the limits are kept: 1e-12 of the size is a thousand roundings.
 #[test]
 fn commanded_trips_arrive_within_their_limits() {
     let (mut uniform, mut short) = (0, 0);
@@ -64,7 +64,7 @@ fn commanded_trips_arrive_within_their_limits() {
             let next = course.acceleration_at(time + step);
             assert!(course.speed_at(time).abs() <= speed * slack, "{trip:?}");
             assert!(a.abs() <= acceleration * slack, "{trip:?}");
-            // The difference of two accelerations has their rounding, not its own.
+            // The rounding error of a difference is that of the two accelerations.
             let rounding = 1e-14 * acceleration;
             assert!(
                 (next - a).abs() <= jerk * step * slack + rounding,
@@ -81,8 +81,8 @@ fn commanded_trips_arrive_within_their_limits() {
     assert!(uniform > 50 && short > 50);
 }
 
-/// A drive that is faster at no expense of its limits does not exist: the trip takes what one takes that
-/// spends all its time at a limit of jerk, acceleration or speed.
+/// No drive within the same limits is faster: at every moment of the trip jerk, acceleration or speed is at
+/// its limit.
 #[test]
 fn every_moment_is_at_a_limit() {
     for (trip, course) in courses() {
@@ -99,7 +99,7 @@ fn every_moment_is_at_a_limit() {
             let is_limited = is_at(course.speed_at(time), drive.speed)
                 || is_at(a, drive.acceleration)
                 || is_at(jerk, drive.jerk);
-            // Between two jerks of opposite sign a step of 1e-6 sees neither.
+            // A difference over 1e-6 s is wrong where the jerk changes.
             let turns = course
                 .phases()
                 .next()
@@ -140,7 +140,7 @@ fn speed_and_position_are_the_integrals_of_acceleration() {
     }
 }
 
-/// The jam: half the top speed at half its time, v w/2 of way, and the peak that the head of the file says.
+/// The jam: half the top speed at half its time, a distance of v w/2, and the peak given in the module docs.
 #[test]
 fn jams_stop_within_their_time() {
     let ending = |after| Ending::Jam { after, within: 0.1 };

@@ -1,4 +1,4 @@
-//! What the sensor writes down.
+//! The record of the sensor.
 
 use super::{LIFT, trip, two_trips};
 use crate::signal::{
@@ -6,8 +6,8 @@ use crate::signal::{
 };
 use crate::stats::binomial;
 
-/// Without noise to speak of, the samples add up to the speed at their edges at every moment, and twice to
-/// the way, of which rectangles miss at most a period times the total variation of the speed, 0.04 m.
+/// With negligible noise the samples add up to the speed at their edges at every moment, and their double sum
+/// to the distance, with an error of at most a period times the total variation of the speed, 0.04 m.
 #[test]
 fn samples_add_up_to_the_motion() {
     let ride = two_trips();
@@ -115,7 +115,7 @@ fn vibration_acts_in_motion() {
     }
 }
 
-/// Draws are shared by rides that differ in strength alone: impulses and their places are the difference.
+/// Rides that differ only in strength share their draws, so their difference shows the impulses.
 #[test]
 fn impulses_act_in_uniform_motion_alone() {
     let trip = trip(200.0, LIFT, Ending::Commanded);
