@@ -43,4 +43,4 @@ pub use missing::Missing;
 pub use session::Session;
 pub use status::{State, Status};
 pub use tally::{Tallied, run};
-pub use trials::{Group, Progress, Runnable, Simulation, StudyError, Target, Trials};
+pub use trials::{Group, Progress, Runnable, StudyError, Target, Trials};

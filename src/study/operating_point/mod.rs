@@ -78,7 +78,7 @@ impl Study for OperatingPoint {
     }
 
     fn trials(&self) -> Option<Box<dyn Trials + '_>> {
-        Some(Box::new(trials::Levels(self)))
+        Some(Box::new(self))
     }
 
     fn rows(&self, counts: &Counts) -> Vec<Row> {
