@@ -1,8 +1,6 @@
 //! What a study gives to be counted.
 
-use super::Identity;
 use crate::counts::{Counts, DecisionSummary, Key, Shape, Sums};
-use crate::results::{Comparison, Origin};
 use crate::schedule::BLOCK;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -134,31 +132,3 @@ pub trait Progress: Sync {
 
 /// Nobody is told.
 impl Progress for () {}
-
-/// What can be run in a directory: a study, and the numbers of this run.
-pub trait Runnable {
-    /// The name of the study's table.
-    fn name(&self) -> &'static str;
-
-    /// What its results are known by.
-    fn origin(&self) -> &Origin;
-
-    /// What it is of, point by point.
-    fn identities(&self) -> Vec<Identity>;
-
-    /// What it counts; none where everything is computed.
-    fn trials(&self) -> Option<Box<dyn Trials + '_>>;
-
-    /// The counts behind finished results of its own, where these tell them.
-    ///
-    /// # Errors
-    /// Where the bytes are not the study's rows.
-    fn recall(
-        &self,
-        points: &[u8],
-        comparisons: &[Comparison],
-    ) -> Result<Option<Counts>, csv::Error>;
-
-    /// The experiment behind other results; none where this version cannot read its config.
-    fn of(&self, origin: &Origin) -> Option<Box<dyn Runnable>>;
-}

@@ -20,13 +20,11 @@ mod rules;
 mod sweep;
 pub(crate) mod trace;
 
-pub use any::{DrawError, Output};
-pub use kind::{Context, Study, Table, TooMany};
+pub use kind::{Context, Study, TooMany};
 pub use loaded::Loaded;
 
 use crate::experiment::{ConfigError, Experiment};
 use crate::run::StudyError;
-use any::AnyStudy;
 use schemars::SchemaGenerator;
 use serde_json::Value;
 use std::path::Path;
@@ -50,8 +48,7 @@ pub struct Entry {
     pub name: &'static str,
     /// What its table may say, as a JSON Schema.
     pub schema: fn(&mut SchemaGenerator) -> Value,
-    counts_trials: bool,
-    read: fn(&Experiment, Context) -> Result<Box<dyn AnyStudy>, StudyError>,
+    load: fn(&Experiment) -> Result<Loaded, StudyError>,
 }
 
 impl Entry {
@@ -59,11 +56,7 @@ impl Entry {
         Self {
             name: S::NAME,
             schema: S::schema,
-            counts_trials: S::COUNTS_TRIALS,
-            read: |experiment, context| {
-                experiment.check_used(S::USES, S::COUNTS_TRIALS)?;
-                Ok(Box::new(S::read(experiment, context)?))
-            },
+            load: Loaded::of::<S>,
         }
     }
 }
