@@ -1,7 +1,6 @@
 //! A config as a study that can be run, whatever its kind.
 
 use super::kind::{Context, Study};
-use super::{STUDIES, parse};
 use crate::claim::{Evidence, Narrative, Scope};
 use crate::counts::Counts;
 use crate::experiment::Experiment;
@@ -27,16 +26,6 @@ pub struct Loaded {
 }
 
 impl Loaded {
-    /// Plans what a config describes.
-    ///
-    /// # Errors
-    /// Where a parameter of a point is out of range, or no region or record can be made for it.
-    pub fn new(config: Experiment) -> Result<Self, StudyError> {
-        let mut studies = STUDIES.iter();
-        let entry = studies.find(|entry| entry.name == config.study());
-        (entry.expect("a config names a study").load)(&config)
-    }
-
     /// Of a config with the table of `S`.
     pub(super) fn of<S: Study>(config: &Experiment) -> Result<Self, StudyError> {
         config.check_used(S::USES, S::COUNTS_TRIALS)?;
@@ -52,18 +41,6 @@ impl Loaded {
             question: config.header.question.clone(),
             confidence: context.confidence,
         })
-    }
-
-    /// The experiment behind results.
-    ///
-    /// # Errors
-    /// Where this version cannot read its config.
-    pub fn again(origin: &Origin) -> Result<Self, StudyError> {
-        let mut config = parse(&origin.config_name, &origin.config)?;
-        config.header.set_trials(origin.trials);
-        config.header.seed = origin.seed;
-        config.header.pilot = origin.pilot;
-        Self::new(config)
     }
 
     /// Judges the claims and fills the text once on empty counts, so that what they name is known to be there

@@ -24,6 +24,7 @@ pub use kind::{Context, Study, TooMany};
 pub use loaded::Loaded;
 
 use crate::experiment::{ConfigError, Experiment};
+use crate::results::Origin;
 use crate::run::StudyError;
 use schemars::SchemaGenerator;
 use serde_json::Value;
@@ -79,6 +80,30 @@ pub fn load(path: &Path) -> Result<Experiment, ConfigError> {
 /// As [`Experiment::load`].
 pub fn parse(name: &str, text: &str) -> Result<Experiment, ConfigError> {
     Experiment::parse(name, text, &names())
+}
+
+impl Loaded {
+    /// Plans what a config describes.
+    ///
+    /// # Errors
+    /// Where a parameter of a point is out of range, or no region or record can be made for it.
+    pub fn new(config: Experiment) -> Result<Self, StudyError> {
+        let mut studies = STUDIES.iter();
+        let entry = studies.find(|entry| entry.name == config.study());
+        (entry.expect("a config names a study").load)(&config)
+    }
+
+    /// The experiment behind results.
+    ///
+    /// # Errors
+    /// Where this version cannot read its config.
+    pub fn again(origin: &Origin) -> Result<Self, StudyError> {
+        let mut config = parse(&origin.config_name, &origin.config)?;
+        config.header.set_trials(origin.trials);
+        config.header.seed = origin.seed;
+        config.header.pilot = origin.pilot;
+        Self::new(config)
+    }
 }
 
 /// The plane of W and T, for `threshold`.
