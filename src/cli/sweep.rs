@@ -89,10 +89,9 @@ pub(super) fn finish(
     shard: Option<Shard>,
 ) -> Result<String, Failure> {
     let directory = session.directory().clone();
-    let study = &*loaded.study;
-    let what = match study.trials() {
+    let what = match loaded.study.trials() {
         Some(_) => format!("{} points of {} trials", session.points(), session.wanted()),
-        None => format!("[{}]", study.name()),
+        None => format!("[{}]", loaded.study.name()),
     };
     if let Some(shard) = shard {
         // A share of no trials is one, too; and whoever joins it compares the words of the config.
@@ -118,12 +117,10 @@ pub(super) fn finish(
 /// Writes counts, then pictures, then the manifest that vouches for both.
 pub(super) fn write(loaded: &Loaded, mut session: Session) -> Result<(Output, Written), Failure> {
     let start = Instant::now();
-    let output = loaded
-        .study
-        .output(session.counts())
-        .map_err(Failure::study)?;
+    let study = &loaded.study;
+    let output = study.output(session.counts()).map_err(Failure::study)?;
     let mut seconds = session.seconds();
-    if loaded.study.trials().is_none() {
+    if study.trials().is_none() {
         seconds = start.elapsed().as_secs_f64();
         loaded.judge(&output).map_err(Failure::study)?;
     }

@@ -39,7 +39,7 @@ pub trait Study: Send + Sync + Sized + 'static {
     /// What it is of, point by point: every parameter that changes what comes out.
     fn identities(&self) -> Vec<Identity>;
 
-    /// What it counts; none where everything is computed.
+    /// What it counts; none where everything is computed. A study that runs no pilots is itself its trials.
     fn trials(&self) -> Option<Box<dyn Trials + '_>> {
         None
     }

@@ -68,12 +68,7 @@ impl Study for OperatingPoint {
         let DeltaRange { from, to } = self.search.delta;
         let sized = self.sized.iter();
         sized
-            .map(|sized| {
-                let mut identity = sized.identity(from);
-                let to = ("to".to_owned(), to.to_string());
-                identity.parameters.push(to);
-                identity
-            })
+            .map(|sized| sized.identity(from).with("to", to))
             .collect()
     }
 
