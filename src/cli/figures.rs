@@ -6,7 +6,7 @@ use anyhow::anyhow;
 use clap::Args;
 use liftsim::report;
 use liftsim::results::Directory;
-use liftsim::run::{Overwrite, Runnable, Session};
+use liftsim::run::{Overwrite, Session};
 use liftsim::stats::tally::MOST_TRIALS;
 use liftsim::study::{self, Loaded};
 use std::ffi::OsStr;
@@ -45,7 +45,7 @@ pub struct Figures {
 /// An experiment and where its results go.
 struct Entry {
     name: String,
-    study: Loaded,
+    loaded: Loaded,
     directory: Directory,
 }
 
@@ -72,7 +72,7 @@ impl Figures {
             let start = Instant::now();
             let prefix = format!("{} ({done} of {work})  ", entry.name);
             let reporter = Reporter::new(quiet, &self.progress, &prefix);
-            let note = work_off(&entry.study, session, &reporter)?;
+            let note = work_off(&entry.loaded, session, &reporter)?;
             let seconds = format!("{:.1}", start.elapsed().as_secs_f64());
             lines.push(vec![entry.name.clone(), note.into(), seconds]);
         }
@@ -117,7 +117,7 @@ impl Figures {
         }
         Ok(Entry {
             name: name.to_owned(),
-            study: Loaded::new(config).map_err(Failure::study)?,
+            loaded: Loaded::new(config).map_err(Failure::study)?,
             directory: Directory::new(self.results.join(name)),
         })
     }
@@ -133,14 +133,21 @@ impl Figures {
             self.check_trials(entry)?;
             Overwrite::Adopt
         };
-        entry.study.check().map_err(Failure::study)?;
-        let session = Session::open(&entry.study, entry.directory.clone(), None, overwrite);
+        let loaded = &entry.loaded;
+        loaded.check().map_err(Failure::study)?;
+        let session = Session::open(
+            &*loaded.study,
+            &loaded.origin,
+            entry.directory.clone(),
+            None,
+            overwrite,
+        );
         session.map(Some).map_err(Failure::input)
     }
 
     /// Refuses to replace a longer run by a shorter one.
     fn check_trials(&self, entry: &Entry) -> Result<(), Failure> {
-        let asked = entry.study.origin().trials;
+        let asked = entry.loaded.origin.trials;
         match entry.directory.manifest() {
             Ok(held) if held.origin.trials > asked => Err(Failure::Input(anyhow!(
                 "{}: holds {} trials per point, more than the {asked} asked for \
@@ -174,7 +181,7 @@ impl Figures {
         }
         let sections = entries.iter();
         let sections = sections
-            .map(|entry| entry.study.report(&entry.name, &entry.directory))
+            .map(|entry| entry.loaded.report(&entry.name, &entry.directory))
             .collect::<Result<_, _>>()
             .map_err(Failure::run)?;
         let configs = self.way_to_configs().map_err(Failure::run)?;
@@ -218,19 +225,19 @@ fn in_short(names: &[&str]) -> String {
 impl Entry {
     /// Whether the results here are those of this config, whole.
     fn is_complete(&self) -> bool {
-        self.directory.complete(self.study.origin()).is_some()
+        self.directory.complete(&self.loaded.origin).is_some()
     }
 }
 
 /// Simulates what is missing, and writes the results.
 fn work_off(
-    study: &Loaded,
+    loaded: &Loaded,
     mut session: Session,
     reporter: &Reporter,
 ) -> Result<&'static str, Failure> {
     progress::work_off(&mut session, reporter)?;
     let is_redrawn = session.made_by().is_some();
-    let (_, written) = sweep::write(study, session)?;
+    let (_, written) = sweep::write(loaded, session)?;
     Ok(if is_redrawn {
         "redrawn"
     } else {

@@ -31,11 +31,11 @@ impl Merge {
         let origin = run::part(&directories[0]).map_err(Failure::input)?.origin;
         let name = Path::new(&origin.config_name);
         let out = self.out.unwrap_or_else(|| sweep::default_directory(name));
-        let study = Loaded::again(&origin).map_err(Failure::study)?;
-        let merged = run::merge(&study, &directories, Directory::new(&out));
+        let loaded = Loaded::again(&origin).map_err(Failure::study)?;
+        let merged = run::merge(&*loaded.study, &origin, &directories, Directory::new(&out));
         let (session, absent) = merged.map_err(failure)?;
         if session.missing().is_none() {
-            print(&sweep::finish(&study, session, None)?)?;
+            print(&sweep::finish(&loaded, session, None)?)?;
             return Ok(ExitCode::SUCCESS);
         }
         print(&incomplete(&absent, &origin.command_line(), &out))?;

@@ -2,7 +2,7 @@
 
 use super::{CommandResult, Failure, Simulation, print};
 use clap::Args;
-use liftsim::run::{Estimate, Runnable};
+use liftsim::run::Estimate;
 use liftsim::stats::tally::Tally;
 use liftsim::study::Loaded;
 use serde_json::json;
@@ -22,29 +22,29 @@ pub struct PlanCommand {
 impl PlanCommand {
     /// Runs the command.
     pub fn run(self) -> CommandResult {
-        let study = self.simulation.study()?;
-        study.check().map_err(Failure::study)?;
-        let trials = study.origin().trials;
-        let text = match study.trials() {
+        let loaded = self.simulation.study()?;
+        loaded.check().map_err(Failure::study)?;
+        let trials = loaded.origin.trials;
+        let text = match loaded.study.trials() {
             Some(mut counted) => {
                 let points = counted.points();
                 let estimate = Estimate::new(&mut *counted, trials).map_err(Failure::study)?;
                 let has_rates =
                     (counted.targets().iter()).any(|target| target.shape.most.contains(&Some(1)));
                 if self.json {
-                    facts(&study, points, trials, &estimate)
+                    facts(&loaded, points, trials, &estimate)
                 } else {
-                    words(&study, trials, &estimate, has_rates)
+                    words(&loaded, trials, &estimate, has_rates)
                 }
             }
             None if self.json => {
-                let facts = json!({ "question": study.question(), "study": study.name() });
+                let facts = json!({ "question": loaded.question, "study": loaded.study.name() });
                 format!("{facts}\n")
             }
             None => format!(
                 "{}\n\n[{}] is computed, no trials\n",
-                study.question(),
-                study.name()
+                loaded.question,
+                loaded.study.name()
             ),
         };
         print(&text)?;
@@ -63,19 +63,19 @@ fn megabytes(estimate: &Estimate) -> f64 {
     1e3 * rayon::current_num_threads() as f64 * estimate.gigabytes
 }
 
-fn facts(study: &Loaded, points: usize, trials: u64, estimate: &Estimate) -> String {
+fn facts(loaded: &Loaded, points: usize, trials: u64, estimate: &Estimate) -> String {
     let facts = json!({
-        "question": study.question(), "study": study.name(), "points": points,
+        "question": loaded.question, "study": loaded.study.name(), "points": points,
         "trials": trials, "work": estimate.work,
         "pilots": estimate.pilots, "families": estimate.groups,
-        "half_width": half_width(trials / 2, trials, study.confidence()),
-        "confidence": study.confidence(), "seconds": estimate.time.as_secs_f64(),
+        "half_width": half_width(trials / 2, trials, loaded.confidence),
+        "confidence": loaded.confidence, "seconds": estimate.time.as_secs_f64(),
         "threads": rayon::current_num_threads(), "megabytes": megabytes(estimate),
     });
     format!("{facts}\n")
 }
 
-fn words(study: &Loaded, trials: u64, estimate: &Estimate, has_rates: bool) -> String {
+fn words(loaded: &Loaded, trials: u64, estimate: &Estimate, has_rates: bool) -> String {
     let pilots = match estimate.pilots {
         0 => String::new(),
         work => format!("pilots       {work} trial-points more\n"),
@@ -83,9 +83,9 @@ fn words(study: &Loaded, trials: u64, estimate: &Estimate, has_rates: bool) -> S
     let half_width = if has_rates {
         format!(
             "half-width   {:.5} at a rate of 1/2, {:.5} at 0.01, of the {} % interval\n",
-            half_width(trials / 2, trials, study.confidence()),
-            half_width(trials / 100, trials, study.confidence()),
-            study.confidence() * 100.0,
+            half_width(trials / 2, trials, loaded.confidence),
+            half_width(trials / 100, trials, loaded.confidence),
+            loaded.confidence * 100.0,
         )
     } else {
         String::new()
@@ -98,8 +98,8 @@ fn words(study: &Loaded, trials: u64, estimate: &Estimate, has_rates: bool) -> S
          {pilots}{half_width}\
          memory       {:.1} MB for trials, beside what the program and its figure take\n\
          time         about {} on {} threads\n",
-        study.question(),
-        study.points(),
+        loaded.question,
+        loaded.points,
         estimate.work,
         estimate.groups,
         megabytes(estimate),

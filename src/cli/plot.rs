@@ -4,7 +4,8 @@ use super::store::{line, store};
 use super::{CommandResult, Failure, print};
 use clap::Args;
 use liftsim::results::Directory;
-use liftsim::study::{DrawError, Loaded};
+use liftsim::run::DrawError;
+use liftsim::study::Loaded;
 use std::path::PathBuf;
 use std::process::ExitCode;
 

@@ -5,8 +5,8 @@ use super::store::{Written, line, manifest, store};
 use super::{CommandResult, Failure, Simulation, print, table};
 use clap::Args;
 use liftsim::results::{Directory, Manifest, Shard};
-use liftsim::run::{Overwrite, Runnable, Session};
-use liftsim::study::{Loaded, Output};
+use liftsim::run::{Output, Overwrite, Session};
+use liftsim::study::Loaded;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -43,7 +43,8 @@ pub struct Sweep {
 impl Sweep {
     /// Runs the command.
     pub fn run(self, quiet: bool) -> CommandResult {
-        let study = self.simulation.study()?;
+        let loaded = self.simulation.study()?;
+        let study = &*loaded.study;
         if self.shard.is_some() && study.trials().is_none() {
             return Err(Failure::Input(anyhow::anyhow!(
                 "{}: --shard: [{}] counts no trials that could be shared (run it whole)",
@@ -51,7 +52,7 @@ impl Sweep {
                 study.name()
             )));
         }
-        study.check().map_err(Failure::study)?;
+        loaded.check().map_err(Failure::study)?;
         let out = self.out.clone();
         let directory = Directory::new(out.unwrap_or_else(|| self.default_directory()));
         let overwrite = if self.fresh {
@@ -59,11 +60,11 @@ impl Sweep {
         } else {
             Overwrite::Continue
         };
-        let mut session =
-            Session::open(&study, directory, self.shard, overwrite).map_err(Failure::input)?;
+        let mut session = Session::open(study, &loaded.origin, directory, self.shard, overwrite)
+            .map_err(Failure::input)?;
         let reporter = Reporter::new(quiet, &self.progress, "");
         progress::work_off(&mut session, &reporter)?;
-        print(&finish(&study, session, self.shard)?)?;
+        print(&finish(&loaded, session, self.shard)?)?;
         Ok(ExitCode::SUCCESS)
     }
 
@@ -84,14 +85,14 @@ pub(super) fn default_directory(config: &Path) -> PathBuf {
 
 /// Writes what a run came to, and says so. A shard has written all it has.
 pub(super) fn finish(
-    study: &Loaded,
+    loaded: &Loaded,
     mut session: Session,
     shard: Option<Shard>,
 ) -> Result<String, Failure> {
     let directory = session.directory().clone();
-    let what = match study.trials() {
+    let what = match loaded.study.trials() {
         Some(_) => format!("{} points of {} trials", session.points(), session.wanted()),
-        None => format!("[{}]", study.name()),
+        None => format!("[{}]", loaded.study.name()),
     };
     if let Some(shard) = shard {
         // A share of no trials is one, too; and whoever joins it compares the words of the config.
@@ -105,7 +106,7 @@ pub(super) fn finish(
             "{what} are complete in {place}: nothing to simulate\n"
         ));
     }
-    let (output, written) = write(study, session)?;
+    let (output, written) = write(loaded, session)?;
     let findings = match output.findings {
         Some((header, lines)) => table(header, &lines) + "\n",
         None => String::new(),
@@ -115,18 +116,19 @@ pub(super) fn finish(
 }
 
 /// Writes counts, then pictures, then the manifest that vouches for both.
-pub(super) fn write(study: &Loaded, mut session: Session) -> Result<(Output, Written), Failure> {
+pub(super) fn write(loaded: &Loaded, mut session: Session) -> Result<(Output, Written), Failure> {
     let start = Instant::now();
+    let study = &loaded.study;
     let output = study.output(session.counts()).map_err(Failure::study)?;
     let mut seconds = session.seconds();
     if study.trials().is_none() {
         seconds = start.elapsed().as_secs_f64();
-        study.judge(&output).map_err(Failure::study)?;
+        loaded.judge(&output).map_err(Failure::study)?;
     }
     // Until the manifest is written, a run continues from the counts.
     session.save().map_err(Failure::run)?;
     let directory = session.directory().clone();
-    let mut manifest = made_by(&session, manifest(study.origin(), seconds));
+    let mut manifest = made_by(&session, manifest(&loaded.origin, seconds));
     let mut written = Written::new(seconds);
     let mut put = |name: &str, bytes: &[u8], manifest: &mut Manifest| {
         let is_new = store(&directory, manifest, name, bytes)?;
@@ -136,7 +138,7 @@ pub(super) fn write(study: &Loaded, mut session: Session) -> Result<(Output, Wri
     for (name, bytes) in output.files() {
         put(name, &bytes, &mut manifest)?;
     }
-    let drawing = study
+    let drawing = loaded
         .draw(&output.points, &manifest)
         .map_err(Failure::run)?;
     for (name, bytes) in drawing.files() {

@@ -51,9 +51,8 @@ impl Estimate {
         Ok(Self {
             work: all.size(),
             pilots,
-            groups: all.groups().count(),
-            gigabytes: all
-                .groups()
+            groups: all.groups.len(),
+            gigabytes: (all.groups.iter())
                 .map(|group| group.gigabytes)
                 .fold(0.0, f64::max),
             time,

@@ -1,6 +1,6 @@
 //! What a directory has, as counts; and whether they may be gone on with.
 
-use super::{Identity, Runnable, StudyError, Target, Trials};
+use super::{AnyStudy, Identity, StudyError, Target, Trials};
 use crate::counts::Counts;
 use crate::results::{Checkpoint, Directory, Manifest, RESULTS, ResultsError};
 use std::collections::BTreeSet;
@@ -28,7 +28,7 @@ impl Existing {
     /// Reads the counts of a run that is not over or, where there are none, those of a finished result.
     pub fn read(
         directory: &Directory,
-        experiment: &dyn Runnable,
+        study: &dyn AnyStudy,
         overwrite: Overwrite,
     ) -> Result<Option<Self>, ResultsError> {
         if overwrite == Overwrite::Fresh {
@@ -44,19 +44,19 @@ impl Existing {
         if !directory.is_finished() {
             return Ok(None);
         }
-        match Self::finished(directory, experiment) {
+        match Self::finished(directory, study) {
             Err(_) if overwrite == Overwrite::Adopt => Ok(None),
             finished => finished.map(Some),
         }
     }
 
     /// A finished result, with its counts where they can be told from it.
-    fn finished(directory: &Directory, experiment: &dyn Runnable) -> Result<Self, ResultsError> {
+    fn finished(directory: &Directory, study: &dyn AnyStudy) -> Result<Self, ResultsError> {
         let manifest = directory.manifest()?;
         let points = directory.points(&manifest)?;
         let comparisons = directory.comparisons(&manifest)?;
         let origin = manifest.origin.clone();
-        let there = experiment.of(&origin).filter(|_| origin.results == RESULTS);
+        let there = study.behind(&origin).filter(|_| origin.results == RESULTS);
         let counts = match there {
             Some(there) => (there.recall(&points, &comparisons))
                 .map_err(|error| directory.damaged_points(error))?,
@@ -80,12 +80,12 @@ impl Existing {
         &self,
         directory: &Directory,
         here: &Checkpoint,
-        experiment: &dyn Runnable,
+        study: &dyn AnyStudy,
         overwrite: Overwrite,
     ) -> Result<(), ResultsError> {
         let path = directory.path().to_owned();
         let is_adopted = overwrite == Overwrite::Adopt && self.state.shard.is_none();
-        if !is_adopted && let Some(difference) = self.difference(here, experiment) {
+        if !is_adopted && let Some(difference) = self.difference(here, study) {
             return Err(ResultsError::Different { path, difference });
         }
         let (held, asked) = (self.state.origin.trials, here.origin.trials);
@@ -97,7 +97,7 @@ impl Existing {
 
     /// The first thing that keeps these counts from being those of the run `here`; labels, captions, claims
     /// and the number of trials do not count, nor does what is not here yet.
-    fn difference(&self, here: &Checkpoint, experiment: &dyn Runnable) -> Option<String> {
+    fn difference(&self, here: &Checkpoint, study: &dyn AnyStudy) -> Option<String> {
         let (there, origin) = (&self.state.origin, &here.origin);
         let differs = |name, there: &dyn ToString, here: &dyn ToString| {
             let (there, here) = (there.to_string(), here.to_string());
@@ -113,7 +113,7 @@ impl Existing {
             .or_else(|| differs("common_random_numbers", &shared[0], &shared[1]))
             .or_else(|| differs("it", &shard(&self.state), &shard(here)))
             .or_else(|| differs("trials of a shard", &trials?, &origin.trials))
-            .or_else(|| self.points_difference(experiment))
+            .or_else(|| self.points_difference(study))
             .or_else(|| {
                 // Finished results of another version are replaced by those of this one.
                 let is_unfinished = self.made_by.is_none();
@@ -123,18 +123,14 @@ impl Existing {
     }
 
     /// What is another study, or a point that is not here.
-    fn points_difference(&self, experiment: &dyn Runnable) -> Option<String> {
-        let Some(there) = experiment.of(&self.state.origin) else {
+    fn points_difference(&self, study: &dyn AnyStudy) -> Option<String> {
+        let Some(there) = study.behind(&self.state.origin) else {
             return Some("its config cannot be read any more".to_owned());
         };
-        if there.name() != experiment.name() {
-            return Some(format!(
-                "[{}] there, [{}] here",
-                there.name(),
-                experiment.name()
-            ));
+        if there.name() != study.name() {
+            return Some(format!("[{}] there, [{}] here", there.name(), study.name()));
         }
-        Identity::difference(&there.identities(), &experiment.identities())
+        Identity::difference(&there.identities(), &study.identities())
     }
 
     /// Keeps the counts that are wanted.

@@ -15,14 +15,20 @@ pub struct Identity {
 
 impl Identity {
     /// Of a study that is one point.
-    pub fn new(parameters: impl IntoIterator<Item = (&'static str, String)>) -> Self {
+    pub fn new<N: Into<String>>(parameters: impl IntoIterator<Item = (N, String)>) -> Self {
         let parameters = parameters.into_iter();
         Self {
             parameters: parameters
-                .map(|(name, value)| (name.to_owned(), value))
+                .map(|(name, value)| (name.into(), value))
                 .collect(),
             place: String::new(),
         }
+    }
+
+    /// The same with one parameter more.
+    pub fn with(mut self, name: &str, value: f64) -> Self {
+        self.parameters.push((name.to_owned(), value.to_string()));
+        self
     }
 
     /// Of the counter of this point.

@@ -1,9 +1,9 @@
 //! Shards of one experiment, joined.
 
 use super::existing::check;
-use super::{Overwrite, Runnable, Session, StudyError, Trials};
+use super::{AnyStudy, Overwrite, Session, StudyError, Trials};
 use crate::counts::{Counts, CountsError, Key};
-use crate::results::{Checkpoint, Directory, RESULTS, ResultsError, Shard};
+use crate::results::{Checkpoint, Directory, Origin, RESULTS, ResultsError, Shard};
 use crate::rule::OutOfRange;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -71,12 +71,13 @@ pub fn part(directory: &Directory) -> Result<Checkpoint, MergeError> {
 /// Where a shard has none or none that it can have, two are of different experiments or hold the same trials, or
 /// the directory holds another experiment or trials that the shards have not.
 pub fn merge<'a>(
-    experiment: &'a dyn Runnable,
+    study: &'a dyn AnyStudy,
+    origin: &Origin,
     shards: &[Directory],
     directory: Directory,
 ) -> Result<(Session<'a>, Absent), MergeError> {
-    let (sum, absent) = join(experiment, shards)?;
-    let mut session = Session::open(experiment, directory, None, Overwrite::Continue)?;
+    let (sum, absent) = join(study, shards)?;
+    let mut session = Session::open(study, origin, directory, None, Overwrite::Continue)?;
     if !sum.counts.covers(session.counts()) {
         return Err(MergeError::More(session.directory().path().to_owned()));
     }
@@ -92,10 +93,10 @@ pub fn merge<'a>(
 
 /// The counts of all, and what is not among them.
 fn join(
-    experiment: &dyn Runnable,
+    study: &dyn AnyStudy,
     directories: &[Directory],
 ) -> Result<(Checkpoint, Absent), MergeError> {
-    let trials = experiment.trials().unwrap_or_else(|| Box::new(()));
+    let trials = study.trials().unwrap_or_else(|| Box::new(()));
     let known: BTreeSet<&Key> = trials.targets().iter().map(|target| &target.key).collect();
     let mut sum: Option<Checkpoint> = None;
     let mut absent = Absent::default();

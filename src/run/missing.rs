@@ -1,6 +1,6 @@
 //! What is wanted and not counted, and the counting of it.
 
-use super::{Group, Progress, Simulation, Target, Trials};
+use super::{Group, Progress, Target, Trials};
 use crate::counts::{Counts, Ranges};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -57,20 +57,14 @@ impl Missing {
 
 /// What is missing, in the order in which it is counted.
 pub(super) struct Work<'a> {
-    jobs: Vec<Job<'a>>,
+    targets: &'a [Target],
+    pub groups: Vec<Group<'a>>,
     stretches: Vec<Stretch>,
     block: u64,
 }
 
-/// Targets that miss the same trials.
-struct Job<'a> {
-    targets: Vec<&'a Target>,
-    simulation: Box<dyn Simulation + 'a>,
-}
-
 /// Trials of one group that follow each other.
 struct Stretch {
-    job: usize,
     group: usize,
     trials: Range<u64>,
     /// Blocks in all the stretches before this one.
@@ -81,29 +75,24 @@ impl<'a> Work<'a> {
     /// Arranges what is missing so that targets that miss the same trials run together.
     pub fn new(trials: &'a dyn Trials, missing: &Missing) -> Self {
         let block = trials.block();
-        let (mut jobs, mut stretches, mut before) = (Vec::new(), Vec::new(), 0);
+        let (mut groups, mut stretches, mut before) = (Vec::new(), Vec::new(), 0);
         for (targets, missing) in missing.alike() {
-            let simulation = trials.simulation(&targets);
-            for group in 0..simulation.groups().len() {
+            for group in trials.groups(&targets) {
                 for trials in missing.iter() {
                     let blocks = blocks(&trials, block);
                     stretches.push(Stretch {
-                        job: jobs.len(),
-                        group,
+                        group: groups.len(),
                         trials,
                         before,
                     });
                     before += blocks;
                 }
+                groups.push(group);
             }
-            let all = trials.targets();
-            jobs.push(Job {
-                targets: targets.into_iter().map(|at| &all[at]).collect(),
-                simulation,
-            });
         }
         Self {
-            jobs,
+            targets: trials.targets(),
+            groups,
             stretches,
             block,
         }
@@ -111,18 +100,8 @@ impl<'a> Work<'a> {
 
     /// What the progress of [`count`](Self::count) adds up to.
     pub fn size(&self) -> u64 {
-        let work = |at: &Stretch| (at.trials.end - at.trials.start) * self.group(at).work;
+        let work = |at: &Stretch| (at.trials.end - at.trials.start) * self.groups[at.group].work;
         self.stretches.iter().map(work).sum()
-    }
-
-    /// Groups of counters that share one realisation.
-    pub fn groups(&self) -> impl Iterator<Item = &Group> {
-        let jobs = self.jobs.iter();
-        jobs.flat_map(|job| job.simulation.groups())
-    }
-
-    fn group(&self, at: &Stretch) -> &Group {
-        &self.jobs[at.job].simulation.groups()[at.group]
     }
 
     /// Adds to `counts` all that is missing, block by block on the current thread pool.
@@ -136,13 +115,12 @@ impl<'a> Work<'a> {
             let at = self.stretches.partition_point(|at| at.before <= block) - 1;
             let stretch = &self.stretches[at];
             let trials = block_of(&stretch.trials, block - stretch.before, self.block);
-            let job = &self.jobs[stretch.job];
-            let group = self.group(stretch);
-            let sums = job.simulation.run(stretch.group, trials.clone());
+            let group = &self.groups[stretch.group];
+            let sums = (group.run)(trials.clone());
             {
                 let mut counts = counts.lock().expect("nobody panics with the counts");
                 for (&counter, sums) in group.counters.iter().zip(&sums) {
-                    let added = counts.add(&job.targets[counter].key, trials.clone(), sums);
+                    let added = counts.add(&self.targets[counter].key, trials.clone(), sums);
                     added.expect("only what is missing is counted");
                 }
             }

@@ -30,6 +30,7 @@ mod missing;
 mod save;
 mod session;
 mod status;
+mod study;
 pub(crate) mod tally;
 mod trials;
 
@@ -42,5 +43,6 @@ pub use merge::{Absent, MergeError, merge, part};
 pub use missing::Missing;
 pub use session::Session;
 pub use status::{State, Status};
+pub use study::{AnyStudy, DrawError, Output, Table};
 pub use tally::{Tallied, run};
-pub use trials::{Group, Progress, Runnable, Simulation, StudyError, Target, Trials};
+pub use trials::{Group, Progress, StudyError, Target, Trials};

@@ -3,9 +3,9 @@
 use super::existing::{Existing, Overwrite, check};
 use super::missing::Work;
 use super::save::Saver;
-use super::{Missing, Progress, Runnable, StudyError, Target, Trials};
+use super::{AnyStudy, Missing, Progress, StudyError, Target, Trials};
 use crate::counts::Counts;
-use crate::results::{Checkpoint, Directory, Lock, Manifest, ResultsError, Shard};
+use crate::results::{Checkpoint, Directory, Lock, Manifest, Origin, ResultsError, Shard};
 use std::time::{Duration, Instant};
 
 /// An experiment in its directory, which nobody else writes into as long as this lives.
@@ -29,16 +29,17 @@ impl<'a> Session<'a> {
     /// # Errors
     /// Where the directory is in use, cannot be written, or holds what is not to be overwritten.
     pub fn open(
-        experiment: &'a dyn Runnable,
+        study: &'a dyn AnyStudy,
+        origin: &Origin,
         directory: Directory,
         shard: Option<Shard>,
         overwrite: Overwrite,
     ) -> Result<Self, ResultsError> {
         let lock = directory.lock()?;
         directory.check_writable()?;
-        let trials = experiment.trials().unwrap_or_else(|| Box::new(()));
+        let trials = study.trials().unwrap_or_else(|| Box::new(()));
         let mut state = Checkpoint {
-            origin: experiment.origin().clone(),
+            origin: origin.clone(),
             shard,
             block: trials.block(),
             points: trials.points(),
@@ -48,8 +49,8 @@ impl<'a> Session<'a> {
         let is_new = overwrite == Overwrite::Fresh || shard.is_some();
         let is_complete = !is_new && directory.complete(&state.origin).is_some();
         let mut made_by = None;
-        if let Some(mut existing) = Existing::read(&directory, experiment, overwrite)? {
-            existing.admit(&directory, &state, experiment, overwrite)?;
+        if let Some(mut existing) = Existing::read(&directory, study, overwrite)? {
+            existing.admit(&directory, &state, study, overwrite)?;
             existing.keep(&*trials);
             state.counts = existing.state.counts;
             state.seconds = existing.state.seconds;

@@ -1,8 +1,7 @@
 //! What a study gives to be counted.
 
-use super::Identity;
 use crate::counts::{Counts, DecisionSummary, Key, Shape, Sums};
-use crate::results::{Comparison, Origin};
+use crate::schedule::BLOCK;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -19,14 +18,27 @@ pub struct Target {
 }
 
 /// Counters that share one realisation.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Group {
-    /// By their place among those that are simulated.
+pub struct Group<'a> {
+    /// The targets, by their places.
     pub counters: Vec<usize>,
     /// What a trial costs, in trials of a single point.
     pub work: u64,
     /// Memory of a trial, in GB.
     pub gigabytes: f64,
+    /// Runs some trials; returns the sums of each counter.
+    pub run: Box<dyn Fn(Range<u64>) -> Vec<Sums> + Sync + 'a>,
+}
+
+impl<'a> Group<'a> {
+    /// Of points that cost as much each as one by itself, and hardly any memory.
+    pub fn new(counters: Vec<usize>, run: impl Fn(Range<u64>) -> Vec<Sums> + Sync + 'a) -> Self {
+        Self {
+            work: counters.len() as u64,
+            gigabytes: 0.0,
+            run: Box::new(run),
+            counters,
+        }
+    }
 }
 
 /// Trials that may run in any order on any machine.
@@ -40,7 +52,9 @@ pub trait Trials: Sync {
     }
 
     /// Trials that are run together. Shards are whole blocks.
-    fn block(&self) -> u64;
+    fn block(&self) -> u64 {
+        BLOCK
+    }
 
     /// The targets that a whole run counts, by their places, so far as `counts` tell: in the end all that are not
     /// there for shards alone.
@@ -77,8 +91,8 @@ pub trait Trials: Sync {
         Ok(0)
     }
 
-    /// What simulates these targets and no others.
-    fn simulation<'a>(&'a self, targets: &[usize]) -> Box<dyn Simulation + 'a>;
+    /// What simulates these targets and no others, each in one group.
+    fn groups(&self, targets: &[usize]) -> Vec<Group<'_>>;
 }
 
 /// Nothing is counted.
@@ -91,27 +105,7 @@ impl Trials for () {
         1
     }
 
-    fn simulation<'a>(&'a self, _targets: &[usize]) -> Box<dyn Simulation + 'a> {
-        Box::new(())
-    }
-}
-
-/// The trials of some targets.
-pub trait Simulation: Sync {
-    /// Every target of the simulation in one of them.
-    fn groups(&self) -> &[Group];
-
-    /// Runs some trials; returns the sums of each counter of the group.
-    fn run(&self, group: usize, trials: Range<u64>) -> Vec<Sums>;
-}
-
-/// Nothing is simulated.
-impl Simulation for () {
-    fn groups(&self) -> &[Group] {
-        &[]
-    }
-
-    fn run(&self, _group: usize, _trials: Range<u64>) -> Vec<Sums> {
+    fn groups(&self, _targets: &[usize]) -> Vec<Group<'_>> {
         Vec::new()
     }
 }
@@ -138,31 +132,3 @@ pub trait Progress: Sync {
 
 /// Nobody is told.
 impl Progress for () {}
-
-/// What can be run in a directory: a study, and the numbers of this run.
-pub trait Runnable {
-    /// The name of the study's table.
-    fn name(&self) -> &'static str;
-
-    /// What its results are known by.
-    fn origin(&self) -> &Origin;
-
-    /// What it is of, point by point.
-    fn identities(&self) -> Vec<Identity>;
-
-    /// What it counts; none where everything is computed.
-    fn trials(&self) -> Option<Box<dyn Trials + '_>>;
-
-    /// The counts behind finished results of its own, where these tell them.
-    ///
-    /// # Errors
-    /// Where the bytes are not the study's rows.
-    fn recall(
-        &self,
-        points: &[u8],
-        comparisons: &[Comparison],
-    ) -> Result<Option<Counts>, csv::Error>;
-
-    /// The experiment behind other results; none where this version cannot read its config.
-    fn of(&self, origin: &Origin) -> Option<Box<dyn Runnable>>;
-}

@@ -6,7 +6,7 @@ use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::{Comparison, Quantity};
-use crate::run::{Identity, StudyError, Target, Trials};
+use crate::run::{Identity, StudyError, Table, Target, Trials};
 use schemars::SchemaGenerator;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -39,7 +39,7 @@ pub trait Study: Send + Sync + Sized + 'static {
     /// What it is of, point by point: every parameter that changes what comes out.
     fn identities(&self) -> Vec<Identity>;
 
-    /// What it counts; none where everything is computed.
+    /// What it counts; none where everything is computed. A study that runs no pilots is itself its trials.
     fn trials(&self) -> Option<Box<dyn Trials + '_>> {
         None
     }
@@ -126,9 +126,6 @@ impl TooMany {
         })
     }
 }
-
-/// A header and lines.
-pub type Table = (&'static [&'static str], Vec<Vec<String>>);
 
 /// What the studies of one config share.
 #[derive(Clone, Copy, Debug, PartialEq)]

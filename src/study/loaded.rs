@@ -1,66 +1,46 @@
 //! A config as a study that can be run, whatever its kind.
 
-use super::any::{AnyStudy, DrawError, Output};
-use super::kind::Context;
-use super::{STUDIES, parse};
-use crate::claim::{Evidence, Narrative};
+use super::kind::{Context, Study};
+use crate::claim::{Evidence, Narrative, Scope};
 use crate::counts::Counts;
 use crate::experiment::Experiment;
-use crate::figure::Drawing;
+use crate::figure::{Drawing, render};
 use crate::report::Section;
-use crate::results::{
-    Comparison, Directory, Manifest, Origin, Quantity, RESULTS, ResultsError, file_name,
-};
-use crate::run::{Identity, Runnable, StudyError, Trials};
+use crate::results::{Directory, Manifest, Origin, RESULTS, ResultsError, file_name};
+use crate::run::{AnyStudy, DrawError, Output, StudyError};
 
 /// A config's study, with the numbers of this run.
 pub struct Loaded {
-    study: Box<dyn AnyStudy>,
-    config: Experiment,
+    /// What the config describes.
+    pub study: Box<dyn AnyStudy>,
+    /// What its results are known by.
+    pub origin: Origin,
+    /// What the config asks.
+    pub question: String,
+    /// Of the intervals.
+    pub confidence: f64,
+    /// How many points there are, in words.
+    pub points: String,
+    scope: Scope,
     narrative: Narrative,
-    origin: Origin,
 }
 
 impl Loaded {
-    /// Plans what a config describes.
-    ///
-    /// # Errors
-    /// Where a parameter of a point is out of range, or no region or record can be made for it.
-    pub fn new(config: Experiment) -> Result<Self, StudyError> {
-        let mut studies = STUDIES.iter();
-        let entry = studies.find(|entry| entry.name == config.study());
-        let entry = entry.expect("a config names a study");
-        let context = Context::of(&config, entry.counts_trials);
-        let study = (entry.read)(&config, context)?;
+    /// Of a config with the table of `S`.
+    pub(super) fn of<S: Study>(config: &Experiment) -> Result<Self, StudyError> {
+        config.check_used(S::USES, S::COUNTS_TRIALS)?;
+        let context = Context::of(config, S::COUNTS_TRIALS);
+        let study = S::read(config, context)?;
+        let scope = study.scope();
         Ok(Self {
-            narrative: config.narrative(&study.scope())?,
-            origin: origin(&config, context.trials),
-            study,
-            config,
+            narrative: config.narrative(&scope)?,
+            scope,
+            points: study.points(),
+            study: Box::new(study),
+            origin: origin(config, context.trials),
+            question: config.header.question.clone(),
+            confidence: context.confidence,
         })
-    }
-
-    /// What the config asks.
-    pub fn question(&self) -> &str {
-        &self.config.header.question
-    }
-
-    /// Of the intervals.
-    pub fn confidence(&self) -> f64 {
-        self.config.header.confidence.get()
-    }
-
-    /// How many points there are, in words.
-    pub fn points(&self) -> String {
-        self.study.points()
-    }
-
-    /// What the counts come to.
-    ///
-    /// # Errors
-    /// Where a number is asked for that the rows do not give.
-    pub fn output(&self, counts: &Counts) -> Result<Output, StudyError> {
-        self.study.output(counts)
     }
 
     /// Judges the claims and fills the text once on empty counts, so that what they name is known to be there
@@ -80,9 +60,7 @@ impl Loaded {
     /// # Errors
     /// Where a claim or the text is about something that is not among the results.
     pub fn judge(&self, output: &Output) -> Result<(), StudyError> {
-        let (comparisons, quantities) = (output.comparisons.clone(), output.quantities.clone());
-        let section = self.section(String::new(), &output.points, comparisons, quantities)?;
-        section.judge()?;
+        self.section("", output.evidence.clone()).judge()?;
         Ok(())
     }
 
@@ -91,7 +69,8 @@ impl Loaded {
     /// # Errors
     /// Where the bytes are not the study's, or drawing fails.
     pub fn draw(&self, points: &[u8], manifest: &Manifest) -> Result<Drawing, DrawError> {
-        self.study.draw(points, manifest)
+        let plot = self.study.plot(points, manifest.origin.seed)?;
+        Ok(render(&plot, &manifest.provenance())?)
     }
 
     /// For the report, from the files of `directory`.
@@ -102,76 +81,25 @@ impl Loaded {
         let manifest = directory.manifest()?;
         let comparisons = directory.comparisons(&manifest)?;
         let quantities = directory.quantities(&manifest)?;
-        let points = directory.points(&manifest)?;
-        self.section(name.to_owned(), &points, comparisons, quantities)
-            .map_err(|error| directory.damaged_points(error))
+        let outcomes = self.study.outcomes(&directory.points(&manifest)?);
+        let evidence = Evidence {
+            scope: self.scope.clone(),
+            outcomes: outcomes.map_err(|error| directory.damaged_points(error))?,
+            comparisons,
+            quantities,
+        };
+        Ok(self.section(name, evidence))
     }
 
-    fn section(
-        &self,
-        name: String,
-        points: &[u8],
-        comparisons: Vec<Comparison>,
-        quantities: Vec<Quantity>,
-    ) -> Result<Section, csv::Error> {
-        Ok(Section {
-            name,
+    fn section(&self, name: &str, evidence: Evidence) -> Section {
+        Section {
+            name: name.to_owned(),
             config: self.origin.config_name.clone(),
-            question: self.question().to_owned(),
+            question: self.question.clone(),
             narrative: self.narrative.clone(),
             trials: self.origin.trials,
-            evidence: Evidence {
-                scope: self.study.scope(),
-                outcomes: self.study.outcomes(points)?,
-                comparisons,
-                quantities,
-            },
-        })
-    }
-}
-
-impl Runnable for Loaded {
-    fn name(&self) -> &'static str {
-        self.study.name()
-    }
-
-    fn origin(&self) -> &Origin {
-        &self.origin
-    }
-
-    fn identities(&self) -> Vec<Identity> {
-        self.study.identities()
-    }
-
-    fn trials(&self) -> Option<Box<dyn Trials + '_>> {
-        self.study.trials()
-    }
-
-    fn recall(
-        &self,
-        points: &[u8],
-        comparisons: &[Comparison],
-    ) -> Result<Option<Counts>, csv::Error> {
-        self.study.recall(points, comparisons)
-    }
-
-    fn of(&self, origin: &Origin) -> Option<Box<dyn Runnable>> {
-        let there = Self::again(origin).ok()?;
-        Some(Box::new(there))
-    }
-}
-
-impl Loaded {
-    /// The experiment behind results.
-    ///
-    /// # Errors
-    /// Where this version cannot read its config.
-    pub fn again(origin: &Origin) -> Result<Self, StudyError> {
-        let mut config = parse(&origin.config_name, &origin.config)?;
-        config.header.set_trials(origin.trials);
-        config.header.seed = origin.seed;
-        config.header.pilot = origin.pilot;
-        Self::new(config)
+            evidence,
+        }
     }
 }
 

@@ -20,13 +20,12 @@ mod rules;
 mod sweep;
 pub(crate) mod trace;
 
-pub use any::{DrawError, Output};
-pub use kind::{Context, Study, Table, TooMany};
+pub use kind::{Context, Study, TooMany};
 pub use loaded::Loaded;
 
 use crate::experiment::{ConfigError, Experiment};
+use crate::results::Origin;
 use crate::run::StudyError;
-use any::AnyStudy;
 use schemars::SchemaGenerator;
 use serde_json::Value;
 use std::path::Path;
@@ -50,8 +49,7 @@ pub struct Entry {
     pub name: &'static str,
     /// What its table may say, as a JSON Schema.
     pub schema: fn(&mut SchemaGenerator) -> Value,
-    counts_trials: bool,
-    read: fn(&Experiment, Context) -> Result<Box<dyn AnyStudy>, StudyError>,
+    load: fn(&Experiment) -> Result<Loaded, StudyError>,
 }
 
 impl Entry {
@@ -59,11 +57,7 @@ impl Entry {
         Self {
             name: S::NAME,
             schema: S::schema,
-            counts_trials: S::COUNTS_TRIALS,
-            read: |experiment, context| {
-                experiment.check_used(S::USES, S::COUNTS_TRIALS)?;
-                Ok(Box::new(S::read(experiment, context)?))
-            },
+            load: Loaded::of::<S>,
         }
     }
 }
@@ -86,6 +80,30 @@ pub fn load(path: &Path) -> Result<Experiment, ConfigError> {
 /// As [`Experiment::load`].
 pub fn parse(name: &str, text: &str) -> Result<Experiment, ConfigError> {
     Experiment::parse(name, text, &names())
+}
+
+impl Loaded {
+    /// Plans what a config describes.
+    ///
+    /// # Errors
+    /// Where a parameter of a point is out of range, or no region or record can be made for it.
+    pub fn new(config: Experiment) -> Result<Self, StudyError> {
+        let mut studies = STUDIES.iter();
+        let entry = studies.find(|entry| entry.name == config.study());
+        (entry.expect("a config names a study").load)(&config)
+    }
+
+    /// The experiment behind results.
+    ///
+    /// # Errors
+    /// Where this version cannot read its config.
+    pub fn again(origin: &Origin) -> Result<Self, StudyError> {
+        let mut config = parse(&origin.config_name, &origin.config)?;
+        config.header.set_trials(origin.trials);
+        config.header.seed = origin.seed;
+        config.header.pilot = origin.pilot;
+        Self::new(config)
+    }
 }
 
 /// The plane of W and T, for `threshold`.

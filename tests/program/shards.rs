@@ -308,10 +308,10 @@ fn merge_is_linear() {
                 Directory::new(path)
             })
             .collect();
-        let study = Loaded::again(&shards[0].checkpoint().unwrap().unwrap().origin).unwrap();
+        let loaded = Loaded::again(&shards[0].checkpoint().unwrap().unwrap().origin).unwrap();
         let out = Directory::new(bench.path(&format!("{count}/all")));
         let start = Instant::now();
-        let (session, absent) = run::merge(&study, &shards, out).unwrap();
+        let (session, absent) = run::merge(&*loaded.study, &loaded.origin, &shards, out).unwrap();
         let seconds = start.elapsed().as_secs_f64();
         println!("{count} shards: {:.0}/s", count as f64 / seconds);
         assert!(absent == run::Absent::default());

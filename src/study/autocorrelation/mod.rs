@@ -28,7 +28,7 @@ use crate::plot::Plot;
 use crate::results::{Quantity, eight_digits};
 use crate::rng::Stream;
 use crate::rule::OutOfRange;
-use crate::run::{Group, Identity, Simulation, StudyError, Target, Trials};
+use crate::run::{Group, Identity, StudyError, Target, Trials};
 use crate::signal::{Law, Sensor, Transfer};
 use crate::stats::normal::two_sided_quantile;
 use crate::study::kind::{Context, Counters, Study, counted};
@@ -36,6 +36,7 @@ use crate::study::rules::within;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde::Deserialize;
 use serde_json::Value;
+use std::ops::Range;
 
 /// (1), with the T₀ of (2).
 const TRANSFER: Transfer = Transfer {
@@ -152,7 +153,7 @@ impl Study for Autocorrelation {
     }
 
     fn trials(&self) -> Option<Box<dyn Trials + '_>> {
-        Some(Box::new(Records(self)))
+        Some(Box::new(self))
     }
 
     fn rows(&self, counts: &Counts) -> Vec<Row> {
@@ -206,73 +207,46 @@ fn mean_and_deviation(number: u64, sum: Fixed, squares: Fixed) -> (f64, f64) {
     (mean, (variance / n).sqrt())
 }
 
-/// Records to be simulated.
-struct Records<'a>(&'a Autocorrelation);
-
-impl Trials for Records<'_> {
+impl Trials for &Autocorrelation {
     fn targets(&self) -> &[Target] {
-        &self.0.counters.targets
+        &self.counters.targets
     }
 
     fn block(&self) -> u64 {
         BLOCK
     }
 
-    fn simulation<'a>(&'a self, _targets: &[usize]) -> Box<dyn Simulation + 'a> {
-        let Autocorrelation {
-            context, scenario, ..
-        } = self.0;
-        let subject = format!(
-            "{} {} length {}",
-            scenario.sensor, scenario.noise, self.0.length
-        );
-        Box::new(Recording {
-            study: self.0,
-            stream: Stream::new(context.seed, "autocorrelation", &subject),
-            variance: variance_ratio(scenario.sensor.ar()),
-            groups: [Group {
-                counters: vec![0],
-                work: 1,
-                gigabytes: 0.0,
-            }],
-        })
+    fn groups(&self, targets: &[usize]) -> Vec<Group<'_>> {
+        let Scenario { sensor, noise, .. } = &self.scenario;
+        let subject = format!("{sensor} {noise} length {}", self.length);
+        let stream = Stream::new(self.context.seed, "autocorrelation", &subject);
+        let run = move |trials| vec![self.sums(&stream, trials)];
+        vec![Group::new(targets.to_vec(), run)]
     }
 }
 
-/// One record after the other.
-struct Recording<'a> {
-    study: &'a Autocorrelation,
-    stream: Stream,
-    variance: f64,
-    groups: [Group; 1],
-}
-
-impl Simulation for Recording<'_> {
-    fn groups(&self) -> &[Group] {
-        &self.groups
-    }
-
-    fn run(&self, _group: usize, trials: std::ops::Range<u64>) -> Vec<Sums> {
-        let mut sums = self.study.shape().empty().sums;
-        let (deviations, squares) = sums.lengths.split_at_mut(self.study.lags + 1);
+impl Autocorrelation {
+    /// Of one record after the other.
+    fn sums(&self, stream: &Stream, trials: Range<u64>) -> Sums {
+        let variance = variance_ratio(self.scenario.sensor.ar());
+        let mut sums = self.shape().empty().sums;
+        let (deviations, squares) = sums.lengths.split_at_mut(self.lags + 1);
         for trial in trials {
-            let record = self.record(trial);
-            for (lag, theory) in self.study.theory.iter().enumerate() {
-                let deviation = mean_product(&record, lag) / self.variance - theory;
+            let record = self.record(stream, trial);
+            for (lag, theory) in self.theory.iter().enumerate() {
+                let deviation = mean_product(&record, lag) / variance - theory;
                 deviations[lag] += Fixed::new(deviation);
                 squares[lag] += Fixed::new(deviation * deviation);
             }
         }
-        vec![sums]
+        sums
     }
-}
 
-impl Recording<'_> {
     /// One stationary record.
-    fn record(&self, trial: u64) -> Vec<f64> {
-        let Scenario { sensor, noise, .. } = &self.study.scenario;
-        let mut record = vec![0.0; sensor.burn_in() + self.study.length];
-        noise.fill(&mut self.stream.at(trial), &mut record);
+    fn record(&self, stream: &Stream, trial: u64) -> Vec<f64> {
+        let Scenario { sensor, noise, .. } = &self.scenario;
+        let mut record = vec![0.0; sensor.burn_in() + self.length];
+        noise.fill(&mut stream.at(trial), &mut record);
         sensor.colour(&mut record);
         record.split_off(sensor.burn_in())
     }

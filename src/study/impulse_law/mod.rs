@@ -20,8 +20,7 @@ use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::{Comparison, Quantity, eight_digits};
 use crate::rng::Stream;
-use crate::run::{Group, Identity, Simulation, StudyError, Target, Trials};
-use crate::schedule::BLOCK;
+use crate::run::{Group, Identity, StudyError, Target, Trials};
 use crate::signal::ImpulseMemory;
 use crate::stats::tally::Tally;
 use crate::study::kind::{Context, Counters, Study, counted};
@@ -31,6 +30,7 @@ use rayon::prelude::*;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde::Deserialize;
 use serde_json::Value;
+use std::ops::Range;
 
 /// The laws of an impulse and of the sum of impulses, against simulation.
 #[derive(Deserialize, JsonSchema)]
@@ -113,7 +113,7 @@ impl Study for ImpulseLaw {
     }
 
     fn trials(&self) -> Option<Box<dyn Trials + '_>> {
-        Some(Box::new(Realisations(self)))
+        Some(Box::new(self))
     }
 
     fn rows(&self, counts: &Counts) -> Vec<Row> {
@@ -158,69 +158,39 @@ impl Study for ImpulseLaw {
     }
 }
 
-/// Realisations to be simulated.
-struct Realisations<'a>(&'a ImpulseLaw);
-
-impl Trials for Realisations<'_> {
+impl Trials for &ImpulseLaw {
     fn targets(&self) -> &[Target] {
-        &self.0.counters.targets
+        &self.counters.targets
     }
 
-    fn block(&self) -> u64 {
-        BLOCK
-    }
-
-    fn simulation<'a>(&'a self, targets: &[usize]) -> Box<dyn Simulation + 'a> {
-        Box::new(Laws {
-            stream: Stream::new(self.0.context.seed, "impulse law", ""),
-            nu: targets
-                .iter()
-                .map(|&at| self.0.nu[self.0.counters.points[at]])
-                .collect(),
-            length: self.0.length,
-            group: [Group {
-                counters: (0..targets.len()).collect(),
-                work: targets.len() as u64,
-                gigabytes: 0.0,
-            }],
-        })
+    fn groups(&self, targets: &[usize]) -> Vec<Group<'_>> {
+        let stream = Stream::new(self.context.seed, "impulse law", "");
+        let nu = |&at: &usize| self.nu[self.counters.points[at]];
+        let nu: Vec<f64> = targets.iter().map(nu).collect();
+        let run = move |trials| count(&stream, &nu, self.length, trials);
+        vec![Group::new(targets.to_vec(), run)]
     }
 }
 
 /// Several ν on the same draws.
-struct Laws {
-    stream: Stream,
-    nu: Vec<f64>,
-    length: usize,
-    group: [Group; 1],
-}
-
-impl Simulation for Laws {
-    fn groups(&self) -> &[Group] {
-        &self.group
-    }
-
-    fn run(&self, _group: usize, trials: std::ops::Range<u64>) -> Vec<Sums> {
-        let mut counts = vec![vec![[0u64; 3]; self.length]; self.nu.len()];
-        for trial in trials {
-            let mut generator = self.stream.at(trial);
-            let mut memories = vec![ImpulseMemory::default(); self.nu.len()];
-            for sample in 0..self.length {
-                let draw = generator.next_u64();
-                for ((memory, nu), counts) in memories.iter_mut().zip(&self.nu).zip(&mut counts) {
-                    let impulse = memory.step(*nu, draw);
-                    let [zero_sum, positive, none] = &mut counts[sample];
-                    *zero_sum += u64::from(memory.sum() == 0.0);
-                    *positive += u64::from(impulse > 0.0);
-                    *none += u64::from(impulse == 0.0);
-                }
+fn count(stream: &Stream, nu: &[f64], length: usize, trials: Range<u64>) -> Vec<Sums> {
+    let mut counts = vec![vec![[0u64; 3]; length]; nu.len()];
+    for trial in trials {
+        let mut generator = stream.at(trial);
+        let mut memories = vec![ImpulseMemory::default(); nu.len()];
+        for sample in 0..length {
+            let draw = generator.next_u64();
+            for ((memory, nu), counts) in memories.iter_mut().zip(nu).zip(&mut counts) {
+                let impulse = memory.step(*nu, draw);
+                let [zero_sum, positive, none] = &mut counts[sample];
+                *zero_sum += u64::from(memory.sum() == 0.0);
+                *positive += u64::from(impulse > 0.0);
+                *none += u64::from(impulse == 0.0);
             }
         }
-        counts
-            .iter()
-            .map(|counts| Sums::of(counts.as_flattened()))
-            .collect()
     }
+    let sums = |counts: &Vec<[u64; 3]>| Sums::of(counts.as_flattened());
+    counts.iter().map(sums).collect()
 }
 
 /// How far the simulation is from (5) and from the closed form of (6), and when (6) holds to 1 %.

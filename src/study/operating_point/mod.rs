@@ -68,17 +68,12 @@ impl Study for OperatingPoint {
         let DeltaRange { from, to } = self.search.delta;
         let sized = self.sized.iter();
         sized
-            .map(|sized| {
-                let mut identity = sized.identity(from);
-                let to = ("to".to_owned(), to.to_string());
-                identity.parameters.push(to);
-                identity
-            })
+            .map(|sized| sized.identity(from).with("to", to))
             .collect()
     }
 
     fn trials(&self) -> Option<Box<dyn Trials + '_>> {
-        Some(Box::new(trials::Levels(self)))
+        Some(Box::new(self))
     }
 
     fn rows(&self, counts: &Counts) -> Vec<Row> {

@@ -123,10 +123,7 @@ impl Sized {
         };
         let parameters = results::parameters(&scenario).into_iter();
         Ok(Self {
-            identity: Identity {
-                parameters: parameters.filter(|(name, _)| name != "delta").collect(),
-                place: String::new(),
-            },
+            identity: Identity::new(parameters.filter(|(name, _)| name != "delta")),
             size,
             scenario,
             region,
@@ -152,10 +149,7 @@ impl Sized {
     }
 
     pub fn identity(&self, delta: f64) -> Identity {
-        let mut identity = self.identity.clone();
-        let delta = ("delta".to_owned(), delta.to_string());
-        identity.parameters.push(delta);
-        identity
+        self.identity.clone().with("delta", delta)
     }
 
     /// The same scenario at several Δ, all on the same noise.

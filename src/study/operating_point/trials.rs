@@ -1,30 +1,21 @@
 //! The trials behind operating points: Δ by Δ on one noise for each size.
 
 use super::grids::{Grids, OperatingPoint};
-use super::search::Sized;
 use crate::chain::{Observation, View};
 use crate::counts::{Counts, Sums};
 use crate::detect::{Region, Ties};
-use crate::run::{Group, Simulation, Target, Trials};
-use crate::schedule::{BLOCK, Gather, Schedule};
-use std::collections::{BTreeMap, BTreeSet};
-use std::ops::Range;
+use crate::run::{Group, Target, Trials};
+use crate::schedule::Gather;
+use std::collections::BTreeSet;
 
-/// All Δ of all sizes.
-pub(super) struct Levels<'a>(pub &'a OperatingPoint);
-
-impl Trials for Levels<'_> {
+impl Trials for &OperatingPoint {
     fn targets(&self) -> &[Target] {
-        &self.0.targets
-    }
-
-    fn block(&self) -> u64 {
-        BLOCK
+        &self.targets
     }
 
     /// The coarse grids; once these are counted, the fine grids that they ask for.
     fn needed(&self, counts: &Counts) -> Vec<usize> {
-        let study = self.0;
+        let study: &OperatingPoint = self;
         let mut needed = BTreeSet::new();
         for size in 0..study.sized.len() {
             let mut deltas = study.sized[size].coarse.clone();
@@ -47,54 +38,36 @@ impl Trials for Levels<'_> {
         needed.into_iter().collect()
     }
 
-    fn simulation<'a>(&'a self, targets: &[usize]) -> Box<dyn Simulation + 'a> {
-        let study = self.0;
-        let (mut parts, mut groups) = (Vec::new(), Vec::new());
+    /// Δ by Δ on one noise for each size.
+    fn groups(&self, targets: &[usize]) -> Vec<Group<'_>> {
         // What two sizes have in common is counted with the first of them.
-        let mut left: BTreeMap<usize, usize> = targets.iter().copied().zip(0..).collect();
-        for (sized, places) in study.sized.iter().zip(&study.places) {
-            let here = places.iter().filter_map(|(&bits, place)| {
-                let counter = left.remove(place)?;
-                Some((f64::from_bits(bits), counter))
-            });
+        let mut left: BTreeSet<usize> = targets.iter().copied().collect();
+        let mut groups = Vec::new();
+        for (sized, places) in self.sized.iter().zip(&self.places) {
+            let here = places.iter().filter(|(_, place)| left.remove(place));
+            let here = here.map(|(&bits, &place)| (f64::from_bits(bits), place));
             let (deltas, counters): (Vec<f64>, Vec<usize>) = here.unzip();
             if deltas.is_empty() {
                 continue;
             }
-            let schedule = sized.schedule(&deltas, study.context);
+            let schedule = sized.schedule(&deltas, self.context);
             let schedule = schedule.expect("the records fitted in memory on another grid");
             let family = &schedule.families[0];
             groups.push(Group {
-                counters,
                 work: family.points_per_trial() as u64,
                 gigabytes: family.gigabytes(),
+                ..Group::new(counters, move |trials| {
+                    let mut hits = Hits {
+                        region: &sized.region,
+                        ties: sized.scenario.detector.ties,
+                        hits: vec![0; deltas.len()],
+                    };
+                    schedule.run_block(0, trials, &mut hits);
+                    hits.hits.iter().map(|&hits| Sums::of(&[hits])).collect()
+                })
             });
-            parts.push((sized, schedule));
         }
-        Box::new(Curves { parts, groups })
-    }
-}
-
-/// Some Δ of some sizes.
-struct Curves<'a> {
-    parts: Vec<(&'a Sized, Schedule)>,
-    groups: Vec<Group>,
-}
-
-impl Simulation for Curves<'_> {
-    fn groups(&self) -> &[Group] {
-        &self.groups
-    }
-
-    fn run(&self, group: usize, trials: Range<u64>) -> Vec<Sums> {
-        let (sized, schedule) = &self.parts[group];
-        let mut hits = Hits {
-            region: &sized.region,
-            ties: sized.scenario.detector.ties,
-            hits: vec![0; self.groups[group].counters.len()],
-        };
-        schedule.run_block(0, trials, &mut hits);
-        hits.hits.iter().map(|&hits| Sums::of(&[hits])).collect()
+        groups
     }
 }
 

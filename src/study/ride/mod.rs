@@ -39,17 +39,16 @@ mod watch;
 
 pub use row::Row;
 
-use crate::counts::{Counter, Counts, Sums};
+use crate::counts::{Counter, Counts};
 use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::Quantity;
-use crate::run::{Group, Identity, Simulation, StudyError, Target, Trials};
+use crate::run::{Group, Identity, StudyError, Target, Trials};
 use crate::study::kind::{Context, Counters, Study, counted};
 use point::RidePoint;
 use schemars::SchemaGenerator;
 use serde_json::Value;
-use std::ops::Range;
 use sums::RideSums;
 use table::RideTable;
 use watch::Watch;
@@ -99,7 +98,7 @@ impl Study for Rides {
     }
 
     fn trials(&self) -> Option<Box<dyn Trials + '_>> {
-        Some(Box::new(Watching(self)))
+        Some(Box::new(self))
     }
 
     /// All outcomes of every point, in the order of curves and values.
@@ -146,12 +145,9 @@ impl Study for Rides {
     }
 }
 
-/// Rides to be watched.
-struct Watching<'a>(&'a Rides);
-
-impl Trials for Watching<'_> {
+impl Trials for &Rides {
     fn targets(&self) -> &[Target] {
-        &self.0.counters.targets
+        &self.counters.targets
     }
 
     fn block(&self) -> u64 {
@@ -159,7 +155,7 @@ impl Trials for Watching<'_> {
     }
 
     fn check(&self, counts: &Counts) -> Result<(), StudyError> {
-        for ((.., point), key) in self.0.points().zip(&self.0.counters.keys) {
+        for ((.., point), key) in (*self).points().zip(&self.counters.keys) {
             if let Some(Counter { trials, sums }) = counts.get(key) {
                 let checked = RideSums::from(sums.clone()).check(point, trials.len());
                 checked.map_err(|error| format!("counter {key}: {error}"))?;
@@ -168,38 +164,17 @@ impl Trials for Watching<'_> {
         Ok(())
     }
 
-    fn simulation<'a>(&'a self, targets: &[usize]) -> Box<dyn Simulation + 'a> {
-        let Rides {
-            context, counters, ..
-        } = self.0;
-        let points: Vec<&RidePoint> = self.0.points().map(|(.., point)| point).collect();
-        let watch = |&at: &usize| Watch::new(points[counters.points[at]], context.seed);
-        let group = |counter| Group {
-            counters: vec![counter],
-            work: 1,
-            gigabytes: 0.0,
+    /// Each point by itself.
+    fn groups(&self, targets: &[usize]) -> Vec<Group<'_>> {
+        let points: Vec<&RidePoint> = (*self).points().map(|(.., point)| point).collect();
+        let group = |&at: &usize| {
+            let watch = Watch::new(points[self.counters.points[at]], self.context.seed);
+            Group::new(vec![at], move |trials| {
+                let mut sums = RideSums::default();
+                trials.for_each(|trial| sums.add(&watch.trial(trial)));
+                vec![sums.into()]
+            })
         };
-        Box::new(Watches {
-            watches: targets.iter().map(watch).collect(),
-            groups: (0..targets.len()).map(group).collect(),
-        })
-    }
-}
-
-/// Some points, each by itself.
-struct Watches<'a> {
-    watches: Vec<Watch<'a>>,
-    groups: Vec<Group>,
-}
-
-impl Simulation for Watches<'_> {
-    fn groups(&self) -> &[Group] {
-        &self.groups
-    }
-
-    fn run(&self, group: usize, trials: Range<u64>) -> Vec<Sums> {
-        let mut sums = RideSums::default();
-        trials.for_each(|trial| sums.add(&self.watches[group].trial(trial)));
-        vec![sums.into()]
+        targets.iter().map(group).collect()
     }
 }

@@ -74,10 +74,7 @@ impl RidePoint {
             ("begins_at_rest", self.begins_at_rest.to_string()),
         ];
         let said = said.map(|(key, value)| (key.to_owned(), value));
-        Identity {
-            parameters: said.into_iter().chain(parameters).collect(),
-            place: String::new(),
-        }
+        Identity::new(said.into_iter().chain(parameters))
     }
 
     /// Whatever is drawn, a trial can be run: the longest can.

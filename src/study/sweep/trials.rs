@@ -1,16 +1,16 @@
 //! The trials of a sweep: families of points that share their noise, and the pilots before them.
 
 use super::targets::{NOTHING, Subject, Sweep};
-use crate::chain::Decision;
+use crate::chain::{Decision, Family};
 use crate::counts::{Counter, Counts, DecisionSummary, Key, Sums};
 use crate::pilot::Pilots;
 use crate::plan::Plan;
 use crate::results::Row;
 use crate::run::tally::{Decisions, Families, Tallies};
-use crate::run::{Group, Progress, Simulation, StudyError, Target, Trials};
-use crate::schedule::BLOCK;
+use crate::run::{Group, Progress, StudyError, Target, Trials};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A sweep, and how its points decide as far as that is known.
 pub(super) struct Sampling<'a> {
@@ -49,10 +49,6 @@ impl Trials for Sampling<'_> {
 
     fn points(&self) -> usize {
         self.sweep.plan.points.len()
-    }
-
-    fn block(&self) -> u64 {
-        BLOCK
     }
 
     /// What both points of a pair detected is the same of either.
@@ -101,8 +97,19 @@ impl Trials for Sampling<'_> {
         Ok(pilots.work())
     }
 
-    fn simulation<'a>(&'a self, targets: &[usize]) -> Box<dyn Simulation + 'a> {
-        Box::new(Job::new(self, targets))
+    fn groups(&self, targets: &[usize]) -> Vec<Group<'_>> {
+        let job = Arc::new(Job::new(self, targets));
+        let families = job.plan.schedule.families.iter().enumerate();
+        let group = |(family, of): (usize, &Family)| {
+            let counters = job.counted[family].iter().map(|&(target, _)| target);
+            let (counters, job) = (counters.collect(), Arc::clone(&job));
+            Group {
+                work: of.points_per_trial() as u64,
+                gigabytes: of.gigabytes(),
+                ..Group::new(counters, move |trials| job.run(family, trials))
+            }
+        };
+        families.map(group).collect()
     }
 }
 
@@ -142,9 +149,8 @@ struct Job {
     /// None before the pilots.
     decisions: Option<Decisions>,
     families: Families,
-    groups: Vec<Group>,
-    /// Of each counter of each group what it counts: a place in this plan, or a pair of `families`.
-    counted: Vec<Vec<Counted>>,
+    /// The targets of each group, and what each counts: a place in this plan, or a pair of `families`.
+    counted: Vec<Vec<(usize, Counted)>>,
 }
 
 #[derive(Clone, Copy)]
@@ -168,17 +174,10 @@ impl Job {
             .iter()
             .map(|&point| sampling.decisions[point].clone())
             .collect();
-        let mut groups: Vec<Group> = (plan.schedule.families.iter())
-            .map(|family| Group {
-                counters: Vec::new(),
-                work: family.points_per_trial() as u64,
-                gigabytes: family.gigabytes(),
-            })
-            .collect();
-        let mut counted = vec![Vec::new(); groups.len()];
+        let mut counted = vec![Vec::new(); plan.schedule.families.len()];
         let family_of = plan.families();
         let mut pair = 0..;
-        for (counter, subject) in subjects.enumerate() {
+        for (&target, subject) in targets.iter().zip(subjects) {
             let (family, what) = match subject {
                 Subject::Point(point) => (family_of[here(point)], Counted::Point(here(point))),
                 Subject::Pair([first, _]) => {
@@ -186,22 +185,14 @@ impl Job {
                     (family_of[here(first)], Counted::Pair(pair))
                 }
             };
-            groups[family].counters.push(counter);
-            counted[family].push(what);
+            counted[family].push((target, what));
         }
         Self {
             plan,
             decisions: decisions.map(Decisions::new),
             families,
-            groups,
             counted,
         }
-    }
-}
-
-impl Simulation for Job {
-    fn groups(&self) -> &[Group] {
-        &self.groups
     }
 
     fn run(&self, group: usize, trials: Range<u64>) -> Vec<Sums> {
@@ -210,7 +201,7 @@ impl Simulation for Job {
         self.plan.schedule.run_block(group, trials, &mut tallies);
         let counted = self.counted[group].iter();
         counted
-            .map(|counted| match *counted {
+            .map(|&(_, counted)| match counted {
                 Counted::Point(place) => Sums::of(&tallies.hits[place..=place]),
                 Counted::Pair(pair) => Sums::of(&tallies.discordant[pair]),
             })

@@ -31,6 +31,7 @@ use crate::whiten::{Fitter, whiten};
 use rand::Rng;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::Value;
+use std::iter;
 use table::{Part, Trace};
 
 /// What one realisation is drawn from.
@@ -87,11 +88,9 @@ impl Study for Realisation {
     }
 
     fn identities(&self) -> Vec<Identity> {
-        let mut identity = Identity::new([("trace", format!("{:?}", self.trace))]);
-        identity
-            .parameters
-            .extend(results::parameters(&self.scenario));
-        vec![identity]
+        let trace = ("trace".to_owned(), format!("{:?}", self.trace));
+        let parameters = results::parameters(&self.scenario);
+        vec![Identity::new(iter::once(trace).chain(parameters))]
     }
 
     fn rows(&self, _counts: &Counts) -> Vec<Row> {
