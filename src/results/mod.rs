@@ -1,8 +1,8 @@
 //! What a run leaves behind: `points.csv`, `figure.png`, `figure.svg`, `run.json` in one directory, and
 //! `comparisons.csv` or `quantities.csv` where claims or an experiment have any.
 //!
-//! The CSV holds counts and every resolved parameter, and no clock or host, so that the same config
-//! and seed give the same bytes anywhere. Files are written beside their place and renamed into it,
+//! The CSV holds counts and the resolved parameters (of rides all but two limits of the monitor), and no clock
+//! or host, so that the same config and seed give the same bytes anywhere. Files are written beside their place and renamed into it,
 //! all after the last trial. Until then the counts so far are in `counts.json`, see [`Checkpoint`]; a
 //! shard of a run has that file alone.
 

@@ -83,7 +83,7 @@ impl RideSums {
             rest += (point.keys.trips + 1) as f64 * point.keys.rest[1];
         }
         if point.measure.rests() {
-            rest += point.keys.length;
+            rest += point.keys.length.get();
         }
         // Times are rounded; a part in 10⁹ is more than that ever comes to.
         let longest = trials as f64 * rest * (1.0 + 1e-9);
@@ -241,7 +241,7 @@ mod tests {
                 journeys: ride.journeys(),
                 to: ride.duration(),
             };
-            Account::new(&truth, &events(said, truth.to), point.keys.tolerance)
+            Account::new(&truth, &events(said, truth.to), point.keys.tolerance.get())
         };
         let mut account = Account::default();
         if point.measure.rides() {
