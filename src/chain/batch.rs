@@ -149,12 +149,12 @@ fn see(
         observe(&branch.digitiser, decimation, record, observed);
         &*observed
     };
-    let end = if branch.whitening.includes_reference() {
+    let end = if branch.whitening.includes_reference {
         source.rest()
     } else {
         source.lead
     };
-    let training = &observed[end - branch.whitening.training()..end];
+    let training = &observed[end - branch.whitening.training..end];
     let coefficients = rest.fitter.fit(training);
     let order = coefficients.len();
     for (i, y) in (source.lead..).zip(whitened.iter_mut()) {

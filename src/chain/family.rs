@@ -220,7 +220,7 @@ impl Course {
 
 /// The first observation after X that may carry an impulse.
 pub(super) fn first_impulse(impulses: &Impulses, samples: &Samples) -> usize {
-    match impulses.during() {
+    match impulses.during {
         During::Motion => 0,
         During::Inertial => samples.scale_range().start - samples.reference(),
     }

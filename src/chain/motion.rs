@@ -63,7 +63,7 @@ impl Motion {
             &mut self.observed,
         );
         whiten(coefficients, &self.observed, 0, &mut self.impulse);
-        let theta = course.impulses.theta();
+        let theta = course.impulses.theta.get();
         let noise = &rest[source.samples.reference()..];
         for ((sum, xi), impulse) in self.without_step.iter_mut().zip(noise).zip(&self.impulse) {
             *sum = xi + theta * impulse;

@@ -73,7 +73,7 @@ impl Replay {
             all
         };
         let acceleration = added(&scenario.shape(), scenario.record_delta());
-        let impulses = added(&trial.motion.pattern, scenario.impulses.theta());
+        let impulses = added(&trial.motion.pattern, scenario.impulses.theta.get());
         let parts = noise.iter().zip(&acceleration).zip(&impulses);
         let raw: Vec<f64> = parts
             .map(|((x, step), impulse)| x + step + impulse)
@@ -89,7 +89,7 @@ impl Replay {
         let (coefficients, rest) = trial.batch.rest(0, lane);
         let mut whitened = rest[..source.samples.reference()].to_vec();
         whitened.extend_from_slice(&trial.motion.whitened);
-        let chosen = match scenario.whitening.order() {
+        let chosen = match scenario.whitening.order {
             Order::Fixed(order) => order,
             // Coefficients beyond the chosen order are zero.
             Order::Auto => {

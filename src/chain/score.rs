@@ -94,7 +94,7 @@ fn clairvoyant(scenario: &Scenario) -> Option<Clairvoyant> {
     let delta = stated.record_delta();
     shift.iter_mut().for_each(|d| *d *= delta);
     let first_impulse = first_impulse(&impulses, &scenario.samples);
-    let (nu, theta) = (impulses.nu(), impulses.theta());
+    let (nu, theta) = (impulses.nu.get(), impulses.theta.get());
     Some(Clairvoyant::new(shift, first_impulse, nu, theta, ar))
 }
 

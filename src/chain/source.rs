@@ -67,19 +67,19 @@ impl Source {
         format!(
             "{} whitening {} {} {} {} digitiser {:?} {:?} motion {} {} {} {} impulses {} {} {}",
             self.subject(),
-            whitening.fit(),
-            whitening.order(),
-            whitening.training(),
-            whitening.includes_reference(),
+            whitening.fit,
+            whitening.order,
+            whitening.training,
+            whitening.includes_reference,
             digitiser.quantum(),
             digitiser.range(),
             scenario.record_delta(),
             motion.profile,
             motion.duration,
             motion.offset,
-            impulses.nu(),
-            impulses.theta(),
-            impulses.during(),
+            impulses.nu.get(),
+            impulses.theta.get(),
+            impulses.during,
         )
     }
 
@@ -122,8 +122,8 @@ impl Source {
         let samples = observations * decimation + self.burn_in() as f64;
         let whitening = &scenario.whitening;
         let fit =
-            2.0 * whitening.training() as f64 + (whitening.highest_order() as f64 + 3.0).powi(2);
-        let wide = samples + 2.0 * observations + 3.0 * span + whitening.training() as f64;
+            2.0 * whitening.training as f64 + (whitening.highest_order() as f64 + 3.0).powi(2);
+        let wide = samples + 2.0 * observations + 3.0 * span + whitening.training as f64;
         let values =
             LANES as f64 * wide + samples + after * (LANES as f64 * decimation + 10.0) + fit;
         let gigabytes = 8.0 * values / 1e9;

@@ -173,7 +173,7 @@ impl Record {
         source: &Source,
         pattern: &[f64],
     ) {
-        let theta = course.impulses.theta();
+        let theta = course.impulses.theta.get();
         let rest = &self.raw[self.raw.len() - self.raw_motion.len()..];
         for (i, r) in self.raw_motion.iter_mut().enumerate() {
             *r = rest[i] + delta * course.shape[i] + theta * pattern[i];
@@ -197,7 +197,7 @@ impl Record {
             self.motion.copy_from_slice(observed);
             return;
         }
-        let theta = course.impulses.theta();
+        let theta = course.impulses.theta.get();
         let motion = course.observed_shape.iter().zip(impulses);
         for ((r, x), (shape, impulse)) in self.motion.iter_mut().zip(observed).zip(motion) {
             *r = x + delta * shape + theta * impulse;

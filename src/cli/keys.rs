@@ -1,6 +1,6 @@
 //! `liftsim keys`: the reference of every table and key of a config.
 
-use super::{CommandResult, print};
+use super::{CommandResult, print, simulate};
 use clap::Args;
 use liftsim::study::reference;
 use std::process::ExitCode;
@@ -20,7 +20,7 @@ impl Keys {
         if self.schema {
             print(&format!("{:#}\n", reference::schema()))?;
         } else {
-            print(&reference::markdown())?;
+            print(&(reference::markdown() + &simulate::reference()))?;
         }
         Ok(ExitCode::SUCCESS)
     }

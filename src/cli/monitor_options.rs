@@ -4,9 +4,10 @@ use super::Failure;
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::detection::MonitorOptions;
-use liftsim::monitor::{MOST_ORDER, STRONGEST, SavedState};
+use liftsim::monitor::{MOST_ORDER, STRONGEST, SavedState, Settings};
 use liftsim::whiten::Order;
 use serde::Serialize;
+use std::fmt::Display;
 use std::path::PathBuf;
 
 /// How the monitor is set up. Flags go over the config, the config over the defaults.
@@ -26,17 +27,20 @@ pub struct MonitorArguments {
 /// The settings that have a flag, named as the ends of their keys.
 #[derive(Debug, Args, Serialize)]
 struct SettingFlags {
-    /// The level of each decision [default: 0.001].
     #[arg(long, value_name = "A", conflicts_with = "state")]
+    #[arg(help = help("The level of each decision", |usual| usual.detector.alpha))]
     alpha: Option<f64>,
-    /// The order of the whitening filter, 0 to 8, or `auto`: by BIC [default: auto].
     #[arg(long, value_name = "M", conflicts_with = "state", value_parser = order)]
+    #[arg(help = help(
+        format_args!("The order of the whitening filter, 0 to {MOST_ORDER}, or `auto`: by BIC"),
+        |usual| usual.whitening.order,
+    ))]
     order: Option<Order>,
-    /// Seconds that a block mean spans [default: 0.05].
     #[arg(long, value_name = "SECONDS", conflicts_with = "state")]
+    #[arg(help = help("Seconds that a block mean spans", |usual| usual.monitor.block))]
     block: Option<f64>,
-    /// The speed of the slowest motion, m/s [default: 0.2].
     #[arg(long, value_name = "V", conflicts_with = "state")]
+    #[arg(help = help("The speed of the slowest motion, m/s", |usual| usual.monitor.least_speed))]
     least_speed: Option<f64>,
 }
 
@@ -56,6 +60,11 @@ pub fn check_strength(acceleration: f64) -> anyhow::Result<()> {
         ));
     }
     Ok(())
+}
+
+/// What a flag says, with the default of its setting.
+fn help<T: Display>(says: impl Display, default: fn(Settings) -> T) -> String {
+    format!("{says} [default: {}]", default(Settings::default()))
 }
 
 fn order(text: &str) -> Result<Order, String> {

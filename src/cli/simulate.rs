@@ -9,6 +9,8 @@ use liftsim::signal::recording::GRAVITY;
 use liftsim::signal::{
     Digitiser, Drive, Ending, ExportLayout, Pickup, Ride, Trip, write_phyphox, write_truth,
 };
+use liftsim::study::reference;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -46,7 +48,7 @@ pub struct Simulate {
 }
 
 /// The ride and the sensor, from a config or the flags.
-#[derive(Clone, Debug, Default, Args, Deserialize)]
+#[derive(Clone, Debug, Default, Args, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 struct Settings {
     /// Seed of all random draws [default: 1].
@@ -57,6 +59,11 @@ struct Settings {
     rate: Option<f64>,
     /// A trip, once for each; see below [default: up:12 and down:12].
     #[arg(long, value_name = "TRIP", value_parser = Request::parse)]
+    #[schemars(with = "Option<Vec<String>>")]
+    #[schemars(
+        description = "Trips such as `up:12`, `down:7.5`, `up:30:jam` (half way) and `up:30:jam@9` \
+        (9 s after the start); `[]` is a single rest [default: up:12 and down:12]."
+    )]
     trip: Option<Vec<Request>>,
     /// Seconds at rest before, between and after the trips; or once for each of these rests [default: 8].
     #[arg(long, value_name = "SECONDS")]
@@ -168,6 +175,13 @@ impl When {
             at => at.strip_prefix('@')?.parse().ok().map(Self::After),
         }
     }
+}
+
+/// The keys of the config, in words.
+pub fn reference() -> String {
+    let title = "# Keys of `simulate`\n\n";
+    title.to_owned()
+        + &reference::table::<Settings>("a ride", "Flags of the same names go over them.")
 }
 
 impl Simulate {

@@ -1,5 +1,7 @@
 //! A config's text as a tree whose keys and values keep their positions, and the merging of trees.
 
+use crate::format::shorten;
+use crate::suggest::among;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
@@ -89,6 +91,16 @@ impl Node {
             span: self.span.clone(),
             value: Value::Table(wanted.collect()),
         }
+    }
+
+    /// The first key that is none of `known`: its position, and its name with those it may be.
+    pub fn unknown<'a>(
+        &self,
+        known: impl Iterator<Item = &'a str> + Clone,
+    ) -> Option<(Range<usize>, String)> {
+        let mut entries = self.table().into_iter().flatten();
+        let (key, (span, _)) = entries.find(|(key, _)| !known.clone().any(|name| name == *key))?;
+        Some((span.clone(), among(&shorten(key), known)))
     }
 
     /// Merges this tree over `base`: its values replace those of `base`. The keys within one of `choices` are

@@ -3,7 +3,8 @@
 //! Every key has a default; an unknown one is refused.
 
 use crate::config::{ConfigError, Node, Source};
-use crate::monitor::{Level, Limits, Settings, Sizes, Whitening};
+use crate::fields::names;
+use crate::monitor::Settings;
 use crate::signal::recording::{Axis, Reading, TimeUnit, Unit};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -20,15 +21,8 @@ pub struct MonitorOptions {
     pub settings: Settings,
 }
 
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct OptionsFile {
-    recording: RecordingTable,
-    samples: Sizes,
-    whitening: Whitening,
-    detector: Level,
-    monitor: Limits,
-}
+/// The one table that is none of [`Settings`].
+const RECORDING: &str = "recording";
 
 /// `[recording]`: how a recording is read.
 #[derive(Default, Deserialize, JsonSchema)]
@@ -77,17 +71,19 @@ impl MonitorOptions {
 
     fn from_source(source: &Source) -> Result<Self, ConfigError> {
         let tree = source.parse()?;
-        let file: OptionsFile = source.read(&tree, "")?;
-        let span = |path: &str| tree.get(path).map(|node| node.span.clone());
-        let settings = Settings {
-            samples: file.samples,
-            whitening: file.whitening,
-            detector: file.detector,
-            monitor: file.monitor,
+        let known = [RECORDING].iter().chain(names::<Settings>()).copied();
+        if let Some((span, among)) = tree.unknown(known) {
+            return Err(source.at(Some(span), format!("unknown key {among}")));
+        }
+        let settings: Settings = source.read(&tree.only(|key| key != RECORDING), "")?;
+        let recording: RecordingTable = match tree.get(RECORDING) {
+            Some(table) => source.read(table, RECORDING)?,
+            None => RecordingTable::default(),
         };
+        let span = |path: &str| tree.get(path).map(|node| node.span.clone());
         (settings.check()).map_err(|error| source.at(span(error.key()), error))?;
         Ok(Self {
-            reading: file.recording.reading(source, &tree)?,
+            reading: recording.reading(source, &tree)?,
             settings,
         })
     }

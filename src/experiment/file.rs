@@ -3,8 +3,8 @@
 use super::header::Header;
 use crate::claim::{Narrative, Scope};
 use crate::config::{ConfigError, Conflict, Node, Source};
+use crate::fields::names;
 use crate::scenario::{Scenario, Sections};
-use crate::suggest::among;
 use serde::de::DeserializeOwned;
 use std::error::Error;
 use std::ops::Range;
@@ -22,21 +22,6 @@ pub struct Experiment {
 
 /// The table that makes a config a sweep.
 pub const SWEEP: &str = "axis";
-
-/// The names of the sections.
-pub const SECTIONS: [&str; 8] = [
-    "sensor",
-    "noise",
-    "rest",
-    "motion",
-    "impulses",
-    "whitening",
-    "samples",
-    "detector",
-];
-
-/// The keys of what the report says and of the claims.
-const NARRATIVE: [&str; 4] = ["title", "text", "order", "claim"];
 
 /// Why a config describes no experiment.
 #[derive(Debug, thiserror::Error)]
@@ -79,7 +64,7 @@ impl Experiment {
     fn new(source: Source, studies: &[&'static str]) -> Result<Self, ConfigError> {
         let root = source.parse()?;
         check_known(&source, &root, studies)?;
-        let mut header: Header = source.read(&root.only(|key| Header::KEYS.contains(&key)), "")?;
+        let mut header: Header = source.read(&keys_of::<Header>(&root), "")?;
         (header.settle()).map_err(|conflict| source.conflict(&root, conflict, &root.span))?;
         let study = study(&source, &root, studies)?;
         Ok(Self {
@@ -118,7 +103,7 @@ impl Experiment {
 
     /// What the sections of the file say.
     pub fn sections(&self) -> Node {
-        self.root.only(|key| SECTIONS.contains(&key))
+        keys_of::<Sections>(&self.root)
     }
 
     /// The scenario of the file's sections.
@@ -199,8 +184,7 @@ impl Experiment {
     /// # Errors
     /// Where a claim does not fit `scope`.
     pub fn narrative(&self, scope: &Scope) -> Result<Narrative, ConfigError> {
-        let words = self.root.only(|key| NARRATIVE.contains(&key));
-        let narrative: Narrative = self.source.read(&words, "")?;
+        let narrative: Narrative = self.source.read(&keys_of::<Narrative>(&self.root), "")?;
         narrative.check(scope).map_err(|(path, problem)| {
             let conflict = Conflict::of([path.clone()], format!("{path}: {problem}"));
             self.source.conflict(&self.root, conflict, &self.root.span)
@@ -230,20 +214,20 @@ impl Experiment {
     }
 }
 
+/// The entries of a table that are fields of `T`.
+fn keys_of<T: DeserializeOwned>(table: &Node) -> Node {
+    table.only(|key| names::<T>().contains(&key))
+}
+
 fn check_known(source: &Source, root: &Node, studies: &[&'static str]) -> Result<(), ConfigError> {
-    let known = (Header::KEYS
-        .iter()
-        .chain(&NARRATIVE)
-        .chain(&["axis", "curve"]))
-    .chain(studies.iter().filter(|name| **name != SWEEP))
-    .chain(&SECTIONS)
-    .copied();
-    let mut written = root.table().into_iter().flatten();
-    match written.find(|(key, _)| !known.clone().any(|known| known == *key)) {
-        Some((key, (span, _))) => {
-            let among = among(&crate::format::shorten(key), known);
-            Err(source.at(Some(span.clone()), ExperimentError::Unknown(among)))
-        }
+    let known = (names::<Header>().iter())
+        .chain(names::<Narrative>())
+        .chain(&["axis", "curve"])
+        .chain(studies.iter().filter(|name| **name != SWEEP))
+        .chain(names::<Sections>())
+        .copied();
+    match root.unknown(known) {
+        Some((span, among)) => Err(source.at(Some(span), ExperimentError::Unknown(among))),
         None => Ok(()),
     }
 }

@@ -86,18 +86,6 @@ fn pilot<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u64, D::Error> {
 }
 
 impl Header {
-    /// Its keys.
-    pub const KEYS: &[&'static str] = &[
-        "question",
-        "seed",
-        "trials",
-        "half_width",
-        "confidence",
-        "common_random_numbers",
-        "pilot",
-        "at_rest",
-    ];
-
     /// Trials per point.
     pub fn trials(&self) -> u64 {
         self.trials.unwrap_or(DEFAULT_TRIALS)

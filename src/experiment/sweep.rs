@@ -1,12 +1,13 @@
 //! A sweep: an axis, curves, and the scenario of each value on each curve: file ⊕ curve ⊕ axis.
 
-use super::file::{Experiment, SECTIONS, SWEEP};
+use super::file::{Experiment, SWEEP};
 use super::header::Header;
 use super::overlay::{Keys, Overlay};
 use crate::claim::{self, Curve, Narrative, Scope};
 use crate::config::{Axis, AxisValue, ConfigError, Conflict};
+use crate::fields::names;
 use crate::rule::OutOfRange;
-use crate::scenario::{PARAMETERS, Parameter, Scenario, parameter};
+use crate::scenario::{PARAMETERS, Parameter, Scenario, Sections, parameter};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -80,7 +81,7 @@ impl SweepConfig {
         let keys = Keys {
             prefix: "",
             swept: &swept,
-            is_parameter: &|key| SECTIONS.contains(&key),
+            is_parameter: &|key| names::<Sections>().contains(&key),
             choices: CHOICES,
             name: |label| {
                 let is_blank = label.trim().is_empty();

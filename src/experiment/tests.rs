@@ -34,10 +34,16 @@ fn curves_lie_over_the_file_and_the_axis_over_both() {
         config.scenario(0, value).unwrap(),
         config.scenario(1, value).unwrap(),
     );
-    assert_eq!((first.impulses.nu(), first.impulses.theta()), (0.2, 7.0));
-    assert_eq!((second.impulses.nu(), second.impulses.theta()), (0.4, 7.0));
-    assert_eq!(second.impulses.during(), During::Inertial);
-    assert_eq!(second.whitening.fit(), Fit::Burg);
+    assert_eq!(
+        (first.impulses.nu.get(), first.impulses.theta.get()),
+        (0.2, 7.0)
+    );
+    assert_eq!(
+        (second.impulses.nu.get(), second.impulses.theta.get()),
+        (0.4, 7.0)
+    );
+    assert_eq!(second.impulses.during, During::Inertial);
+    assert_eq!(second.whitening.fit, Fit::Burg);
 }
 
 #[test]
@@ -205,7 +211,7 @@ fn words_mean_themselves() {
         assert_eq!(
             scenario("whitening", "fit", &format!("\"{word}\""))
                 .whitening
-                .fit()
+                .fit
                 .to_string(),
             word
         );

@@ -1,8 +1,8 @@
 //! The files of a run, in one directory: `points.csv`, `figure.png`, `figure.svg`, `run.json`, and
 //! `comparisons.csv` or `quantities.csv` if there are comparisons or quantities.
 //!
-//! The CSV holds counts and every resolved parameter, but no clock or host, so that the same config
-//! and seed give the same bytes anywhere. After the last trial each file is written under a temporary
+//! The CSV holds counts and the resolved parameters (of rides all but two limits of the monitor), but no clock
+//! or host, so that the same config and seed give the same bytes anywhere. After the last trial each file is written under a temporary
 //! name and renamed. Until then the counts are in `counts.json`, see [`Checkpoint`]; a shard has only
 //! that file.
 

@@ -129,7 +129,7 @@ impl Scenario {
         if decimation == 1 || self.sensor.ar().is_empty() {
             return Ok(());
         }
-        if self.whitening.fit() == Fit::Known {
+        if self.whitening.fit == Fit::Known {
             return Err(ScenarioError::KnownFilterDecimated(decimation));
         }
         if self.motion.delta_at == crate::signal::DeltaAt::Whitened {

@@ -133,14 +133,14 @@ impl Parameter {
 pub const PARAMETERS: &[Parameter] = &[
     column("delta", &["motion.delta"], |s| s.motion.delta.into())
         .axis("Δ/σ_ξ", "Δ/σ_ξ").said(9, Of(delta), AtRest),
-    column("nu", &["impulses.nu"], |s| s.impulses.nu().into())
+    column("nu", &["impulses.nu"], |s| s.impulses.nu.get().into())
         .axis("ν", "ν, probability of an impulse per sample").said(13, Template("ν = {}"), AtRest),
-    column("theta", &["impulses.theta"], |s| s.impulses.theta().into())
+    column("theta", &["impulses.theta"], |s| s.impulses.theta.get().into())
         .axis("θ/σ_ξ", "θ/σ_ξ").said(14, Template("θ/σ_ξ = {}"), AtRestOrIf(|v| v.number("nu") == 0.0)),
     column("noise", &["noise.law"], |s| Cell::text(s.noise)).said(16, Template("{} noise"), Never),
-    column("order", &["whitening.order"], |s| Cell::order(s.whitening.order()))
+    column("order", &["whitening.order"], |s| Cell::order(s.whitening.order))
         .axis("m", "order m of the whitening filter").said(26, Template("order {}"), Never),
-    column("training", &["whitening.training"], |s| s.whitening.training().into())
+    column("training", &["whitening.training"], |s| s.whitening.training.into())
         .axis("", "training length, samples").said(27, Template("training {}"), Is("0")),
     column("reference", &["samples.reference"], |s| s.samples.reference().into())
         .axis("N", "N, samples").said(4, Template("N = {}"), Never),
@@ -161,8 +161,8 @@ pub const PARAMETERS: &[Parameter] = &[
         .axis("", "quantisation step, σ_ξ").said(18, Template("step {} σ_ξ"), Is("")),
     column("range", &["noise.range"], |s| s.digitiser.range().into())
         .axis("", "range of the sensor, σ_ξ").said(19, Template("range {} σ_ξ"), Is("")),
-    column("fit", &["whitening.fit"], |s| Cell::text(s.whitening.fit())).said(25, Of(fit), Never),
-    column("includes_reference", &["whitening.includes_reference"], |s| Cell::Flag(s.whitening.includes_reference()))
+    column("fit", &["whitening.fit"], |s| Cell::text(s.whitening.fit)).said(25, Of(fit), Never),
+    column("includes_reference", &["whitening.includes_reference"], |s| Cell::Flag(s.whitening.includes_reference))
         .said(28, Template("X inside the training record"), Is("false")),
     column("gap", &["samples.gap"], |s| s.samples.gap().into())
         .axis("", "gap, samples").said(7, Template("gap {}"), Is("0")),
@@ -175,16 +175,16 @@ pub const PARAMETERS: &[Parameter] = &[
         .axis("", "duration of the acceleration, samples").said(11, Template("duration {}"), AtRestOrIf(Values::acts_through_shift)),
     column("offset", &["motion.offset"], |s| s.motion.offset.into())
         .axis("", "start of the acceleration after X, samples").said(12, Template("offset {}"), AtRestOr("0")),
-    column("during", &["impulses.during"], |s| Cell::text(s.impulses.during()))
+    column("during", &["impulses.during"], |s| Cell::text(s.impulses.during))
         .said(15, Template("impulses in Y_2 alone"), AtRestOr("motion")),
-    column("drift", &["rest.drift"], |s| s.disturbance.drift().into())
+    column("drift", &["rest.drift"], |s| s.disturbance.drift.get().into())
         .axis("", "drift, σ_ξ per raw sample").said(20, Template("drift {} σ_ξ per sample"), Is("0")),
-    column("swell", &["rest.swell"], |s| s.disturbance.swell().into())
+    column("swell", &["rest.swell"], |s| s.disturbance.swell.get().into())
         .axis("", "deviation of the noise after X, relative to that before")
         .said(21, Template("noise {} times as strong after X"), Is("1")),
-    column("footfalls", &["rest.footfalls"], |s| s.disturbance.footfalls().into())
+    column("footfalls", &["rest.footfalls"], |s| s.disturbance.footfalls.get().into())
         .axis("", "probability of a footfall per raw sample").said(22, Of(footfalls), Is("0")),
-    column("jolt", &["rest.jolt"], |s| s.disturbance.jolt().into()),
+    column("jolt", &["rest.jolt"], |s| s.disturbance.jolt.get().into()),
     column("ties", &["detector.ties"], |s| Cell::text(s.detector.ties)).said(23, Template("ties {}"), Is("random")),
     column("calibrate", &["detector.calibrate"], |s| Cell::text(&s.detector.calibration))
         .said(24, Of(calibration), Is("no")),
@@ -349,7 +349,7 @@ impl PartialEq for Parameter {
 /// The stated motion of a method, in words.
 fn stated((motion, impulses): (Motion, Impulses)) -> Cell {
     let (delta, duration, offset) = (motion.delta, motion.duration, motion.offset);
-    let (nu, theta, during) = (impulses.nu(), impulses.theta(), impulses.during());
+    let (nu, theta, during) = (impulses.nu.get(), impulses.theta.get(), impulses.during);
     Cell::text(format_args!(
         "delta {delta} {} {} duration {duration} offset {offset} nu {nu} theta {theta} {during}",
         motion.delta_at, motion.profile

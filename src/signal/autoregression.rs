@@ -59,16 +59,12 @@ pub(super) fn starts(ar: &[f64]) -> Result<Vec<Start>, (usize, f64)> {
     let mut predictor = ar.to_vec();
     let mut variance = 1.0;
     let mut starts = Vec::new();
-    while let Some(reflection) = predictor.pop() {
-        let order = predictor.len();
+    while let Some(&reflection) = predictor.last() {
         if reflection.is_nan() || reflection.abs() >= 1.0 {
-            return Err((order + 1, reflection));
+            return Err((predictor.len(), reflection));
         }
-        let scale = 1.0 - reflection * reflection;
-        predictor = (0..order)
-            .map(|p| (predictor[p] + reflection * predictor[order - 1 - p]) / scale)
-            .collect();
-        variance /= scale;
+        predictor = step_down(&predictor);
+        variance /= 1.0 - reflection * reflection;
         starts.push(Start {
             ar: predictor.clone(),
             deviation: libm::sqrt(variance),
@@ -76,4 +72,15 @@ pub(super) fn starts(ar: &[f64]) -> Result<Vec<Start>, (usize, f64)> {
     }
     starts.reverse();
     Ok(starts)
+}
+
+/// The best predictor of the order below, by one step of that recursion.
+pub(crate) fn step_down(predictor: &[f64]) -> Vec<f64> {
+    let Some((reflection, rest)) = predictor.split_last() else {
+        return Vec::new();
+    };
+    let scale = 1.0 - reflection * reflection;
+    (rest.iter().zip(rest.iter().rev()))
+        .map(|(phi, mirrored)| (phi + reflection * mirrored) / scale)
+        .collect()
 }

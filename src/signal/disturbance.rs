@@ -68,29 +68,9 @@ impl Disturbance {
         })
     }
 
-    /// Drift of the sensor, σ_ξ per raw sample.
-    pub fn drift(&self) -> f64 {
-        self.drift.get()
-    }
-
-    /// The factor of the noise after X.
-    pub fn swell(&self) -> f64 {
-        self.swell.get()
-    }
-
-    /// Probability of a step, per raw sample.
-    pub fn footfalls(&self) -> f64 {
-        self.footfalls.get()
-    }
-
-    /// Strength of a step, σ_ξ.
-    pub fn jolt(&self) -> f64 {
-        self.jolt.get()
-    }
-
     /// Whether there are footfalls, which need draws.
     pub fn has_footfalls(&self) -> bool {
-        self.footfalls() > 0.0 && self.jolt() > 0.0
+        self.footfalls.get() > 0.0 && self.jolt.get() > 0.0
     }
 
     /// Disturbs `record`, whose sample `after` is the first after X. `draws` gives 64 random bits for each
@@ -102,7 +82,7 @@ impl Disturbance {
         let mut jolt = V::default();
         for (i, x) in record.iter_mut().enumerate() {
             if i >= after {
-                *x = *x * self.swell();
+                *x = *x * self.swell.get();
                 if self.has_footfalls() {
                     jolt = jolt * DECAY;
                     for jolt in jolt.lanes_mut() {
@@ -111,7 +91,7 @@ impl Disturbance {
                     *x = *x + jolt;
                 }
             }
-            let drift = self.drift() * (i as f64 - after as f64);
+            let drift = self.drift.get() * (i as f64 - after as f64);
             x.lanes_mut().iter_mut().for_each(|x| *x += drift);
         }
     }
@@ -119,18 +99,18 @@ impl Disturbance {
     /// The jolt of a draw: 53 bits decide whether there is a step, the lowest bit gives its sign.
     fn footfall(&self, draw: u64) -> f64 {
         let uniform = (draw >> 11) as f64 * (1.0 / (1u64 << 53) as f64);
-        match (uniform < self.footfalls(), draw & 1) {
+        match (uniform < self.footfalls.get(), draw & 1) {
             (false, _) => 0.0,
-            (true, 1) => self.jolt(),
-            (true, _) => -self.jolt(),
+            (true, 1) => self.jolt.get(),
+            (true, _) => -self.jolt.get(),
         }
     }
 }
 
 impl fmt::Display for Disturbance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (drift, swell) = (self.drift(), self.swell());
-        let (footfalls, jolt) = (self.footfalls(), self.jolt());
+        let (drift, swell) = (self.drift.get(), self.swell.get());
+        let (footfalls, jolt) = (self.footfalls.get(), self.jolt.get());
         write!(
             f,
             "drift {drift} swell {swell} footfalls {footfalls} {jolt}"

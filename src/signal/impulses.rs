@@ -61,31 +61,16 @@ impl Impulses {
         Self::new(0.0, 0.0, During::Motion).expect("each is in its range")
     }
 
-    /// ν.
-    pub fn nu(&self) -> f64 {
-        self.nu.get()
-    }
-
-    /// θ/σ_ξ.
-    pub fn theta(&self) -> f64 {
-        self.theta.get()
-    }
-
-    /// From when on impulses act.
-    pub fn during(&self) -> During {
-        self.during
-    }
-
     /// Whether impulses never occur or have strength zero.
     pub fn are_absent(&self) -> bool {
-        self.nu() == 0.0 || self.theta() == 0.0
+        self.nu.get() == 0.0 || self.theta.get() == 0.0
     }
 
     /// λ/θ for each 64-bit draw, from S = 0. Draws may serve impulses of any ν: a sample that
     /// carries an impulse at some ν carries one at every larger ν.
     pub fn pattern(&self, draws: &[[u8; 8]], pattern: &mut [f64]) {
         let mut memory = ImpulseMemory::default();
-        let chance = chance(self.nu());
+        let chance = chance(self.nu.get());
         pattern.fill(0.0);
         for (draws, pattern) in draws.chunks(64).zip(pattern.chunks_mut(64)) {
             // One bit per sample marks the impulses, since most draws give none.

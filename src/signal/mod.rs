@@ -18,6 +18,7 @@ pub mod recording;
 mod ride;
 mod sensor;
 
+pub(crate) use autoregression::step_down;
 pub use digitiser::{Digitiser, Quantum};
 pub use disturbance::{Disturbance, Jolt};
 pub use impulses::{During, ImpulseMemory, Impulses};

@@ -8,8 +8,8 @@ use crate::experiment::schema::properties;
 use crate::experiment::{CurveHeader, Header};
 use crate::monitor::Settings;
 use crate::scenario::Sections;
-use schemars::SchemaGenerator;
 use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -120,25 +120,21 @@ fn own_keys(table: &Value) -> Map<String, Value> {
 
 /// The file of `detect --config` and `monitor --config`.
 fn monitor_options() -> String {
-    let mut generator = generator();
     let mut text = "# Keys of `detect --config` and `monitor --config`\n\n\
         Whatever is left out of `[recording]` is found in the file; sizes are in blocks.\n\n"
         .to_owned();
-    let recording = properties::<RecordingTable>(&mut generator);
-    text += &keys(
-        "[recording]",
-        "How the recording is read.",
-        recording.iter(),
-    );
-    for (name, schema) in &properties::<Settings>(&mut generator) {
-        let own = schema["properties"]
-            .as_object()
-            .cloned()
-            .unwrap_or_default();
+    text += &table::<RecordingTable>("[recording]", "How the recording is read.");
+    for (name, schema) in &properties::<Settings>(&mut generator()) {
         let description = schema["description"].as_str().unwrap_or_default();
-        text += &keys(&format!("[{name}]"), description, own.iter());
+        text += &keys(&format!("[{name}]"), description, own_keys(schema).iter());
     }
     text
+}
+
+/// The keys of a type in words, under a heading of their own.
+pub fn table<T: JsonSchema>(title: &str, description: &str) -> String {
+    let properties = properties::<T>(&mut generator());
+    keys(title, description, properties.iter())
 }
 
 fn generator() -> SchemaGenerator {

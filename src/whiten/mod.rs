@@ -57,14 +57,14 @@ pub enum Fit {
 #[serde(default, deny_unknown_fields)]
 pub struct Whitening {
     /// m, order of the filter, or "auto": chosen by BIC on the training record of each trial.
-    order: Order,
+    pub order: Order,
     /// How the filter comes by its coefficients.
-    fit: Fit,
+    pub fit: Fit,
     /// Samples of rest before X that the filter is fitted to, their mean subtracted; not shared with X.
-    training: usize,
+    pub training: usize,
     /// Whether the training record is the `training` samples that end with X's last: a known mistake, kept
     /// for study.
-    includes_reference: bool,
+    pub includes_reference: bool,
 }
 
 impl Default for Whitening {
@@ -223,29 +223,9 @@ impl Whitening {
         Ok(())
     }
 
-    /// The order m, or `auto`.
-    pub fn order(&self) -> Order {
-        self.order
-    }
-
     /// The most coefficients that its filter can have: m if it is given.
     pub fn highest_order(&self) -> usize {
         self.order.highest(self.training)
-    }
-
-    /// The method of the fit.
-    pub fn fit(&self) -> Fit {
-        self.fit
-    }
-
-    /// Samples of rest the coefficients are fitted to; 0 for a known filter.
-    pub fn training(&self) -> usize {
-        self.training
-    }
-
-    /// Whether X is part of the training record.
-    pub fn includes_reference(&self) -> bool {
-        self.includes_reference
     }
 
     /// The number of samples needed before X.

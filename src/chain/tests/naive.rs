@@ -41,10 +41,10 @@ fn naive_trial(scenario: &Scenario, white: &[f64], draws: &[u64], keys: &[u64]) 
             if i >= rest {
                 let time = ((i - rest) as f64 + 0.5) / samples.decimation() as f64;
                 r += delta * scenario.motion.shape(time);
-                let acts = scenario.impulses.during() == During::Motion || i >= y2;
+                let acts = scenario.impulses.during == During::Motion || i >= y2;
                 if acts {
-                    r += scenario.impulses.theta()
-                        * memory.step(scenario.impulses.nu(), draws[i - rest]);
+                    r += scenario.impulses.theta.get()
+                        * memory.step(scenario.impulses.nu.get(), draws[i - rest]);
                 }
             }
             scenario.digitiser.code(r)
@@ -98,15 +98,15 @@ fn naive_start(scenario: &Scenario, white: &[f64]) -> Vec<f64> {
 
 fn naive_coefficients(scenario: &Scenario, r: &[f64]) -> Vec<f64> {
     let whitening = &scenario.whitening;
-    if whitening.fit() == Fit::Known {
+    if whitening.fit == Fit::Known {
         let mut a = scenario.sensor.ar().to_vec();
         a.resize(whitening.highest_order(), 0.0);
         return a;
     }
-    let end = whitening.lead()
-        + usize::from(whitening.includes_reference()) * scenario.samples.reference();
-    let training = &r[end - whitening.training()..end];
-    let order = match whitening.order() {
+    let end =
+        whitening.lead() + usize::from(whitening.includes_reference) * scenario.samples.reference();
+    let training = &r[end - whitening.training..end];
+    let order = match whitening.order {
         Order::Fixed(order) => order,
         Order::Auto => naive_order(training),
     };

@@ -44,7 +44,7 @@ fn a_trial_is_that_of_the_order_it_chooses() {
         for scenario in scenarios(fit) {
             for index in 0..100 {
                 let replay_of_auto = replay(&scenario, index);
-                let training = &replay_of_auto.record[..scenario.whitening.training()];
+                let training = &replay_of_auto.record[..scenario.whitening.training];
                 let order = naive_order(training);
                 chosen[order] += 1;
                 let mut fixed = scenario.clone();
@@ -116,7 +116,7 @@ fn keeps_the_level() {
     for (scenario, hits) in scenarios.iter().zip(hits) {
         let p = binomial::upper_tail(hits, trials, 0.01);
         let below = binomial::lower_tail(hits, trials, 0.012);
-        let (fit, order) = (scenario.whitening.fit(), scenario.whitening.order());
+        let (fit, order) = (scenario.whitening.fit, scenario.whitening.order);
         println!("{fit}, order {order}: {hits}/{trials}, p = {p:.3e}, of 1.2 α {below:.1e}");
         assert!(p > 5e-7 && below < 1e-4);
     }

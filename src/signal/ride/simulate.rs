@@ -73,8 +73,8 @@ impl Ride {
             for i in self.in_motion(start, course, record.len()) {
                 let draw = generator.next_u64();
                 let phase = course.phase_at(i as f64 / self.rate - start);
-                if impulses.during() == During::Motion || phase == Phase::Inertial {
-                    record[i] += impulses.theta() * memory.step(impulses.nu(), draw);
+                if impulses.during == During::Motion || phase == Phase::Inertial {
+                    record[i] += impulses.theta.get() * memory.step(impulses.nu.get(), draw);
                 }
             }
         }

@@ -29,13 +29,14 @@ use crate::results::{Quantity, eight_digits};
 use crate::rng::Stream;
 use crate::rule::OutOfRange;
 use crate::run::{Group, Identity, StudyError, Target, Trials};
-use crate::signal::{Law, Sensor, Transfer};
+use crate::signal::{Law, Sensor, Transfer, step_down};
 use crate::stats::normal::two_sided_quantile;
 use crate::study::kind::{Context, Counters, Study, counted};
 use crate::study::rules::within;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde::Deserialize;
 use serde_json::Value;
+use std::iter;
 use std::ops::Range;
 
 /// (1), with the T₀ of (2).
@@ -313,16 +314,8 @@ fn transfer_ar() -> Vec<f64> {
 
 /// The predictors of order 1 … p that end in `ar`.
 fn predictors(ar: &[f64]) -> Vec<Vec<f64>> {
-    let mut orders = vec![ar.to_vec()];
-    for order in (1..ar.len()).rev() {
-        let longer = &orders[orders.len() - 1];
-        let last = longer[order];
-        let scale = 1.0 - last * last;
-        let shorter = (0..order)
-            .map(|p| (longer[p] + last * longer[order - 1 - p]) / scale)
-            .collect();
-        orders.push(shorter);
-    }
+    let below = |longer: &Vec<f64>| (longer.len() > 1).then(|| step_down(longer));
+    let mut orders: Vec<_> = iter::successors(Some(ar.to_vec()), below).collect();
     orders.reverse();
     orders
 }

@@ -35,7 +35,7 @@ const LONGEST: usize = 1_000_000;
 
 impl Layout {
     fn check(&self) -> Result<(), Conflict> {
-        let training = self.0.whitening.training();
+        let training = self.0.whitening.training;
         let length = self.0.samples.span().saturating_add(training);
         if length <= LONGEST {
             return Ok(());
@@ -84,10 +84,10 @@ impl Study for Layout {
             ("duration", motion.duration.to_string()),
             ("offset", motion.offset.to_string()),
             ("profile", motion.profile.to_string()),
-            ("training", whitening.training().to_string()),
+            ("training", whitening.training.to_string()),
             (
                 "includes_reference",
-                whitening.includes_reference().to_string(),
+                whitening.includes_reference.to_string(),
             ),
         ])]
     }
@@ -108,12 +108,12 @@ fn rows(scenario: &Scenario) -> Vec<Row> {
     let (shift, scale) = (samples.shift_range(), samples.scale_range());
     let end = from_motion(scale.end);
     let first = from_motion(0);
-    let training = if scenario.whitening.includes_reference() {
-        -(scenario.whitening.training() as i64)
+    let training = if scenario.whitening.includes_reference {
+        -(scenario.whitening.training as i64)
     } else {
-        first - scenario.whitening.training() as i64
+        first - scenario.whitening.training as i64
     };
-    let training_end = if scenario.whitening.includes_reference() {
+    let training_end = if scenario.whitening.includes_reference {
         0
     } else {
         first

@@ -100,7 +100,7 @@ fn caption(scenario: &Scenario) -> [String; 7] {
         format!("M_1 = {}", samples.shift()),
         format!("M_2 = {}", samples.scale()),
         format!("gap {}", samples.gap()),
-        format!("training {}", scenario.whitening.training()),
+        format!("training {}", scenario.whitening.training),
         format!("acceleration: {duration} observations from {offset} on"),
         "impulses from observation 0 on".to_owned(),
     ]

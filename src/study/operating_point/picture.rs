@@ -66,12 +66,12 @@ fn caption(scenario: &Scenario, row: &Row, seed: u64) -> [String; 11] {
     [
         format!("α = {}", row.alpha),
         format!("rule {}", scenario.detector.method),
-        format!("ν = {}", impulses.nu()),
-        format!("θ/σ_ξ = {}", impulses.theta()),
+        format!("ν = {}", impulses.nu.get()),
+        format!("θ/σ_ξ = {}", impulses.theta.get()),
         format!("{} noise", scenario.noise),
-        format!("{} filter", whitening.fit()),
-        format!("order {}", whitening.order()),
-        format!("training {}", whitening.training()),
+        format!("{} filter", whitening.fit),
+        format!("order {}", whitening.order),
+        format!("training {}", whitening.training),
         format!("{} trials at every Δ", thousands(row.trials)),
         format!("seed {seed}"),
         format!(

@@ -6,8 +6,7 @@ use crate::config::{Conflict, Node, Refusal};
 use crate::fields::names;
 use crate::monitor::Settings;
 use crate::signal::{Disturbance, Impulses, Jolt, Quantum};
-use crate::suggest::among;
-use crate::values::{NonNegative, Probability};
+use crate::values::{NonNegative, Positive, Probability};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -16,31 +15,31 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields, default)]
 pub struct RideKeys {
     /// Of every trip, m; up and down in turn.
-    pub distance: f64,
+    pub distance: Positive,
     /// The top speed of a trip, m/s.
-    pub speed: f64,
+    pub speed: Positive,
     /// Of a start and a stop, m/s².
-    pub acceleration: f64,
+    pub acceleration: Positive,
     /// Of a start and a stop, m/s³.
-    pub jerk: f64,
+    pub jerk: Positive,
     /// How many there are in a ride.
     pub trips: usize,
     /// The shortest and the longest rest before, between and after trips, s; uniformly random.
     pub rest: [f64; 2],
     /// How long a rest is that is watched for itself, s.
-    pub length: f64,
+    pub length: Positive,
     /// In how many s a jam brings the cage to a stand.
-    pub jam_within: f64,
+    pub jam_within: Positive,
     /// How far from the truth the time of a start, a stop or a jam may lie, s.
-    pub tolerance: f64,
+    pub tolerance: Positive,
     /// Samples per second.
     pub rate: f64,
     /// Deviation of the noise of a sample, m/s²; one of three ways to say how strong it is, 0.012 where none is given.
     pub sigma: Option<f64>,
     /// One-sided root density of the noise, m/s²/√Hz: sigma = density √(rate/2).
-    pub density: Option<f64>,
+    pub density: Option<Positive>,
     /// The acceleration in units of sigma.
-    pub delta_over_sigma: Option<f64>,
+    pub delta_over_sigma: Option<Positive>,
     /// φ₁, φ₂, … of the sensor; none for white noise.
     pub ar: Vec<f64>,
     /// Deviation of the white noise added in motion.
@@ -65,16 +64,17 @@ pub struct RideKeys {
 
 impl Default for RideKeys {
     fn default() -> Self {
+        let positive = |value| Positive::new(value).expect("it is");
         Self {
-            distance: 12.0,
-            speed: 1.0,
-            acceleration: 0.6,
-            jerk: 0.8,
+            distance: positive(12.0),
+            speed: positive(1.0),
+            acceleration: positive(0.6),
+            jerk: positive(0.8),
             trips: 2,
             rest: [10.0, 20.0],
-            length: 600.0,
-            jam_within: 0.1,
-            tolerance: 0.5,
+            length: positive(600.0),
+            jam_within: positive(0.1),
+            tolerance: positive(0.5),
             rate: 100.0,
             sigma: None,
             density: None,
@@ -104,13 +104,8 @@ pub fn all() -> impl Iterator<Item = &'static str> + Clone {
 
 /// Refuses the first key of a table that is no parameter and none of `more`.
 pub fn check_known(table: &Node, more: &[&'static str]) -> Result<(), Conflict> {
-    let known = more.iter().copied().chain(all());
-    let mut entries = table.table().into_iter().flatten();
-    match entries.find(|(key, _)| !known.clone().any(|name| name == *key)) {
-        Some((key, (span, _))) => {
-            let problem = RideProblem::UnknownKey(among(key, known));
-            Err(Conflict::at(span, problem))
-        }
+    match table.unknown(more.iter().copied().chain(all())) {
+        Some((span, among)) => Err(Conflict::at(&span, RideProblem::UnknownKey(among))),
         None => Ok(()),
     }
 }

@@ -88,7 +88,7 @@ impl RidePoint {
             let (from, to) = self.trip(0, Ending::Commanded).course()?.uniform_motion();
             let must_be_uniform = matches!(self.measure, Measure::Jam | Measure::SwitchedOn);
             if must_be_uniform && to - from < 1e-6 {
-                return Err(RideProblem::NeverUniform(self.keys.distance));
+                return Err(RideProblem::NeverUniform(self.keys.distance.get()));
             }
             self.ride(|| 1.0)?;
         }
@@ -100,7 +100,7 @@ impl RidePoint {
     /// # Errors
     /// Where it is too long to be held.
     pub fn still(&self) -> Result<Ride, RideError> {
-        Ride::still(self.keys.rate, self.keys.length)
+        Ride::still(self.keys.rate, self.keys.length.get())
     }
 
     /// A ride; its rests and the moment of a jam are drawn by `uniform`, numbers in [0, 1].
@@ -119,7 +119,7 @@ impl RidePoint {
             let (from, to) = last.course().map_err(refused)?.uniform_motion();
             last.ending = Ending::Jam {
                 after: (from + (to - from) * uniform()).min(to),
-                within: self.keys.jam_within,
+                within: self.keys.jam_within.get(),
             };
         }
         Ride::new(self.keys.rate, rests, trips)
@@ -128,7 +128,7 @@ impl RidePoint {
     fn trip(&self, index: usize, ending: Ending) -> Trip {
         let sign = if index.is_multiple_of(2) { 1.0 } else { -1.0 };
         Trip {
-            distance: sign * self.keys.distance,
+            distance: sign * self.keys.distance.get(),
             drive: self.keys.drive(),
             ending,
         }
@@ -137,19 +137,6 @@ impl RidePoint {
 
 impl RideKeys {
     fn check(&self) -> Result<(), RideProblem> {
-        for (key, value) in [
-            ("ride.speed", Some(self.speed)),
-            ("ride.acceleration", Some(self.acceleration)),
-            ("ride.jerk", Some(self.jerk)),
-            ("ride.distance", Some(self.distance)),
-            ("ride.length", Some(self.length)),
-            ("ride.jam_within", Some(self.jam_within)),
-            ("ride.tolerance", Some(self.tolerance)),
-            ("ride.density", self.density),
-            ("ride.delta_over_sigma", self.delta_over_sigma),
-        ] {
-            Rule::Positive.check(key, &value)?;
-        }
         Rule::Within(1.0, MOST_TRIPS as f64, "").check("ride.trips", &self.trips)?;
         let [shortest, longest] = self.rest;
         if !(0.0 < shortest && shortest <= longest) {
@@ -163,9 +150,9 @@ impl RideKeys {
     /// The limits of a trip's motion.
     pub fn drive(&self) -> Drive {
         Drive {
-            speed: self.speed,
-            acceleration: self.acceleration,
-            jerk: self.jerk,
+            speed: self.speed.get(),
+            acceleration: self.acceleration.get(),
+            jerk: self.jerk.get(),
         }
     }
 
@@ -173,8 +160,8 @@ impl RideKeys {
         match (self.sigma, self.density, self.delta_over_sigma) {
             (None, None, None) => Ok(SIGMA),
             (Some(sigma), None, None) => Ok(sigma),
-            (None, Some(density), None) => Ok(density * libm::sqrt(self.rate / 2.0)),
-            (None, None, Some(ratio)) => Ok(self.acceleration / ratio),
+            (None, Some(density), None) => Ok(density.get() * libm::sqrt(self.rate / 2.0)),
+            (None, None, Some(ratio)) => Ok(self.acceleration.get() / ratio.get()),
             _ => Err(RideProblem::Strength),
         }
     }

@@ -8,133 +8,101 @@ use crate::study::kind::Context;
 use crate::whiten::Order;
 use serde::{Deserialize, Serialize};
 
-/// An outcome at a point, and every parameter of the point.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[allow(missing_docs, reason = "the columns are the config's own words")]
-pub struct Row {
-    pub curve: usize,
-    pub label: String,
-    /// The key that is swept.
-    pub axis: String,
-    /// Its value.
-    pub x: f64,
-    pub outcome: String,
-    /// How often it happened.
-    pub count: u64,
-    /// Out of so many, or in so much time.
-    pub exposure: f64,
-    /// Of the exposure.
-    pub unit: String,
-    /// Its rate, or the quantile.
-    pub estimate: f64,
-    pub low: f64,
-    pub high: f64,
-    pub trials: u64,
-    pub confidence: f64,
-    pub measure: String,
-    pub rate: f64,
-    pub sigma: f64,
-    pub sensor: String,
-    pub vibration: f64,
-    pub nu: f64,
-    pub theta: f64,
-    pub quantum: Option<f64>,
-    pub footfalls: f64,
-    pub jolt: f64,
-    pub distance: f64,
-    pub speed: f64,
-    pub acceleration: f64,
-    pub jerk: f64,
-    pub trips: usize,
-    pub shortest_rest: f64,
-    pub longest_rest: f64,
-    pub length: f64,
-    pub jam_within: f64,
-    pub tolerance: f64,
-    pub alpha: f64,
-    /// The exact size of one decision.
-    pub size: f64,
-    pub block: f64,
-    pub reference: usize,
-    pub shift: usize,
-    pub scale: usize,
-    pub gap: usize,
-    pub training: usize,
-    /// None where it is chosen at every rest.
-    pub order: Option<usize>,
-    pub least_speed: f64,
-    pub least_acceleration: f64,
-    pub most_acceleration: f64,
-    pub learnt: bool,
-    pub begins_at_rest: bool,
-    pub motion_shows: bool,
+/// The columns: name, type, and the value from what a row is made of.
+macro_rules! columns {
+    (
+        $(#[$about:meta])*
+        Row($($source:ident: $of:ty),*)
+        $($(#[$meaning:meta])* $column:ident: $kind:ty = $value:expr;)*
+    ) => {
+        $(#[$about])*
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+        #[allow(missing_docs, reason = "the columns are the config's own words")]
+        pub struct Row {
+            $($(#[$meaning])* pub $column: $kind,)*
+        }
+
+        impl Row {
+            pub(super) fn new($($source: $of),*) -> Self {
+                Self { $($column: $value),* }
+            }
+        }
+    };
 }
 
-impl Row {
-    pub(super) fn new(
+columns! {
+    /// An outcome at a point, and the parameters of the point: all but `longest_motion` and `longest_slack`.
+    Row(
         table: &RideTable,
         curve: usize,
         x: f64,
         point: &RidePoint,
         size: f64,
         estimate: Estimate,
-        context: &Context,
-    ) -> Self {
-        let (pickup, settings) = (&point.pickup, &point.settings);
-        let keys = &point.keys;
-        let [shortest_rest, longest_rest] = keys.rest;
-        Self {
-            curve: curve + 1,
-            label: table.curves[curve].label.clone(),
-            axis: table.axis.to_owned(),
-            x,
-            outcome: estimate.outcome,
-            count: estimate.count,
-            exposure: eight_digits(estimate.exposure),
-            unit: estimate.unit.to_owned(),
-            estimate: eight_digits(estimate.value),
-            low: eight_digits(estimate.low),
-            high: eight_digits(estimate.high),
-            trials: context.trials,
-            confidence: context.confidence,
-            measure: table.measure.name().to_owned(),
-            rate: keys.rate,
-            sigma: eight_digits(pickup.sigma),
-            sensor: pickup.sensor.to_string(),
-            vibration: pickup.vibration,
-            nu: pickup.impulses.nu(),
-            theta: pickup.impulses.theta(),
-            quantum: pickup.digitiser.quantum(),
-            footfalls: pickup.disturbance.footfalls(),
-            jolt: pickup.disturbance.jolt(),
-            distance: keys.distance,
-            speed: keys.speed,
-            acceleration: keys.acceleration,
-            jerk: keys.jerk,
-            trips: keys.trips,
-            shortest_rest,
-            longest_rest,
-            length: keys.length,
-            jam_within: keys.jam_within,
-            tolerance: keys.tolerance,
-            alpha: settings.detector.alpha,
-            size: eight_digits(size),
-            block: settings.monitor.block,
-            reference: settings.samples.reference,
-            shift: settings.samples.shift,
-            scale: settings.samples.scale,
-            gap: settings.samples.gap,
-            training: settings.whitening.training,
-            order: match settings.whitening.order {
-                Order::Fixed(order) => Some(order),
-                Order::Auto => None,
-            },
-            least_speed: settings.monitor.least_speed,
-            least_acceleration: settings.monitor.least_acceleration,
-            most_acceleration: settings.monitor.most_acceleration,
-            learnt: keys.learnt,
-            begins_at_rest: point.begins_at_rest,
-            motion_shows: keys.motion_shows,
-        }
+        context: &Context
+    )
+    curve: usize = curve + 1;
+    label: String = table.curves[curve].label.clone();
+    /// The key that is swept.
+    axis: String = table.axis.clone();
+    /// Its value.
+    x: f64 = x;
+    outcome: String = estimate.outcome;
+    /// How often it happened.
+    count: u64 = estimate.count;
+    /// Out of so many, or in so much time.
+    exposure: f64 = eight_digits(estimate.exposure);
+    /// Of the exposure.
+    unit: String = estimate.unit.to_owned();
+    /// Its rate, or the quantile.
+    estimate: f64 = eight_digits(estimate.value);
+    low: f64 = eight_digits(estimate.low);
+    high: f64 = eight_digits(estimate.high);
+    trials: u64 = context.trials;
+    confidence: f64 = context.confidence;
+    measure: String = table.measure.name().to_owned();
+    rate: f64 = point.keys.rate;
+    sigma: f64 = eight_digits(point.pickup.sigma);
+    sensor: String = point.pickup.sensor.to_string();
+    vibration: f64 = point.pickup.vibration;
+    nu: f64 = point.pickup.impulses.nu.get();
+    theta: f64 = point.pickup.impulses.theta.get();
+    quantum: Option<f64> = point.pickup.digitiser.quantum();
+    footfalls: f64 = point.pickup.disturbance.footfalls.get();
+    jolt: f64 = point.pickup.disturbance.jolt.get();
+    distance: f64 = point.keys.distance.get();
+    speed: f64 = point.keys.speed.get();
+    acceleration: f64 = point.keys.acceleration.get();
+    jerk: f64 = point.keys.jerk.get();
+    trips: usize = point.keys.trips;
+    shortest_rest: f64 = point.keys.rest[0];
+    longest_rest: f64 = point.keys.rest[1];
+    length: f64 = point.keys.length.get();
+    jam_within: f64 = point.keys.jam_within.get();
+    tolerance: f64 = point.keys.tolerance.get();
+    alpha: f64 = point.settings.detector.alpha;
+    /// The exact size of one decision.
+    size: f64 = eight_digits(size);
+    block: f64 = point.settings.monitor.block;
+    reference: usize = point.settings.samples.reference;
+    shift: usize = point.settings.samples.shift;
+    scale: usize = point.settings.samples.scale;
+    gap: usize = point.settings.samples.gap;
+    training: usize = point.settings.whitening.training;
+    /// None where it is chosen at every rest.
+    order: Option<usize> = fixed(point.settings.whitening.order);
+    least_speed: f64 = point.settings.monitor.least_speed;
+    least_acceleration: f64 = point.settings.monitor.least_acceleration;
+    most_acceleration: f64 = point.settings.monitor.most_acceleration;
+    learnt: bool = point.keys.learnt;
+    begins_at_rest: bool = point.begins_at_rest;
+    motion_shows: bool = point.keys.motion_shows;
+}
+
+/// The order, where it is given.
+fn fixed(order: Order) -> Option<usize> {
+    match order {
+        Order::Fixed(order) => Some(order),
+        Order::Auto => None,
     }
 }

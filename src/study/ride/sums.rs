@@ -83,7 +83,7 @@ impl RideSums {
             rest += (point.keys.trips + 1) as f64 * point.keys.rest[1];
         }
         if point.measure.rests() {
-            rest += point.keys.length;
+            rest += point.keys.length.get();
         }
         // Each rest is the difference of two rounded times of day, of which a microsecond is more than the error.
         let rests = (point.keys.trips + 2) as f64;
@@ -242,7 +242,7 @@ mod tests {
                 journeys: ride.journeys(),
                 to: ride.duration(),
             };
-            Account::new(&truth, &events(said, truth.to), point.keys.tolerance)
+            Account::new(&truth, &events(said, truth.to), point.keys.tolerance.get())
         };
         let mut account = Account::default();
         if point.measure.rides() {

@@ -80,7 +80,7 @@ impl<'a> Watch<'a> {
             journeys: ride.journeys(),
             to: ride.duration(),
         };
-        Account::new(&truth, &events, self.point.keys.tolerance)
+        Account::new(&truth, &events, self.point.keys.tolerance.get())
     }
 
     fn samples(&self, ride: &Ride, trial: u64, part: Part) -> impl Iterator<Item = Sample> {

@@ -227,12 +227,12 @@ impl<'a> Ride<'a> {
     fn training(&self) -> std::ops::Range<usize> {
         let scenario = &self.config.scenario;
         let start = self.reference_start();
-        let end = if scenario.whitening.includes_reference() {
+        let end = if scenario.whitening.includes_reference {
             start + scenario.samples.reference()
         } else {
             start
         };
-        end - scenario.whitening.training()..end
+        end - scenario.whitening.training..end
     }
 
     fn name_samples(&self, names: &mut [Option<&'static str>]) {
@@ -296,13 +296,13 @@ fn impulses(config: &Realisation, trace: &Trace) -> Vec<f64> {
     let mut memory = ImpulseMemory::default();
     let mut next = |phase: Phase| {
         let draw = generator.next_u64();
-        let acts = match impulses.during() {
+        let acts = match impulses.during {
             During::Motion => phase.moves(),
             During::Inertial => phase == Phase::Inertial,
         };
         match acts {
             // Adding zero makes −0 the same as 0.
-            true => impulses.theta() * memory.step(impulses.nu(), draw) + 0.0,
+            true => impulses.theta.get() * memory.step(impulses.nu.get(), draw) + 0.0,
             false => {
                 memory = ImpulseMemory::default();
                 0.0

@@ -161,8 +161,8 @@ fn caption(scenario: &Scenario, trace: &Trace, seed: u64) -> Vec<String> {
         parts.push(measured("σ_ξ", 1.0));
     }
     if !scenario.impulses.are_absent() {
-        parts.push(format!("ν = {}", scenario.impulses.nu()));
-        parts.push(measured("θ", scenario.impulses.theta()));
+        parts.push(format!("ν = {}", scenario.impulses.nu.get()));
+        parts.push(measured("θ", scenario.impulses.theta.get()));
     }
     if trace.vibration > 0.0 {
         parts.push(measured("vibration", trace.vibration));
@@ -174,9 +174,9 @@ fn caption(scenario: &Scenario, trace: &Trace, seed: u64) -> Vec<String> {
     parts.extend(digitiser.range().map(|range| measured("range", range)));
     if trace.whitened {
         let whitening = &scenario.whitening;
-        parts.push(format!("{} filter", whitening.fit()));
-        parts.push(format!("order {}", whitening.order()));
-        parts.push(format!("training {}", whitening.training()));
+        parts.push(format!("{} filter", whitening.fit));
+        parts.push(format!("order {}", whitening.order));
+        parts.push(format!("training {}", whitening.training));
         parts.push(format!("N/M_1/M_2 = {}", scenario.samples));
     }
     parts.push(format!("seed {seed}"));

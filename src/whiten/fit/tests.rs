@@ -154,7 +154,7 @@ fn refusals() {
     assert!(new(2, Fit::LeastSquares, 4).is_err());
     assert!(new(2, Fit::LeastSquares, 5).is_ok());
     assert!(new(1, Fit::Known, 0).is_err());
-    assert_eq!(new(2, Fit::Known, 256).unwrap().training(), 0);
+    assert_eq!(new(2, Fit::Known, 256).unwrap().training, 0);
     let auto = |fit, training| Whitening::new(Order::Auto, fit, training, false, 2);
     assert!(auto(Fit::Burg, 4).is_err());
     assert_eq!(auto(Fit::Burg, 5).unwrap().highest_order(), 1);
