@@ -2,7 +2,7 @@
 
 use crate::detect::Samples;
 use crate::scenario::Scenario;
-use crate::signal::{Disturbance, Noise, Sensor};
+use crate::signal::{Disturbance, Impulses, Motion, Noise, Sensor};
 use crate::simd::LANES;
 
 /// The parameters of a trial's noise, and its length.
@@ -62,7 +62,15 @@ impl Source {
     /// The subject with everything else that a scenario simulates, except the decision: for points that do
     /// not share noise.
     pub fn subject_of_all(&self, scenario: &Scenario) -> String {
-        let (motion, impulses) = (&scenario.motion, &scenario.impulses);
+        // In full, so that nothing that a motion may have in addition is forgotten here.
+        let Motion {
+            delta: _,
+            delta_at: _,
+            profile,
+            duration,
+            offset,
+        } = scenario.motion;
+        let Impulses { nu, theta, during } = scenario.impulses;
         let (whitening, digitiser) = (&scenario.whitening, &scenario.digitiser);
         format!(
             "{} whitening {} {} {} {} digitiser {:?} {:?} motion {} {} {} {} impulses {} {} {}",
@@ -74,12 +82,12 @@ impl Source {
             digitiser.quantum(),
             digitiser.range(),
             scenario.record_delta(),
-            motion.profile,
-            motion.duration,
-            motion.offset,
-            impulses.nu.get(),
-            impulses.theta.get(),
-            impulses.during,
+            profile,
+            duration,
+            offset,
+            nu.get(),
+            theta.get(),
+            during,
         )
     }
 

@@ -113,6 +113,8 @@ pub enum CountsError {
     Beyond { key: Key, trial: u64, wanted: u64 },
     #[error("counter {key}: trials {} to {} are of another shard", trials.start, trials.end - 1)]
     Elsewhere { key: Key, trials: Range<u64> },
+    #[error("counter {0}: sums of no trials")]
+    NoTrials(Key),
     #[error("counter {key}: it decides differently: {difference}")]
     Decision { key: Key, difference: String },
 }
@@ -231,6 +233,14 @@ impl Counts {
             return Err(CountsError::Elsewhere { key, trials });
         }
         let trials = trials.len();
+        if trials == 0
+            && sums
+                .lengths
+                .iter()
+                .any(|length| *length != Fixed::default())
+        {
+            return Err(CountsError::NoTrials(key()));
+        }
         match shape.excess(sums, trials) {
             Some([count, most]) => Err(CountsError::TooMany {
                 key: key(),

@@ -128,7 +128,13 @@ impl Experiment {
         laid: &Node,
         otherwise: &Range<usize>,
     ) -> Result<Scenario, ConfigError> {
-        let sections: Sections = self.source.read(laid, "")?;
+        // An empty section is as good as none.
+        let is_empty = |key: &str| {
+            let section = laid.get(key).and_then(Node::table);
+            section.is_some_and(|section| section.is_empty())
+        };
+        let written = laid.only(|key| !is_empty(key));
+        let sections: Sections = self.source.read(&written, "")?;
         sections.scenario(self.header.pilot).map_err(|error| {
             let conflict = Conflict::of(error.keys().iter().copied(), error);
             self.source.conflict(laid, conflict, otherwise)

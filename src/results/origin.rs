@@ -1,6 +1,7 @@
 //! The identity of an experiment's results, known before it is run.
 
 use crate::experiment::DEFAULT_PILOT_TRIALS;
+use crate::format::shorten;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -44,7 +45,7 @@ impl Origin {
     pub fn difference(&self, there: &Self) -> Option<String> {
         let differs = |name, here: &dyn ToString, there: &dyn ToString| {
             let (here, there) = (here.to_string(), there.to_string());
-            (here != there).then(|| format!("{name} is {here} and {there}"))
+            (here != there).then(|| format!("{name} is {} and {}", shorten(&here), shorten(&there)))
         };
         differs("config", &self.config_name, &there.config_name)
             .or_else(|| differs("version", &self.version, &there.version))
@@ -76,6 +77,7 @@ impl Origin {
         let at = at.expect("the texts differ");
         let line = |text: &[&str]| text.get(at).copied().unwrap_or_default().to_owned();
         let (here, there, number) = (line(&here), line(&there), at + 1);
+        let (here, there) = (shorten(&here), shorten(&there));
         format!("line {number} of the config is `{here}` and `{there}`")
     }
 }

@@ -77,9 +77,16 @@ pub fn merge<'a>(
     directory: Directory,
 ) -> Result<(Session<'a>, Absent), MergeError> {
     let (sum, absent) = join(study, shards)?;
+    let is_finished = directory.is_finished() && directory.checkpoint()?.is_none();
     let mut session = Session::open(study, origin, directory, None, Overwrite::Continue)?;
+    let more = || MergeError::More(session.directory().path().to_owned());
     if !sum.counts.covers(session.counts()) {
-        return Err(MergeError::More(session.directory().path().to_owned()));
+        return Err(more());
+    }
+    // A finished result that does not say its counts may have trials that the shards lack.
+    let says_nothing = session.counts().iter().next().is_none();
+    if is_finished && says_nothing && (!absent.shards.is_empty() || !absent.unfinished.is_empty()) {
+        return Err(more());
     }
     session.made_by = None;
     session.is_complete = false;
@@ -103,7 +110,7 @@ fn join(
     let mut shards = BTreeSet::new();
     for (index, directory) in directories.iter().enumerate() {
         let path = || directory.path().to_owned();
-        let part = part(directory)?;
+        let mut part = part(directory)?;
         if let Some(sum) = &sum
             && let Some(difference) = sum.origin.difference(&part.origin)
         {
@@ -116,6 +123,9 @@ fn join(
         // What cannot be might add up to what can.
         let checked = check_part(&*trials, &known, &part);
         checked.map_err(|error| directory.impossible(&error))?;
+        // A counter that is not there lacks every trial.
+        let targets = trials.targets().iter().filter(|_| part.shard.is_some());
+        targets.for_each(|target| part.counts.expect(&target.key, &target.shape));
         let lacking = part.lacking();
         if lacking > 0 {
             absent.unfinished.push((path(), lacking));

@@ -4,7 +4,7 @@
 //! A parameter is a field of a section's type and a line here.
 
 use super::Scenario;
-use crate::signal::{Impulses, Motion};
+use crate::signal::{Impulses, Motion, Sensor};
 use crate::whiten::Order;
 use serde::de::{Deserializer, Error, Visitor};
 use serde::{Deserialize, Serialize};
@@ -70,6 +70,8 @@ pub enum Usual {
     Never,
     /// This value.
     Is(&'static str),
+    /// When this holds.
+    If(fn(&Values) -> bool),
     /// Any value at rest.
     AtRest,
     /// Any value at rest, and this value.
@@ -78,7 +80,7 @@ pub enum Usual {
     AtRestOrIf(fn(&Values) -> bool),
 }
 
-use Usual::{AtRest, AtRestOr, AtRestOrIf, Is, Never};
+use Usual::{AtRest, AtRestOr, AtRestOrIf, If, Is, Never};
 use Words::{Of, Template};
 
 /// A parameter with its own column.
@@ -156,7 +158,7 @@ pub const PARAMETERS: &[Parameter] = &[
     column("alternative", &["detector.alternative"], |s| Cell::text(s.detector.alternative))
         .said(3, Template("alternative {}"), Is("greater")),
     column("sensor", &["sensor.model", "sensor.ar", "sensor.transfer"], |s| Cell::text(&s.sensor))
-        .said(17, Template("{}"), Is(ADXL105)),
+        .said(17, Template("{}"), If(|v| v.text("sensor") == Sensor::default().to_string())),
     column("quantum", &["noise.quantum"], |s| s.digitiser.quantum().into())
         .axis("", "quantisation step, σ_ξ").said(18, Template("step {} σ_ξ"), Is("")),
     column("range", &["noise.range"], |s| s.digitiser.range().into())
@@ -195,9 +197,6 @@ pub const PARAMETERS: &[Parameter] = &[
     together("reference_and_scale", &["samples.reference", "samples.scale"])
         .axis("N = M₂", "N = M_2, samples"),
 ];
-
-/// The default sensor.
-const ADXL105: &str = "ar(-1.5365 -0.75056)";
 
 fn delta(values: &Values) -> String {
     let delta = values.text("delta");
@@ -299,6 +298,7 @@ impl Usual {
         match self {
             Self::Never => false,
             Self::Is(usual) => value == *usual,
+            Self::If(holds) => holds(values),
             Self::AtRest => is_at_rest,
             Self::AtRestOr(usual) => is_at_rest || value == *usual,
             Self::AtRestOrIf(holds) => is_at_rest || holds(values),
@@ -348,11 +348,18 @@ impl PartialEq for Parameter {
 
 /// The stated motion of a method, in words.
 fn stated((motion, impulses): (Motion, Impulses)) -> Cell {
-    let (delta, duration, offset) = (motion.delta, motion.duration, motion.offset);
-    let (nu, theta, during) = (impulses.nu.get(), impulses.theta.get(), impulses.during);
+    // In full, so that nothing that a motion may have in addition is forgotten here.
+    let Motion {
+        delta,
+        delta_at,
+        profile,
+        duration,
+        offset,
+    } = motion;
+    let Impulses { nu, theta, during } = impulses;
+    let (nu, theta) = (nu.get(), theta.get());
     Cell::text(format_args!(
-        "delta {delta} {} {} duration {duration} offset {offset} nu {nu} theta {theta} {during}",
-        motion.delta_at, motion.profile
+        "delta {delta} {delta_at} {profile} duration {duration} offset {offset} nu {nu} theta {theta} {during}"
     ))
 }
 

@@ -5,6 +5,7 @@ use crate::claim::{Evidence, Narrative, Scope};
 use crate::counts::Counts;
 use crate::experiment::Experiment;
 use crate::figure::{Drawing, render};
+use crate::plot::layout;
 use crate::report::Section;
 use crate::results::{Directory, Manifest, Origin, RESULTS, ResultsError, file_name};
 use crate::run::{AnyStudy, DrawError, Output, StudyError};
@@ -43,16 +44,20 @@ impl Loaded {
         })
     }
 
-    /// Judges the claims and fills the text once on empty counts, so that what they name is known to be there
-    /// before anything is simulated. What is computed is judged when it is.
+    /// Judges the claims, fills the text and lays out the picture once on empty counts, so that whatever they
+    /// need is known to be there before anything is simulated. A study that is computed is judged when it is.
     ///
     /// # Errors
-    /// Where a claim or the text is about something that is not among the results.
+    /// If a claim or the text is about something that is not among the results, or the picture does not fit on
+    /// its sheet.
     pub fn check(&self) -> Result<(), StudyError> {
         if self.study.trials().is_none() {
             return Ok(());
         }
-        self.judge(&self.study.output(&Counts::default())?)
+        let output = self.study.output(&Counts::default())?;
+        self.judge(&output)?;
+        layout(&self.study.plot(&output.points, self.origin.seed)?)?;
+        Ok(())
     }
 
     /// Judges the claims on what a study came to, and fills the text.

@@ -21,7 +21,7 @@ pub use row::Row;
 
 use crate::chain::Scenario;
 use crate::config::Conflict;
-use crate::counts::{Counts, Fixed, Shape, Sums};
+use crate::counts::{Counter, Counts, Fixed, Shape, Sums};
 use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
@@ -215,6 +215,25 @@ impl Trials for &Autocorrelation {
 
     fn block(&self) -> u64 {
         BLOCK
+    }
+
+    /// A mean square is at least the square of the mean.
+    fn check(&self, counts: &Counts) -> Result<(), StudyError> {
+        let key = &self.counters.keys[0];
+        let Some(Counter { trials, sums }) = counts.get(key) else {
+            return Ok(());
+        };
+        let (deviations, squares) = sums.lengths.split_at(self.lags + 1);
+        let is_possible = |(sum, squares): (&Fixed, &Fixed)| {
+            let (sum, squares) = (sum.value(), squares.value());
+            // Each number is rounded to 2⁻⁶⁰, and the sums to doubles.
+            let slack = 1e-9 * (1.0 + squares.abs());
+            sum * sum <= trials.len() as f64 * (squares + slack)
+        };
+        if deviations.iter().zip(squares).all(is_possible) {
+            return Ok(());
+        }
+        Err(format!("counter {key}: squares that are too small for their sum").into())
     }
 
     fn groups(&self, targets: &[usize]) -> Vec<Group<'_>> {

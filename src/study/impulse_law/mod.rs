@@ -14,12 +14,13 @@ mod row;
 pub use row::Row;
 
 use crate::config::Conflict;
-use crate::counts::{Counts, Shape, Sums};
+use crate::counts::{Counter, Counts, Shape, Sums};
 use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::{Comparison, Quantity, eight_digits};
 use crate::rng::Stream;
+use crate::rule::OutOfRange;
 use crate::run::{Group, Identity, StudyError, Target, Trials};
 use crate::signal::ImpulseMemory;
 use crate::stats::tally::Tally;
@@ -161,6 +162,23 @@ impl Study for ImpulseLaw {
 impl Trials for &ImpulseLaw {
     fn targets(&self) -> &[Target] {
         &self.counters.targets
+    }
+
+    /// λ is positive, negative or zero.
+    fn check(&self, counts: &Counts) -> Result<(), StudyError> {
+        for key in &self.counters.keys {
+            let Some(Counter { trials, sums }) = counts.get(key) else {
+                continue;
+            };
+            let events = sums.counts.chunks_exact(3);
+            let mut impulses = events.map(|event| event[1].saturating_add(event[2]));
+            if let Some(got) = impulses.find(|impulses| *impulses > trials.len()) {
+                let rule = format!("be at most {}", trials.len());
+                let what = format!("counter {key}: positive and absent impulses");
+                return Err(OutOfRange::new(what, rule, got).into());
+            }
+        }
+        Ok(())
     }
 
     fn groups(&self, targets: &[usize]) -> Vec<Group<'_>> {

@@ -16,7 +16,7 @@ use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::rule::OutOfRange;
 use crate::run::{Identity, StudyError};
-use crate::scenario::ScenarioError;
+use crate::scenario::{Calibration, ScenarioError};
 use crate::study::kind::{Context, Study};
 use crate::study::rules::distinct;
 use schemars::{JsonSchema, SchemaGenerator};
@@ -92,7 +92,13 @@ impl Study for Regions {
     fn read(experiment: &Experiment, _context: Context) -> Result<Self, StudyError> {
         let Keys { rules } = experiment.read()?;
         let rules = with_regions(rules).map_err(|conflict| experiment.conflict(conflict))?;
-        let study = Self::new(experiment.scenario()?, rules);
+        let scenario = experiment.scenario()?;
+        let is_table = |rule: &Rule| matches!(rule, Rule::Table(_));
+        if scenario.detector.calibration != Calibration::None && rules.iter().any(is_table) {
+            let conflict = Conflict::of(["detector.calibrate"], ScenarioError::TableCalibrated);
+            return Err(experiment.conflict(conflict).into());
+        }
+        let study = Self::new(scenario, rules);
         Ok(study.map_err(|error| experiment.refuse(ScenarioError::from(error)))?)
     }
 

@@ -7,7 +7,7 @@ use crate::scenario::Scenario;
 use crate::signal::Phase;
 use crate::values::{NonNegative, Positive, Size, number};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 use std::ops::Range;
 
 /// One realisation of a ride, phase by phase, and how it is shown.
@@ -27,7 +27,7 @@ pub struct Trace {
     #[schemars(with = "Positive")]
     pub sigma: f64,
     /// Of the record.
-    #[serde(default = "sigma_xi")]
+    #[serde(default = "sigma_xi", deserialize_with = "trimmed")]
     pub unit: String,
     /// Deviation of the vibration, white noise added in motion, σ_ξ.
     #[serde(default, deserialize_with = "number::<NonNegative, _>")]
@@ -70,6 +70,10 @@ const LONGEST: usize = 1_000_000;
 
 fn one() -> f64 {
     1.0
+}
+
+fn trimmed<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
+    String::deserialize(deserializer).map(|text| text.trim().to_owned())
 }
 
 fn sigma_xi() -> String {
@@ -117,7 +121,7 @@ impl Trace {
             let rule = format!("hold 1 to {LONGEST} samples");
             return Err(OutOfRange::new("trace.phases", rule, length).into());
         }
-        if self.unit.trim().is_empty() {
+        if self.unit.is_empty() {
             return Err(OutOfRange::new("trace.unit", "have a name", "\"\"").into());
         }
         if self.drawn_from >= length {
