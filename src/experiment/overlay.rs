@@ -11,8 +11,8 @@ pub struct Laid {
     pub label: String,
     /// The keys of its table that are no parameters.
     pub header: Node,
-    /// The file's parameters with its own laid over them.
-    values: Node,
+    /// Every parameter that the file or the curve sets: the file's with its own laid over them.
+    pub values: Node,
 }
 
 /// An axis, and curves that change the parameters of a table.
@@ -44,13 +44,6 @@ pub struct Keys<'a> {
 const MOST_CURVES: usize = 1000;
 /// So are more points.
 const MOST_POINTS: usize = 20_000;
-
-impl Laid {
-    /// Every parameter that the file or the curve sets.
-    pub fn values(&self) -> &Node {
-        &self.values
-    }
-}
 
 impl Overlay {
     /// Reads `axis` and `curve` of a table.

@@ -162,8 +162,7 @@ fn keys<'a>(
         let meaning = one_line(schema["description"].as_str().unwrap_or_default());
         let meaning = format!("{meaning}{}", choices(schema));
         let default = match &schema["default"] {
-            Value::Null => String::new(),
-            Value::Object(_) => String::new(),
+            Value::Null | Value::Object(_) => String::new(),
             value => format!("`{value}`"),
         };
         let kind = kind(schema).replace('|', "\\|");

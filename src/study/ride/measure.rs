@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// What is asked of each trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -20,18 +21,13 @@ pub enum Measure {
     SwitchedOn,
 }
 
-impl Measure {
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rides => "rides",
-            Self::Rest => "rest",
-            Self::Tradeoff => "tradeoff",
-            Self::Jam => "jam",
-            Self::SwitchedOn => "switched_on",
-        }
+impl fmt::Display for Measure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(f)
     }
+}
 
+impl Measure {
     /// Whether it makes trips.
     pub fn rides(self) -> bool {
         self != Self::Rest

@@ -69,7 +69,7 @@ impl RidePoint {
             .filter(|(key, _)| !is_said_otherwise(key))
             .map(|(key, value)| (key.clone(), value.to_string()));
         let said = [
-            ("measure", self.measure.name().to_owned()),
+            ("measure", self.measure.to_string()),
             ("sigma", self.pickup.sigma.to_string()),
             ("begins_at_rest", self.begins_at_rest.to_string()),
         ];

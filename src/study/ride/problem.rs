@@ -14,7 +14,7 @@ pub enum RideProblem {
     Read(#[from] Refusal),
     #[error("ride: unknown key {0}")]
     UnknownKey(String),
-    #[error("ride.{key}: means nothing to measure = \"{}\" (take it out)", measure.name())]
+    #[error("ride.{key}: means nothing to measure = \"{measure}\" (take it out)")]
     Unused { key: String, measure: Measure },
     #[error("ride.axis.{0}: must be numbers (a picture has them on its axis)")]
     NoNumber(String),

@@ -60,7 +60,7 @@ columns! {
     high: f64 = eight_digits(estimate.high);
     trials: u64 = context.trials;
     confidence: f64 = context.confidence;
-    measure: String = table.measure.name().to_owned();
+    measure: String = table.measure.to_string();
     rate: f64 = point.keys.rate;
     sigma: f64 = eight_digits(point.pickup.sigma);
     sensor: String = point.pickup.sensor.to_string();

@@ -132,7 +132,7 @@ fn point(
     let axis = &overlay.axis.name;
     let no_number = || Conflict::at(&value.0.span, RideProblem::NoNumber(axis.clone()));
     let number = value.number().ok_or_else(no_number)?;
-    check_used(measure, overlay.curves[curve].values())?;
+    check_used(measure, &overlay.curves[curve].values)?;
     let values = overlay.at(curve, value);
     let (keys, settings) = keys::read(&values)?;
     let point = RidePoint::new(measure, keys, settings).map_err(|problem| {
