@@ -30,17 +30,13 @@ mod missing;
 mod save;
 mod session;
 mod status;
-pub(crate) mod tally;
 mod trials;
 
-pub use estimate::Estimate;
-#[cfg(test)]
-pub(crate) use estimate::whole;
+pub use estimate::{Estimate, whole};
 pub use existing::Overwrite;
 pub use identity::Identity;
 pub use merge::{Absent, MergeError, merge, part};
 pub use missing::Missing;
 pub use session::Session;
 pub use status::{State, Status};
-pub use tally::{Tallied, run};
 pub use trials::{Group, Progress, Runnable, Simulation, StudyError, Target, Trials};

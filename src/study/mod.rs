@@ -23,6 +23,7 @@ pub(crate) mod trace;
 pub use any::{DrawError, Output};
 pub use kind::{Context, Study, Table, TooMany};
 pub use loaded::Loaded;
+pub use sweep::Sweep;
 
 use crate::experiment::{ConfigError, Experiment};
 use crate::run::StudyError;
@@ -112,7 +113,7 @@ mod tests {
 
     /// What a study comes to.
     pub fn rows<S: Study>(study: &S, trials: u64) -> Vec<S::Row> {
-        let counts = study.trials().map(|all| whole(all, trials));
+        let counts = study.trials().map(|all| whole(all, trials, &()).unwrap());
         study.rows(&counts.unwrap_or_default())
     }
 }

@@ -1,14 +1,14 @@
 //! The trials of a sweep: families of points that share their noise, and the pilots before them.
 
+use super::tally::{Decisions, Tallies};
 use super::targets::{NOTHING, Subject, Sweep};
 use crate::chain::Decision;
 use crate::counts::{Counter, Counts, DecisionSummary, Key, Sums};
 use crate::pilot::Pilots;
-use crate::plan::Plan;
+use crate::plan::Point;
 use crate::results::Row;
-use crate::run::tally::{Decisions, Families, Tallies};
 use crate::run::{Group, Progress, Simulation, StudyError, Target, Trials};
-use crate::schedule::BLOCK;
+use crate::schedule::{BLOCK, Schedule};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -29,16 +29,10 @@ impl<'a> Sampling<'a> {
         let each = targets
             .iter()
             .flat_map(|&at| self.sweep.subjects[at].points());
-        each.collect::<BTreeSet<usize>>().into_iter().collect()
-    }
-}
-
-impl Subject {
-    fn points(self) -> Vec<usize> {
-        match self {
-            Self::Point(point) => vec![point],
-            Self::Pair(points) => points.to_vec(),
-        }
+        each.copied()
+            .collect::<BTreeSet<usize>>()
+            .into_iter()
+            .collect()
     }
 }
 
@@ -80,14 +74,15 @@ impl Trials for Sampling<'_> {
         targets: &[usize],
         progress: &dyn Progress,
     ) -> Result<BTreeMap<Key, DecisionSummary>, StudyError> {
-        let points = self.points(targets);
-        let plan = self.sweep.plan.subset(&points);
-        let pilots = Pilots::new(&plan)?;
+        let plan = &self.sweep.plan;
+        let places = self.points(targets);
+        let points: Vec<Point> = places.iter().map(|&at| plan.points[at].clone()).collect();
+        let pilots = Pilots::new(&points, plan.pilot, plan.seed)?;
         progress.begin("pilots", pilots.work(), plan.pilot);
         let decisions = pilots.decide(|work| progress.done(work));
         progress.end();
         let mut summaries = BTreeMap::new();
-        for ((&at, point), decision) in points.iter().zip(&plan.points).zip(decisions?) {
+        for ((at, point), decision) in places.into_iter().zip(&points).zip(decisions?) {
             let row = Row::new(point, Some(&decision), NOTHING, 0.5);
             summaries.insert(self.sweep.keys[at].clone(), row.decision());
             self.decisions[at] = Some(decision);
@@ -96,7 +91,8 @@ impl Trials for Sampling<'_> {
     }
 
     fn pretend(&mut self) -> Result<u64, StudyError> {
-        let pilots = Pilots::new(&self.sweep.plan)?;
+        let plan = &self.sweep.plan;
+        let pilots = Pilots::new(&plan.points, plan.pilot, plan.seed)?;
         self.decisions = pilots.stand_ins().into_iter().map(Some).collect();
         Ok(pilots.work())
     }
@@ -138,63 +134,43 @@ fn check_pair(pair: &Counter, points: [&Counter; 2]) -> Result<(), Contradiction
 
 /// Some of the points, arranged by the noise they share.
 struct Job {
-    plan: Plan,
+    schedule: Schedule,
     /// None before the pilots.
     decisions: Option<Decisions>,
-    families: Families,
     groups: Vec<Group>,
-    /// Of each counter of each group what it counts: a place in this plan, or a pair of `families`.
-    counted: Vec<Vec<Counted>>,
-}
-
-#[derive(Clone, Copy)]
-enum Counted {
-    Point(usize),
-    Pair(usize),
+    /// What each counter of each group counts, points by their places in the schedule.
+    subjects: Vec<Vec<Subject>>,
 }
 
 impl Job {
     fn new(sampling: &Sampling, targets: &[usize]) -> Self {
         let points = sampling.points(targets);
-        let here = |point: usize| points.binary_search(&point).expect("it is among them");
-        let subjects = targets.iter().map(|&at| sampling.sweep.subjects[at]);
-        let pairs = subjects.clone().filter_map(|subject| match subject {
-            Subject::Pair(points) => Some(points.map(here)),
-            Subject::Point(_) => None,
-        });
-        let plan = sampling.sweep.plan.subset(&points);
-        let families = Families::new(&plan, pairs.collect());
-        let decisions: Option<Vec<Decision>> = points
+        let schedule = sampling.sweep.plan.schedule_of(&points);
+        let decisions = points
             .iter()
-            .map(|&point| sampling.decisions[point].clone())
-            .collect();
-        let mut groups: Vec<Group> = (plan.schedule.families.iter())
+            .map(|&point| sampling.decisions[point].clone());
+        let decisions: Option<Vec<Decision>> = decisions.collect();
+        let mut groups: Vec<Group> = (schedule.families.iter())
             .map(|family| Group {
                 counters: Vec::new(),
                 work: family.points_per_trial() as u64,
                 gigabytes: family.gigabytes(),
             })
             .collect();
-        let mut counted = vec![Vec::new(); groups.len()];
-        let family_of = plan.families();
-        let mut pair = 0..;
-        for (counter, subject) in subjects.enumerate() {
-            let (family, what) = match subject {
-                Subject::Point(point) => (family_of[here(point)], Counted::Point(here(point))),
-                Subject::Pair([first, _]) => {
-                    let pair = pair.next().expect("there is no end to numbers");
-                    (family_of[here(first)], Counted::Pair(pair))
-                }
-            };
+        let mut subjects = vec![Vec::new(); groups.len()];
+        let family_of = schedule.family_of();
+        for (counter, &target) in targets.iter().enumerate() {
+            let here = |point: usize| points.binary_search(&point).expect("it is among them");
+            let subject = sampling.sweep.subjects[target].map(here);
+            let family = family_of[subject.points()[0]];
             groups[family].counters.push(counter);
-            counted[family].push(what);
+            subjects[family].push(subject);
         }
         Self {
-            plan,
+            schedule,
             decisions: decisions.map(Decisions::new),
-            families,
             groups,
-            counted,
+            subjects,
         }
     }
 }
@@ -206,15 +182,9 @@ impl Simulation for Job {
 
     fn run(&self, group: usize, trials: Range<u64>) -> Vec<Sums> {
         let decisions = self.decisions.as_ref().expect("the pilots have run");
-        let mut tallies = Tallies::new(decisions, &self.families);
-        self.plan.schedule.run_block(group, trials, &mut tallies);
-        let counted = self.counted[group].iter();
-        counted
-            .map(|counted| match *counted {
-                Counted::Point(place) => Sums::of(&tallies.hits[place..=place]),
-                Counted::Pair(pair) => Sums::of(&tallies.discordant[pair]),
-            })
-            .collect()
+        let mut tallies = Tallies::new(decisions, &self.subjects[group]);
+        self.schedule.run_block(group, trials, &mut tallies);
+        tallies.sums
     }
 }
 
