@@ -7,9 +7,6 @@
 use crate::chain::{Family, Purpose, RecordTooLong, Scenario, Trial, View};
 use rayon::prelude::*;
 
-/// Trials of a pilot run where neither the file nor the command line says anything.
-pub const DEFAULT_PILOT_TRIALS: u64 = 200_000;
-
 /// Trials in a block.
 pub const BLOCK: u64 = 1024;
 

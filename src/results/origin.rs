@@ -1,6 +1,6 @@
 //! What an experiment's results are known by before it is run.
 
-use crate::schedule::DEFAULT_PILOT_TRIALS;
+use crate::experiment::DEFAULT_PILOT_TRIALS;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 

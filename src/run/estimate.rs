@@ -61,7 +61,7 @@ impl Estimate {
     }
 }
 
-/// Runs all of a study's trials at once and keeps the counts in memory.
+/// Runs all of a study's trials at once, unless `progress` stops it, and keeps the counts in memory.
 ///
 /// # Errors
 /// Where a pilot shows no decision.

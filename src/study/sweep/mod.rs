@@ -61,18 +61,16 @@ impl Study for Sweep {
     fn rows(&self, counts: &Counts) -> Vec<Row> {
         let points = self.plan.points.iter().zip(&self.keys);
         let shape = Subject::Point(0).shape();
+        let confidence = self.config.header().confidence.get();
         points
             .map(|(point, key)| {
                 let (trials, sums) = counted(counts, key, &shape);
-                let hits = sums.counts[0];
-                let decision = self.decision(point, key, counts);
-                let tally = Tally { hits, trials };
-                Row::summarised(
-                    point,
-                    &decision,
-                    tally,
-                    self.config.header().confidence.get(),
-                )
+                let tally = Tally {
+                    hits: sums.counts[0],
+                    trials,
+                };
+                let decision = counts.decisions.get(key).copied();
+                Row::new(point, decision, tally, confidence)
             })
             .collect()
     }

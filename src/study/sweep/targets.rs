@@ -1,13 +1,11 @@
 //! What a sweep counts: its points, and the pairs of points that claims compare.
 
-use super::trials::Sampling;
 use crate::claim::{self, Pair};
-use crate::counts::{Counts, DecisionSummary, Key, Shape};
+use crate::counts::{Key, Shape};
 use crate::experiment::{ConfigError, SWEEP, SweepConfig};
-use crate::plan::{Plan, Point};
-use crate::results::{self, Row};
-use crate::run::{self, Identity, Progress, StudyError, Target};
-use crate::stats::tally::Tally;
+use crate::plan::Plan;
+use crate::results;
+use crate::run::{Identity, Target};
 use crate::study::kind::TooMany;
 use std::collections::{BTreeMap, BTreeSet};
 use std::slice;
@@ -116,21 +114,6 @@ impl Sweep {
             keys,
         }
     }
-
-    /// Runs all of its trials at once and keeps the counts in memory.
-    ///
-    /// # Errors
-    /// Where a pilot shows no decision.
-    pub fn counts(&self, progress: &dyn Progress) -> Result<Counts, StudyError> {
-        let sampling = Box::new(Sampling::new(self));
-        run::whole(sampling, self.plan.schedule.trials, progress)
-    }
-
-    /// How a point decides, as far as that is known.
-    pub(super) fn decision(&self, point: &Point, key: &Key, counts: &Counts) -> DecisionSummary {
-        let known = counts.decisions.get(key).copied();
-        known.unwrap_or_else(|| Row::new(point, None, NOTHING, 0.5).decision())
-    }
 }
 
 /// An interval takes a millisecond.
@@ -151,9 +134,6 @@ pub(super) fn check_sizes(config: &SweepConfig) -> Result<(), TooMany> {
         .collect();
     TooMany::check("panels", panels.len(), MOST_PANELS, "split the config")
 }
-
-/// A point that was not counted.
-pub(super) const NOTHING: Tally = Tally { hits: 0, trials: 1 };
 
 impl Compared {
     fn new(places: [usize; 2], keys: &[Key], family_of: &[usize]) -> Self {

@@ -1,13 +1,12 @@
 //! The trials of a sweep: families of points that share their noise, and the pilots before them.
 
 use super::tally::{Decisions, Tallies};
-use super::targets::{NOTHING, Subject, Sweep};
+use super::targets::{Subject, Sweep};
 use crate::chain::Decision;
 use crate::counts::{Counter, Counts, DecisionSummary, Key, Sums};
 use crate::pilot::Pilots;
 use crate::plan::Point;
-use crate::results::Row;
-use crate::run::{Group, Progress, Simulation, StudyError, Target, Trials};
+use crate::run::{self, Group, Progress, Simulation, StudyError, Target, Trials};
 use crate::schedule::{BLOCK, Schedule};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -16,6 +15,17 @@ use std::ops::Range;
 pub(super) struct Sampling<'a> {
     sweep: &'a Sweep,
     decisions: Vec<Option<Decision>>,
+}
+
+impl Sweep {
+    /// Runs all of its trials at once and keeps the counts in memory.
+    ///
+    /// # Errors
+    /// Where a pilot shows no decision.
+    pub fn counts(&self, progress: &dyn Progress) -> Result<Counts, StudyError> {
+        let sampling = Box::new(Sampling::new(self));
+        run::whole(sampling, self.plan.schedule.trials, progress)
+    }
 }
 
 impl<'a> Sampling<'a> {
@@ -82,9 +92,8 @@ impl Trials for Sampling<'_> {
         let decisions = pilots.decide(|work| progress.done(work));
         progress.end();
         let mut summaries = BTreeMap::new();
-        for ((at, point), decision) in places.into_iter().zip(&points).zip(decisions?) {
-            let row = Row::new(point, Some(&decision), NOTHING, 0.5);
-            summaries.insert(self.sweep.keys[at].clone(), row.decision());
+        for (at, decision) in places.into_iter().zip(decisions?) {
+            summaries.insert(self.sweep.keys[at].clone(), decision.summary());
             self.decisions[at] = Some(decision);
         }
         Ok(summaries)
