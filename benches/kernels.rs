@@ -5,12 +5,10 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use liftsim::detect::{Alternative, Crossings, Lines, NullLaws, Pooled, Rule, Samples};
 use liftsim::experiment::SweepConfig;
-use liftsim::pilot::Pilots;
-use liftsim::plan::Plan;
 use liftsim::rng::Stream;
-use liftsim::run;
 use liftsim::signal::{Law, Noise, Sensor};
 use liftsim::simd::{LANES, Vectors, Wide};
+use liftsim::study::{Study, Sweep};
 use liftsim::whiten::{Fit, Fitter, Whitening};
 use std::hint::black_box;
 
@@ -93,14 +91,15 @@ fn narrow(criterion: &mut Criterion) {
 /// Goal: 40 ns a trial and point, all of Fig. 6 in one family.
 fn family(criterion: &mut Criterion) {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/configs/fig6.toml");
-    let config = SweepConfig::load(path.as_ref()).expect("a config");
-    let plan = Plan::new(&config).expect("a plan");
-    let decisions = Pilots::new(&plan).and_then(|pilots| pilots.decide(|_| {}));
-    let decisions = decisions.expect("exact regions");
-    let mut short = plan.clone();
-    short.schedule.trials = 64;
+    let mut config = SweepConfig::load(path.as_ref()).expect("a config");
+    config.narrative.claims.clear();
+    let sweep = Sweep::new(config).expect("a plan");
+    let mut trials = sweep.trials().expect("a sweep counts trials");
+    let all: Vec<usize> = (0..trials.targets().len()).collect();
+    trials.prepare(&all, &()).expect("exact regions");
+    let groups = trials.groups(&all);
     criterion.bench_function("64 trials of Fig. 6, 156 points", |b| {
-        b.iter(|| run::run(black_box(&short), &decisions, &[], |_| {}));
+        b.iter(|| (groups[0].run)(black_box(0..64)));
     });
 }
 

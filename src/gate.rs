@@ -17,7 +17,6 @@
 //! so the estimate would be small, with a small, wrong interval. Splitting by levels of W has the same fault,
 //! and its chains are dependent.
 
-use crate::plan::Point;
 use crate::stats::tally::{self, Tally};
 
 /// The largest probability that a gate fails although every scenario holds.
@@ -55,16 +54,17 @@ pub enum Verdict {
     Fail,
 }
 
-/// Judges scenarios at rest by their tallies, against `nominal` or else each one's own α.
-pub fn judge(points: &[Point], tallies: &[Tally], nominal: Option<f64>) -> Vec<Finding> {
-    let nominal = |point: &Point| nominal.unwrap_or(point.scenario.detector.alpha);
-    let p_value = |(point, tally): (&Point, &Tally)| tally.p_value_above(nominal(point));
-    let p_values: Vec<f64> = points.iter().zip(tallies).map(p_value).collect();
+/// Judges scenarios at rest, each by its nominal level and its tally.
+pub fn judge(scenarios: &[(f64, Tally)]) -> Vec<Finding> {
+    let p_values = scenarios.iter();
+    let p_values: Vec<f64> = p_values
+        .map(|(nominal, tally)| tally.p_value_above(*nominal))
+        .collect();
     let rejected = tally::holm(&p_values, FAMILY_LEVEL);
-    let strictest = FAMILY_LEVEL / points.len() as f64;
-    (0..points.len())
+    let strictest = FAMILY_LEVEL / scenarios.len() as f64;
+    (0..scenarios.len())
         .map(|i| {
-            let (nominal, tally) = (nominal(&points[i]), tallies[i]);
+            let (nominal, tally) = scenarios[i];
             let excess = (EXCESS * nominal).min(1.0);
             let power = tally::power_against(excess, nominal, strictest, tally.trials);
             Finding {
@@ -114,20 +114,13 @@ pub fn overall(findings: &[Finding]) -> Verdict {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::SweepConfig;
-    use crate::plan::Plan;
 
-    const THREE: &str =
-        "question = \"?\"\nseed = 1\n[impulses]\nnu = 0.0\n[axis]\norder = [1, 2, 3]\n";
-
-    fn findings(hits: [u64; 3], trials: u64, nominal: Option<f64>) -> Vec<Finding> {
-        let plan = Plan::at_rest(&SweepConfig::parse("test", THREE).unwrap()).unwrap();
-        let tallies = hits.map(|hits| Tally { hits, trials });
-        judge(&plan.points, &tallies, nominal)
+    fn findings(hits: [u64; 3], trials: u64, nominal: f64) -> Vec<Finding> {
+        judge(&hits.map(|hits| (nominal, Tally { hits, trials })))
     }
 
     fn verdicts(hits: [u64; 3], trials: u64) -> Vec<Verdict> {
-        findings(hits, trials, None)
+        findings(hits, trials, 0.01)
             .iter()
             .map(|f| f.verdict)
             .collect()
@@ -173,21 +166,21 @@ mod tests {
         assert_eq!(verdicts(hits(enough), enough), [Verdict::Pass; 3]);
         assert_eq!(verdicts(hits(few), few), [Verdict::Inconclusive; 3]);
         assert_eq!(
-            overall(&findings(hits(few), few, None)),
+            overall(&findings(hits(few), few, 0.01)),
             Verdict::Inconclusive
         );
     }
 
     #[test]
-    fn nominal_replaces_alpha() {
+    fn a_lower_nominal_is_not_kept() {
         let n = 200_000;
-        let strict = findings([2000; 3], n, Some(0.008));
+        let strict = findings([2000; 3], n, 0.008);
         assert!(
             strict
                 .iter()
                 .all(|f| f.verdict == Verdict::Fail && f.nominal == 0.008)
         );
         assert_eq!(overall(&strict), Verdict::Fail);
-        assert_eq!(overall(&findings([2000; 3], n, None)), Verdict::Pass);
+        assert_eq!(overall(&findings([2000; 3], n, 0.01)), Verdict::Pass);
     }
 }

@@ -11,7 +11,7 @@
 //! figures.
 //!
 //! ```
-//! use liftsim::{experiment::SweepConfig, pilot::Pilots, plan::Plan, run};
+//! use liftsim::{experiment::SweepConfig, run::StudyError, study::{Study, Sweep}};
 //!
 //! let config = SweepConfig::parse("example", r#"
 //!     question = "How does the power grow with Δ?"
@@ -20,11 +20,10 @@
 //!     [axis]
 //!     delta = [0.0, 0.5, 1.0]
 //! "#)?;
-//! let plan = Plan::new(&config)?;
-//! let decisions = Pilots::new(&plan)?.decide(|_| {})?;
-//! let tallies = run::run(&plan, &decisions, &[], |_| {}).tallies;
-//! assert!(tallies[3].rate() > tallies[1].rate());
-//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! let sweep = Sweep::new(config)?;
+//! let rows = sweep.rows(&sweep.counts(&())?);
+//! assert!(rows[3].tally.rate() > rows[1].tally.rate());
+//! # Ok::<(), StudyError>(())
 //! ```
 //!
 //! # The house

@@ -3,7 +3,6 @@
 
 use crate::chain::{Detector, Purpose, Scenario};
 use crate::claim::{self, Pair};
-use crate::config::AxisValue;
 use crate::detect::{Alternative, Method, NullLaws, Region, RegionError, Rule, Samples};
 use crate::experiment::{ConfigError, SweepConfig};
 use crate::scenario::{RECORD_KEYS, ScenarioError};
@@ -15,6 +14,9 @@ use std::sync::Arc;
 pub struct Plan {
     /// In the order of the results.
     pub points: Vec<Point>,
+    /// Of each curve the point at each value of the axis: the one in motion, or the one at rest where nothing
+    /// in the curve moves. What is the same at rest is planned once, under the first curve.
+    pub along: Vec<Vec<usize>>,
     /// Where every draw starts from.
     pub seed: u64,
     /// Whether points share their noise.
@@ -30,6 +32,8 @@ pub struct Plan {
 pub struct Point {
     /// From 0.
     pub curve: usize,
+    /// Which value of the axis, from 0.
+    pub value: usize,
     /// The curve's label.
     pub label: String,
     /// Whether anything moves.
@@ -76,160 +80,103 @@ impl Plan {
     /// # Errors
     /// Where a parameter of a point is out of range, or no region or record can be made for it.
     pub fn new(config: &SweepConfig) -> Result<Self, ConfigError> {
-        if config.header().at_rest {
-            Self::at_rest(config)
-        } else {
-            Self::of(config, |_| true)
-        }
-    }
-
-    /// The points at rest alone: what the false-alarm gate runs.
-    ///
-    /// # Errors
-    /// As [`Plan::new`].
-    pub fn at_rest(config: &SweepConfig) -> Result<Self, ConfigError> {
-        Self::of(config, |hypothesis| hypothesis == Hypothesis::H0)
-    }
-
-    /// The same with some of its points alone.
-    pub fn subset(&self, points: &[usize]) -> Self {
-        let points: Vec<Point> = points.iter().map(|&at| self.points[at].clone()).collect();
+        let header = config.header();
+        let (points, along) = points(config)?;
         let schedule = Schedule::new(
             points.iter().map(|point| &point.scenario),
+            header.trials(),
+            header.seed,
+            Purpose::Results,
+            header.common_random_numbers,
+        )
+        .map_err(|(point, refusal)| {
+            let Point { curve, value, .. } = points[point];
+            let refusal = format!("samples: {refusal}");
+            config.blame(curve, &config.axis().values[value], RECORD_KEYS, refusal)
+        })?;
+        Ok(Self {
+            points,
+            along,
+            seed: header.seed,
+            common_random_numbers: header.common_random_numbers,
+            pilot: header.pilot,
+            schedule,
+        })
+    }
+
+    /// The schedule of some of its points alone.
+    pub fn schedule_of(&self, points: &[usize]) -> Schedule {
+        let schedule = Schedule::new(
+            points.iter().map(|&at| &self.points[at].scenario),
             self.schedule.trials,
             self.seed,
             Purpose::Results,
             self.common_random_numbers,
         );
-        Self {
-            points,
-            schedule: schedule.expect("the records fitted in memory with more points"),
-            ..*self
-        }
-    }
-
-    /// Of every point the family it belongs to: points of one family share their noise.
-    pub fn families(&self) -> Vec<usize> {
-        let mut family_of = vec![0; self.points.len()];
-        for (index, family) in self.schedule.families.iter().enumerate() {
-            family.places().for_each(|place| family_of[place] = index);
-        }
-        family_of
+        schedule.expect("the records fitted in memory with more points")
     }
 
     /// The pairs of points that the claims of its config compare.
     pub fn pairs(&self, config: &SweepConfig) -> Vec<Pair> {
-        let claims = &config.narrative.claims;
-        if claims.is_empty() {
-            return Vec::new();
-        }
-        claim::pairs(claims, &config.scope, &self.along_axis(config))
-    }
-
-    /// Of each curve the point at each value of the axis: the one in motion, or the one at rest where nothing
-    /// in the curve moves. What is the same at rest is planned once, under the first curve.
-    fn along_axis(&self, config: &SweepConfig) -> Vec<Vec<Option<usize>>> {
-        let along = |curve| {
-            let is_moving = |&at: &usize| {
-                let Point {
-                    curve: own,
-                    hypothesis,
-                    ..
-                } = self.points[at];
-                own == curve && hypothesis == Hypothesis::H1
-            };
-            let moving: Vec<_> = (0..self.points.len()).filter(is_moving).map(Some).collect();
-            if !moving.is_empty() {
-                return moving;
-            }
-            let at_rest = |value| {
-                let scenario = config.scenario(curve, value).ok()?.at_rest();
-                (self.points.iter()).position(|point| {
-                    point.hypothesis == Hypothesis::H0 && point.scenario == scenario
-                })
-            };
-            config.axis().values.iter().map(at_rest).collect()
-        };
-        (0..config.scope.curves.len()).map(along).collect()
-    }
-
-    fn of(config: &SweepConfig, wanted: impl Fn(Hypothesis) -> bool) -> Result<Self, ConfigError> {
-        let mut designer = Designer::default();
-        let mut points: Vec<Point> = Vec::new();
-        let mut blame = Vec::new();
-        for (curve, Curve { scenarios, moves }) in curves(config)?.into_iter().enumerate() {
-            for (value, scenario) in config.axis().values.iter().zip(scenarios) {
-                let design = designer
-                    .design(&scenario)
-                    .map_err(|error| config.blame(curve, value, error.keys(), error))?;
-                let mut add = |hypothesis, scenario| {
-                    if wanted(hypothesis) {
-                        points.push(Point {
-                            curve,
-                            label: config.scope.curves[curve].label.clone(),
-                            hypothesis,
-                            scenario,
-                            design: design.clone(),
-                        });
-                        blame.push((curve, value));
-                    }
-                };
-                if designer.is_new_at_rest(&scenario) {
-                    add(Hypothesis::H0, scenario.at_rest());
-                }
-                if moves {
-                    add(Hypothesis::H1, scenario);
-                }
-            }
-        }
-        let schedule = Schedule::new(
-            points.iter().map(|point| &point.scenario),
-            config.header().trials(),
-            config.header().seed,
-            Purpose::Results,
-            config.header().common_random_numbers,
-        )
-        .map_err(|(point, refusal)| {
-            let (curve, value) = blame[point];
-            config.blame(curve, value, RECORD_KEYS, format!("samples: {refusal}"))
-        })?;
-        Ok(Self {
-            points,
-            seed: config.header().seed,
-            common_random_numbers: config.header().common_random_numbers,
-            pilot: config.header().pilot,
-            schedule,
-        })
+        claim::pairs(&config.narrative.claims, &config.scope, &self.along)
     }
 }
 
-/// The scenarios of one curve along the axis.
-struct Curve {
-    scenarios: Vec<Scenario>,
-    moves: bool,
+/// Every point, and of each curve the place of the point at each value of the axis.
+fn points(config: &SweepConfig) -> Result<(Vec<Point>, Vec<Vec<usize>>), ConfigError> {
+    let mut designer = Designer::default();
+    let (mut points, mut at_rest, mut along) = (Vec::<Point>::new(), Vec::new(), Vec::new());
+    for (curve, scenarios) in scenarios(config)?.into_iter().enumerate() {
+        let moves = !config.header().at_rest && scenarios.iter().any(Scenario::moves);
+        let mut places = Vec::new();
+        for (value, scenario) in scenarios.into_iter().enumerate() {
+            let design = designer.design(&scenario).map_err(|error| {
+                config.blame(curve, &config.axis().values[value], error.keys(), error)
+            })?;
+            let point = |hypothesis, scenario| Point {
+                curve,
+                value,
+                label: config.scope.curves[curve].label.clone(),
+                hypothesis,
+                scenario,
+                design: design.clone(),
+            };
+            let resting = scenario.at_rest();
+            let known = at_rest
+                .iter()
+                .find(|&&at: &&usize| points[at].scenario == resting);
+            let mut place = known.copied().unwrap_or(points.len());
+            if known.is_none() {
+                at_rest.push(place);
+                points.push(point(Hypothesis::H0, resting));
+            }
+            if moves {
+                place = points.len();
+                points.push(point(Hypothesis::H1, scenario));
+            }
+            places.push(place);
+        }
+        along.push(places);
+    }
+    Ok((points, along))
 }
 
-fn curves(config: &SweepConfig) -> Result<Vec<Curve>, ConfigError> {
-    let scenario = |curve: usize, value: &AxisValue| config.scenario(curve, value);
-    (0..config.scope.curves.len())
+/// Of each curve the scenario at each value of the axis.
+fn scenarios(config: &SweepConfig) -> Result<Vec<Vec<Scenario>>, ConfigError> {
+    let curves = 0..config.scope.curves.len();
+    curves
         .map(|curve| {
             let values = config.axis().values.iter();
-            let scenarios: Vec<Scenario> = values
-                .map(|value| scenario(curve, value))
-                .collect::<Result<_, _>>()?;
-            let moves = scenarios.iter().any(Scenario::moves);
-            Ok(Curve { scenarios, moves })
+            values.map(|value| config.scenario(curve, value)).collect()
         })
         .collect()
 }
 
-/// Makes each region once, and remembers what has been seen at rest. Of the laws, which are large, it
-/// keeps only those of the last sizes.
+/// Makes each region once. Of the laws, which are large, it keeps only those of the last sizes.
 #[derive(Default)]
 struct Designer {
     laws: Option<(Samples, Alternative, NullLaws)>,
     regions: Vec<(Samples, Detector, Arc<Region>)>,
-    at_rest: Vec<Scenario>,
 }
 
 impl Designer {
@@ -271,15 +218,5 @@ impl Designer {
             _ => NullLaws::new(alternative, &samples).map_err(RegionError::from)?,
         };
         Ok(&self.laws.insert((samples, alternative, laws)).2)
-    }
-
-    /// Whether `scenario` at rest differs from every one asked for before.
-    fn is_new_at_rest(&mut self, scenario: &Scenario) -> bool {
-        let at_rest = scenario.at_rest();
-        let is_new = !self.at_rest.contains(&at_rest);
-        if is_new {
-            self.at_rest.push(at_rest);
-        }
-        is_new
     }
 }

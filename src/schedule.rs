@@ -21,13 +21,11 @@ pub struct Schedule {
 
 /// What becomes of the trials.
 pub trait Gather: View + Send {
-    /// The trial of family `family` is over: all its places have been shown.
-    fn end_trial(&mut self, _family: usize) {}
+    /// A trial is over: all places of its family have been shown.
+    fn end_trial(&mut self) {}
 
     /// A block is over.
     fn end_block(&mut self) {}
-    /// Adds what another has gathered.
-    fn merge(&mut self, other: Self);
 }
 
 impl Schedule {
@@ -46,11 +44,12 @@ impl Schedule {
         Ok(Self { families, trials })
     }
 
-    /// Runs every trial of every family on the current thread pool. `progress` hears of every finished
-    /// block: how many trials of how many points it brought.
+    /// Runs every trial of every family on the current thread pool; `add` adds what two have gathered.
+    /// `progress` hears of every finished block: how many trials of how many points it brought.
     pub fn run<S: Gather>(
         &self,
         new: impl Fn() -> S + Sync + Send,
+        add: impl Fn(S, S) -> S + Sync + Send,
         progress: impl Fn(u64) + Sync,
     ) -> S {
         let blocks = self.trials.div_ceil(BLOCK);
@@ -64,10 +63,7 @@ impl Schedule {
                 progress((last - first) * self.families[index].points_per_trial() as u64);
                 sink
             })
-            .reduce(&new, |mut sum, part| {
-                sum.merge(part);
-                sum
-            })
+            .reduce(&new, add)
     }
 
     /// Shows `sink` consecutive trials of family `index`.
@@ -75,9 +71,19 @@ impl Schedule {
         let mut trial = Trial::new(&self.families[index]);
         for number in trials {
             trial.run(number, sink);
-            sink.end_trial(index);
+            sink.end_trial();
         }
         sink.end_block();
+    }
+
+    /// Of every scenario the family it belongs to: those of one family share their noise.
+    pub fn family_of(&self) -> Vec<usize> {
+        let families = self.families.iter().enumerate();
+        let mut each: Vec<(usize, usize)> = families
+            .flat_map(|(index, family)| family.places().map(move |place| (place, index)))
+            .collect();
+        each.sort_unstable();
+        each.into_iter().map(|(_, family)| family).collect()
     }
 
     /// What [`Schedule::run`]'s progress adds up to.

@@ -86,7 +86,8 @@ fn trials_do_not_allocate() {
     let config = SweepConfig::parse("everything", EVERYTHING).unwrap();
     let plan = Plan::new(&config).unwrap();
     let mut counts = vec![0; plan.points.len()];
-    let decisions = Pilots::new(&plan).unwrap().decide(|_| {}).unwrap();
+    let pilots = Pilots::new(&plan.points, plan.pilot, plan.seed).unwrap();
+    let decisions = pilots.decide(|_| {}).unwrap();
     for family in &plan.schedule.families {
         let mut allocations_of = |trials| {
             let before = allocations();

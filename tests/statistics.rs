@@ -1,29 +1,30 @@
 //! Statistical tests of whole runs. Seeds are fixed; every test states its false-failure rate.
 
-use liftsim::chain::{Decision, Observation, Trial};
-use liftsim::detect::{NullLaw, Samples};
+use liftsim::chain::Decision;
+use liftsim::counts::Counts;
+use liftsim::detect::{Method, NullLaw, Samples};
 use liftsim::experiment::SweepConfig;
 use liftsim::pilot::Pilots;
-use liftsim::plan::{Design, Hypothesis, Plan};
-use liftsim::run;
+use liftsim::plan::{Design, Hypothesis};
 use liftsim::stats::tally::{Tally, difference_interval};
+use liftsim::study::{Study, Sweep};
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha20Rng;
 use statrs::distribution::{ChiSquared, ContinuousCDF, DiscreteCDF, Hypergeometric};
 
-fn plan(text: &str) -> Plan {
+fn sweep(text: &str) -> Sweep {
     let config = SweepConfig::parse("test", text).unwrap_or_else(|error| panic!("{error}"));
-    Plan::new(&config).unwrap_or_else(|error| panic!("{error}"))
+    Sweep::new(config).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn decisions(plan: &Plan) -> Vec<Decision> {
-    let decisions = Pilots::new(plan).unwrap().decide(|_| {});
-    decisions.unwrap_or_else(|error| panic!("{error}"))
+fn counts(sweep: &Sweep) -> Counts {
+    sweep.counts(&()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn tallies(plan: &Plan) -> Vec<Tally> {
-    run::run(plan, &decisions(plan), &[], |_| {}).tallies
+fn tallies(sweep: &Sweep) -> Vec<Tally> {
+    let rows = sweep.rows(&counts(sweep)).into_iter();
+    rows.map(|row| row.tally).collect()
 }
 
 /// The cells (W ≥ w, T ≥ t) of the whole chain at rest with the known filter follow the exact joint
@@ -63,9 +64,8 @@ fn joint_counts_at_rest_follow_the_exact_law() {
                 corners.push((w, t));
             }
         }
-        let plan = plan(&text);
-        assert_eq!(plan.points.len(), corners.len());
-        let tallies = tallies(&plan);
+        let tallies = tallies(&sweep(&text));
+        assert_eq!(tallies.len(), corners.len());
         let trials = tallies[0].trials;
         let corner = |w: u64, t: u64| -> f64 {
             match corners.iter().position(|&c| c == (w, t)) {
@@ -118,9 +118,10 @@ fn power_agrees_with_a_second_implementation() {
             "[[curve]]\nmotion = {{ delta = {delta} }}\nimpulses = {{ nu = {nu}, theta = {theta} }}\n"
         );
     }
-    let plan = plan(&text);
-    let tallies = tallies(&plan);
-    let in_motion = plan
+    let sweep = sweep(&text);
+    let tallies = tallies(&sweep);
+    let in_motion = sweep
+        .plan
         .points
         .iter()
         .zip(&tallies)
@@ -237,6 +238,18 @@ detector = { rule = "wilcoxon" }
 detector = { rule = "disjunction" }
 [[curve]]
 detector = { rule = "conjunction" }
+[[claim]]
+claim = "?"
+test = { exceeds = { first = "1", second = "2" } }
+[[claim]]
+claim = "?"
+test = { exceeds = { first = "1", second = "3" } }
+[[claim]]
+claim = "?"
+test = { exceeds = { first = "1", second = "4" } }
+[[claim]]
+claim = "?"
+test = { exceeds = { first = "1", second = "5" } }
 "#;
 
 /// No rule of (W, T) beats the likelihood ratio: its paired advantage over each of four rules, at three
@@ -245,76 +258,31 @@ detector = { rule = "conjunction" }
 /// pilot were one of another alternative.
 #[test]
 fn likelihood_ratio_is_never_beaten() {
-    let plan = plan(LIKELIHOOD);
-    let decisions = decisions(&plan);
-    let moving = |curve: usize| {
-        let points = plan.points.iter().enumerate();
-        points
-            .filter(move |(_, p)| p.curve == curve && p.hypothesis == Hypothesis::H1)
-            .map(|(place, _)| place)
-            .collect::<Vec<_>>()
-    };
-    let pairs: Vec<[usize; 2]> = (1..5)
-        .flat_map(|curve| moving(0).into_iter().zip(moving(curve)))
-        .map(|(best, other)| [best, other])
-        .collect();
-    assert_eq!(pairs.len(), 12);
-    let outcome = run::run(&plan, &decisions, &pairs, |_| {});
-    for ([best, other], discordant) in pairs.iter().zip(&outcome.discordant) {
-        let trials = outcome.tallies[0].trials;
-        let [won, lost] = discordant
-            .expect("shared noise")
-            .map(|hits| Tally { hits, trials });
+    let sweep = sweep(LIKELIHOOD);
+    let counts = counts(&sweep);
+    let comparisons = sweep.comparisons(&sweep.rows(&counts), &counts);
+    assert_eq!(comparisons.len(), 12);
+    for (pair, comparison) in sweep.pairs.iter().zip(&comparisons) {
+        let trials = comparison.trials;
+        let [won, lost] = [comparison.first_only, comparison.second_only].map(|hits| Tally {
+            hits: hits.expect("shared noise"),
+            trials,
+        });
         let (low, high) = difference_interval(won, lost, 1.0 - 8e-8);
-        let (rule, delta) = (
-            &plan.points[*other].scenario.detector.method,
-            plan.points[*best].scenario.motion.delta,
-        );
+        let [best, other] =
+            [pair.first, pair.second].map(|place| &sweep.plan.points[place].scenario);
+        assert_eq!(best.detector.method, Method::LikelihoodRatio);
+        let (rule, delta) = (&other.detector.method, best.motion.delta);
         println!(
             "Δ = {delta}: likelihood ratio {:.5}, {rule} {:.5}; n = {trials}, alone {} and {}, difference in [{low:.5}, {high:.5}]",
-            outcome.tallies[*best].rate(),
-            outcome.tallies[*other].rate(),
+            comparison.first as f64 / trials as f64,
+            comparison.second as f64 / trials as f64,
             won.hits,
             lost.hits,
         );
         // One boundary cell holds at most a percent of α and is some hundred times as likely in motion.
         assert!(high > 0.0, "{rule} at {delta}");
         assert!(low > -0.003, "{rule} at {delta}");
-    }
-}
-
-/// A pair's discordant counts against the definition, by two runs of its own: the decisions of one point
-/// and of the other, trial by trial.
-#[test]
-fn discordant_trials_are_those_on_which_two_points_differ() {
-    let text = "question = \"?\"\nseed = 3\ntrials = 3000\n[axis]\ndelta = [0.2, 0.5]\n\
-                [[curve]]\n[[curve]]\nimpulses = { nu = 0.3, theta = 9.0 }\n\
-                [[curve]]\nnoise = { law = \"laplace\" }\n";
-    let plan = plan(text);
-    let decisions = decisions(&plan);
-    let places = plan.points.len();
-    let pairs: Vec<[usize; 2]> = (0..places)
-        .flat_map(|first| (0..places).map(move |second| [first, second]))
-        .collect();
-    let outcome = run::run(&plan, &decisions, &pairs, |_| {});
-    let mut decided = vec![vec![false; 3000]; places];
-    for family in &plan.schedule.families {
-        let mut trial = Trial::new(family);
-        for index in 0..3000 {
-            trial.run(index, &mut |place: usize, observation: &mut Observation| {
-                decided[place][index as usize] = decisions[place].is_h1(observation);
-            });
-        }
-    }
-    for (&[first, second], discordant) in pairs.iter().zip(&outcome.discordant) {
-        let of_law = |place: usize| plan.points[place].scenario.noise;
-        let alone = |a: usize, b: usize| {
-            let trials = decided[a].iter().zip(&decided[b]);
-            trials.filter(|(a, b)| **a && !**b).count() as u64
-        };
-        let expected =
-            (of_law(first) == of_law(second)).then(|| [alone(first, second), alone(second, first)]);
-        assert_eq!(*discordant, expected, "{first} {second}");
     }
 }
 
@@ -345,12 +313,18 @@ noise = { law = "logistic" }
 /// are fixed, and a region at α would be rejected with probability 1e-7 in each of 24 tests.
 #[test]
 fn calibrated_designs_keep_their_promise_on_other_seeds() {
-    let calibrated = plan(CALIBRATED);
-    let decisions = decisions(&calibrated);
+    let calibrated = sweep(CALIBRATED).plan;
+    let pilots = Pilots::new(&calibrated.points, calibrated.pilot, calibrated.seed).unwrap();
+    let decisions = pilots.decide(|_| {}).unwrap();
     for seed in [22, 23, 24] {
-        let fresh = plan(&CALIBRATED.replace("seed = 21", &format!("seed = {seed}")));
-        let outcome = run::run(&fresh, &decisions, &[], |_| {});
-        for (point, tally) in fresh.points.iter().zip(outcome.tallies) {
+        let mut fresh = sweep(&CALIBRATED.replace("seed = 21", &format!("seed = {seed}")));
+        for (point, decision) in fresh.plan.points.iter_mut().zip(&decisions) {
+            let Decision::Region { region, .. } = decision else {
+                unreachable!("both rules decide by a region");
+            };
+            point.design = Design::Region(region.clone());
+        }
+        for (point, tally) in fresh.plan.points.iter().zip(tallies(&fresh)) {
             let p = tally.p_value_above(0.01);
             println!(
                 "seed {seed}, {}, {}: {}/{}, p = {p:.3}",
@@ -359,7 +333,7 @@ fn calibrated_designs_keep_their_promise_on_other_seeds() {
             assert!(p > 1e-7);
         }
     }
-    let plain = plan(&CALIBRATED.replace("calibrate = true", ""));
+    let plain = sweep(&CALIBRATED.replace("calibrate = true", ""));
     let rejected = tallies(&plain)[0].p_value_above(0.01);
     assert!(
         rejected < 1e-100,
@@ -374,8 +348,8 @@ fn measured_thresholds_give_the_measured_rate() {
     let text = "question = \"?\"\nseed = 31\ntrials = 100_000\npilot = 100_000\nat_rest = true\n\
                 [motion]\ndelta = 0.5\n[detector]\ncalibrate = {}\n[axis]\n\
                 rule = [\"product\", \"clairvoyant\", \"student-t\", \"variance-ratio\", \"block-means\"]\n";
-    let plan = plan(text);
-    for (point, tally) in plan.points.iter().zip(tallies(&plan)) {
+    let sweep = sweep(text);
+    for (point, tally) in sweep.plan.points.iter().zip(tallies(&sweep)) {
         let p = fisher(tally.hits, tally.trials, 1000, 100_000);
         println!(
             "{}: {}/{}, p = {p:.3}",

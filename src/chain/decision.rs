@@ -2,7 +2,9 @@
 
 use super::observation::Observation;
 use super::score::Score;
+use crate::counts::DecisionSummary;
 use crate::detect::{Region, Ties};
+use crate::format::eight_digits;
 use std::sync::Arc;
 
 /// The decision rule of a point.
@@ -51,19 +53,16 @@ impl Decision {
         }
     }
 
-    /// P(H₁* | H₀) by the exact laws, if they apply.
-    pub fn size(&self) -> Option<f64> {
-        match self {
-            Self::Region { region, .. } => Some(region.size()),
-            Self::Threshold { .. } => None,
-        }
-    }
-
-    /// The smallest level that its rule can reach, if the exact laws apply.
-    pub fn reachable(&self) -> Option<f64> {
-        match self {
-            Self::Region { region, .. } => region.reachable(),
-            Self::Threshold { .. } => None,
+    /// What `points.csv` says of it.
+    pub fn summary(&self) -> DecisionSummary {
+        let (size, reachable) = match self {
+            Self::Region { region, .. } => (Some(region.size()), region.reachable()),
+            Self::Threshold { .. } => (None, None),
+        };
+        DecisionSummary {
+            size,
+            threshold: self.threshold().map(eight_digits),
+            reachable: reachable.map(eight_digits),
         }
     }
 

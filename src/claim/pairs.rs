@@ -17,28 +17,26 @@ pub struct Pair {
 }
 
 /// The pairs compared for all claims, claim by claim; `points` has, for each curve, the index of its point at
-/// each value of the axis, if there is one.
+/// each value of the axis.
 ///
 /// For growth the pairs are, curve by curve, each value of the axis against the one before and then the
 /// last against the first (the same pair if there are only two values); for a contrast of curves, both at
 /// each value of the axis.
-pub fn pairs(claims: &[Claim], scope: &Scope, points: &[Vec<Option<usize>>]) -> Vec<Pair> {
+pub fn pairs(claims: &[Claim], scope: &Scope, points: &[Vec<usize>]) -> Vec<Pair> {
     let mut pairs = Vec::new();
     for (claim, Claim { test, .. }) in claims.iter().enumerate() {
         for [first, second] in compared(test, scope) {
-            let point = |(curve, value): (usize, usize)| *points[curve].get(value)?;
+            let point = |(curve, value): (usize, usize)| points[curve][value];
             let place = |(curve, value): (usize, usize)| Place {
                 curve: scope.curves[curve].label.clone(),
                 value: scope.axis.values[value].0.clone(),
             };
-            if let (Some(one), Some(other)) = (point(first), point(second)) {
-                pairs.push(Pair {
-                    claim,
-                    first: one,
-                    second: other,
-                    places: [place(first), place(second)],
-                });
-            }
+            pairs.push(Pair {
+                claim,
+                first: point(first),
+                second: point(second),
+                places: [place(first), place(second)],
+            });
         }
     }
     pairs

@@ -4,11 +4,10 @@ use super::progress::{self, Progress, Reporter};
 use super::{CommandResult, Failure, Simulation, print, table};
 use anyhow::anyhow;
 use clap::Args;
-use liftsim::chain::Decision;
 use liftsim::experiment::SweepConfig;
 use liftsim::gate::{self, EXCESS, FAMILY_LEVEL, Finding, Verdict};
-use liftsim::plan::{Plan, Point};
 use liftsim::results::Row;
+use liftsim::study::{Study, Sweep};
 use std::process::ExitCode;
 
 /// Test that the false-alarm rate of every scenario at rest stays at or below its level.
@@ -38,25 +37,32 @@ impl Check {
                 "--nominal must lie strictly between 0 and 1, got {nominal}"
             )));
         }
-        let (config, plan) = self.simulation.prepare(Plan::at_rest)?;
-        let (decisions, outcome) =
-            progress::simulate(&plan, &Reporter::new(quiet, &self.progress, ""))?;
-        let findings = gate::judge(&plan.points, &outcome.tallies, self.nominal);
-        print(&report(&config, &plan, &decisions, &findings))?;
+        let sweep = self.sweep()?;
+        self.simulation.start_threads()?;
+        let counts = progress::count(&sweep, &Reporter::new(quiet, &self.progress, ""))?;
+        let rows = sweep.rows(&counts);
+        let nominal = |row: &Row| self.nominal.unwrap_or(row.alpha());
+        let scenarios = rows.iter().map(|row| (nominal(row), row.tally));
+        let findings = gate::judge(&scenarios.collect::<Vec<_>>());
+        print(&report(&sweep.config, &rows, &findings))?;
         Ok(ExitCode::from(match gate::overall(&findings) {
             Verdict::Pass => 0,
             Verdict::Fail => 1,
             Verdict::Inconclusive => 3,
         }))
     }
+
+    /// The config's points at rest, and nothing that is claimed of them.
+    fn sweep(&self) -> Result<Sweep, Failure> {
+        let mut experiment = self.simulation.config()?;
+        experiment.header.at_rest = true;
+        let mut config = SweepConfig::new(experiment).map_err(Failure::input)?;
+        config.narrative.claims.clear();
+        Sweep::new(config).map_err(Failure::input)
+    }
 }
 
-fn report(
-    config: &SweepConfig,
-    plan: &Plan,
-    decisions: &[Decision],
-    findings: &[Finding],
-) -> String {
+fn report(config: &SweepConfig, rows: &[Row], findings: &[Finding]) -> String {
     let header = [
         "scenario",
         "rule",
@@ -69,8 +75,9 @@ fn report(
         "p",
         "verdict",
     ];
-    let rows: Vec<Vec<String>> = (plan.points.iter().zip(decisions).zip(findings))
-        .map(|((point, decision), finding)| row(config, point, decision, finding))
+    let each = rows.iter().zip(findings);
+    let cells: Vec<Vec<String>> = each
+        .map(|(row, finding)| cells(config, row, finding))
         .collect();
     let count = |verdict| findings.iter().filter(|f| f.verdict == verdict).count();
     let power = findings.iter().map(|f| f.power).fold(1.0, f64::min);
@@ -84,7 +91,7 @@ fn report(
         "{}\n{} scenarios at seed {}: {} pass, {} inconclusive, {} fail\n\
          family-wise level {FAMILY_LEVEL}; power against {EXCESS} times nominal at least {power:.4}; \
          {} % intervals\n{advice}",
-        table(&header, &rows),
+        table(&header, &cells),
         findings.len(),
         config.header().seed,
         count(Verdict::Pass),
@@ -94,19 +101,13 @@ fn report(
     )
 }
 
-fn row(config: &SweepConfig, point: &Point, decision: &Decision, finding: &Finding) -> Vec<String> {
-    let row = Row::new(
-        point,
-        Some(decision),
-        finding.tally,
-        config.header().confidence.get(),
-    );
-    let (low, high) = row.tally.interval(config.header().confidence.get());
+fn cells(config: &SweepConfig, row: &Row, finding: &Finding) -> Vec<String> {
+    let (low, high) = row.tally.interval(row.confidence);
     // Four digits of the nominal rate, and six decimals at least.
     let decimals = (3.0 - finding.nominal.log10().floor()).max(6.0) as usize;
     let digits = |rate: f64| format!("{rate:.decimals$}");
     vec![
-        scenario(config, &row),
+        scenario(config, row),
         row.values.rule_name(),
         finding.nominal.to_string(),
         row.size.map_or(String::new(), digits),

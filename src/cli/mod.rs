@@ -29,8 +29,7 @@ pub use arguments::{Arguments, brief};
 
 use anyhow::Context;
 use clap::Args;
-use liftsim::experiment::{ConfigError, Experiment, MOST_PILOT_TRIALS, SWEEP, SweepConfig};
-use liftsim::plan::Plan;
+use liftsim::experiment::{Experiment, MOST_PILOT_TRIALS, SWEEP};
 use liftsim::run::StudyError;
 use liftsim::stats::tally::MOST_TRIALS;
 use liftsim::study::{self, Loaded};
@@ -91,18 +90,7 @@ struct Simulation {
 }
 
 impl Simulation {
-    /// Reads the config of a sweep, lays the command line over it, and plans it.
-    fn prepare(
-        &self,
-        plan: impl Fn(&SweepConfig) -> Result<Plan, ConfigError>,
-    ) -> Result<(SweepConfig, Plan), Failure> {
-        let config = SweepConfig::new(self.config()?).map_err(Failure::input)?;
-        let plan = plan(&config).map_err(Failure::input)?;
-        self.start_threads()?;
-        Ok((config, plan))
-    }
-
-    /// The same for any config.
+    /// Reads the config, lays the command line over it, and plans it.
     fn study(&self) -> Result<Loaded, Failure> {
         let study = Loaded::new(self.config()?).map_err(Failure::study)?;
         self.start_threads()?;

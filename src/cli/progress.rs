@@ -5,10 +5,9 @@ use super::signals::Signals;
 use super::{Failure, say};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
-use liftsim::chain::Decision;
-use liftsim::pilot::Pilots;
-use liftsim::plan::Plan;
-use liftsim::run::{self, Progress as _, Session, Tallied};
+use liftsim::counts::Counts;
+use liftsim::run::{self, Progress as _, Session};
+use liftsim::study::Sweep;
 use serde_json::json;
 use std::fmt::Write;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -199,27 +198,18 @@ impl run::Progress for Follower<'_> {
     }
 }
 
-/// Runs the plan's pilots, then the plan itself, and saves nothing.
-pub fn simulate(plan: &Plan, reporter: &Reporter) -> Result<(Vec<Decision>, Tallied), Failure> {
-    let schedule = &plan.schedule;
+/// Counts a sweep in memory.
+pub fn count(sweep: &Sweep, reporter: &Reporter) -> Result<Counts, Failure> {
+    let schedule = &sweep.plan.schedule;
+    let work = schedule.work();
     reporter.say(&json!({
-        "event": "started", "points": plan.points.len(), "trials": schedule.trials,
-        "total": schedule.work(),
+        "event": "started", "points": sweep.plan.points.len(), "trials": schedule.trials,
+        "total": work,
     }));
-    let pilots = Pilots::new(plan).map_err(Failure::input)?;
-    let decisions = pilot(&pilots, plan, reporter)?;
-    let stage = reporter.stage("points", schedule.work(), schedule.trials);
-    let outcome = run::run(plan, &decisions, &[], |work| stage.inc(work));
-    stage.finish();
-    reporter.say(&json!({ "event": "finished", "total": schedule.work() }));
-    Ok((decisions, outcome))
-}
-
-fn pilot(pilots: &Pilots, plan: &Plan, reporter: &Reporter) -> Result<Vec<Decision>, Failure> {
-    let stage = reporter.stage("pilots", pilots.work(), plan.pilot);
-    let decisions = pilots.decide(|work| stage.inc(work));
-    stage.finish();
-    decisions.map_err(Failure::input)
+    let counts = sweep.counts(&Follower::new(reporter, None));
+    let counts = counts.map_err(Failure::study)?;
+    reporter.say(&json!({ "event": "finished", "total": work }));
+    Ok(counts)
 }
 
 /// A bar over `work` trial-points, `trials` of each point.

@@ -5,6 +5,7 @@ use anyhow::anyhow;
 use clap::Args;
 use liftsim::chain::{Decision, Replay};
 use liftsim::detect::Samples;
+use liftsim::experiment::SweepConfig;
 use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
 use std::fmt::Write;
@@ -32,7 +33,9 @@ pub struct ReplayCommand {
 impl ReplayCommand {
     /// Runs the command.
     pub fn run(self) -> CommandResult {
-        let (_, plan) = self.simulation.prepare(Plan::new)?;
+        let config = SweepConfig::new(self.simulation.config()?).map_err(Failure::input)?;
+        let plan = Plan::new(&config).map_err(Failure::input)?;
+        self.simulation.start_threads()?;
         let (points, trials) = (plan.points.len(), plan.schedule.trials);
         if self.point > points as u64 {
             return Err(Failure::Input(anyhow!(
@@ -47,11 +50,12 @@ impl ReplayCommand {
                 self.trial
             )));
         }
-        let alone = plan.subset(&[self.point as usize - 1]);
-        let decisions = Pilots::new(&alone).and_then(|pilots| pilots.decide(|_| {}));
+        let alone = &plan.points[self.point as usize - 1..][..1];
+        let pilots = Pilots::new(alone, plan.pilot, plan.seed);
+        let decisions = pilots.and_then(|pilots| pilots.decide(|_| {}));
         let decision = &decisions.map_err(Failure::input)?[0];
         let replay = Replay::new(
-            &alone.points[0].scenario,
+            &alone[0].scenario,
             decision,
             plan.seed,
             plan.common_random_numbers,

@@ -81,8 +81,11 @@ impl View for Gauges {
     }
 }
 
-impl Gather for Gauges {
-    fn merge(&mut self, other: Self) {
+impl Gather for Gauges {}
+
+impl Gauges {
+    /// What both have seen.
+    pub fn merged(mut self, other: Self) -> Self {
         for (sum, more) in self.0.iter_mut().zip(other.0) {
             match (sum, more) {
                 (Gauge::Statistics(_, sum), Gauge::Statistics(_, more)) => sum.merge(&more),
@@ -92,6 +95,7 @@ impl Gather for Gauges {
                 _ => unreachable!("both began as the same gauges"),
             }
         }
+        self
     }
 }
 

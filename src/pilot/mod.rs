@@ -34,16 +34,16 @@ pub use need::{PROMISE_LEVEL, PROMISED_LAWS, PilotError};
 
 use crate::chain::{Decision, Purpose, Score};
 use crate::detect::Region;
-use crate::plan::{Design, Plan, Point};
+use crate::plan::{Design, Point};
 use ladder::Ladder;
 use need::{Need, believed};
 use stage::Stage;
 use std::sync::Arc;
 
-/// The pilots that a plan needs.
+/// The pilots that some points need.
 #[derive(Debug)]
 pub struct Pilots<'a> {
-    plan: &'a Plan,
+    points: &'a [Point],
     /// The distinct decisions to be found.
     needs: Vec<Need>,
     need_of: Vec<Option<usize>>,
@@ -52,15 +52,15 @@ pub struct Pilots<'a> {
 }
 
 impl<'a> Pilots<'a> {
-    /// Collects the pilots that the plan's points need.
+    /// Collects the pilots that the points need, of so many `trials` each.
     ///
     /// # Errors
     /// If a pilot's record does not fit in memory, or a pilot is too short to show anything.
-    pub fn new(plan: &'a Plan) -> Result<Self, PilotError> {
+    pub fn new(points: &'a [Point], trials: u64, seed: u64) -> Result<Self, PilotError> {
         let mut needs: Vec<Need> = Vec::new();
         let (mut motion, mut rest) = (Stage::default(), Stage::default());
         let mut need_of = Vec::new();
-        for point in &plan.points {
+        for point in points {
             need_of.push(match point.design {
                 Design::Region(_) => None,
                 Design::Pilot => {
@@ -69,23 +69,17 @@ impl<'a> Pilots<'a> {
                     Some(match known {
                         Some(known) => known,
                         None => {
-                            needs.push(Need::new(
-                                point,
-                                scenario,
-                                plan.pilot,
-                                &mut motion,
-                                &mut rest,
-                            )?);
+                            needs.push(Need::new(point, scenario, trials, &mut motion, &mut rest)?);
                             needs.len() - 1
                         }
                     })
                 }
             });
         }
-        motion.arrange(plan, Purpose::Ordering)?;
-        rest.arrange(plan, Purpose::Calibration)?;
+        motion.arrange(trials, seed, Purpose::Ordering)?;
+        rest.arrange(trials, seed, Purpose::Calibration)?;
         Ok(Self {
-            plan,
+            points,
             needs,
             need_of,
             motion,
@@ -111,7 +105,7 @@ impl<'a> Pilots<'a> {
                 region_decision(Arc::new(ladder.laws.empty_region()), point)
             }
         };
-        self.plan.points.iter().map(stand_in).collect()
+        self.points.iter().map(stand_in).collect()
     }
 
     /// Runs the pilots and returns the decision of every point.
@@ -126,7 +120,7 @@ impl<'a> Pilots<'a> {
             .iter()
             .map(|need| need.decide(&motion, &rest))
             .collect::<Result<_, _>>()?;
-        let points = self.plan.points.iter().zip(&self.need_of);
+        let points = self.points.iter().zip(&self.need_of);
         Ok(points
             .map(|(point, need)| match (&point.design, need) {
                 (Design::Region(region), _) => region_decision(region.clone(), point),

@@ -2,7 +2,6 @@
 
 use super::gather::{Gauge, Gauges};
 use crate::chain::{Purpose, RecordTooLong, Scenario};
-use crate::plan::Plan;
 use crate::schedule::Schedule;
 
 /// Pilots that run together.
@@ -22,9 +21,13 @@ impl Stage {
         self.gauges.len() - 1
     }
 
-    pub fn arrange(&mut self, plan: &Plan, purpose: Purpose) -> Result<(), RecordTooLong> {
+    pub fn arrange(
+        &mut self,
+        trials: u64,
+        seed: u64,
+        purpose: Purpose,
+    ) -> Result<(), RecordTooLong> {
         if !self.scenarios.is_empty() {
-            let (trials, seed) = (plan.pilot, plan.seed);
             let schedule = Schedule::new(&self.scenarios, trials, seed, purpose, true);
             self.schedule = Some(schedule.map_err(|(_, refusal)| refusal)?);
         }
@@ -40,6 +43,8 @@ impl Stage {
     pub fn run(&self, progress: impl Fn(u64) + Sync) -> Vec<Gauge> {
         let new = || Gauges(self.gauges.clone());
         let schedule = self.schedule.as_ref();
-        schedule.map_or(Vec::new(), |schedule| schedule.run(new, progress).0)
+        schedule.map_or(Vec::new(), |schedule| {
+            schedule.run(new, Gauges::merged, progress).0
+        })
     }
 }

@@ -2,7 +2,6 @@
 //!
 //! Its columns are the row's own and, between them, those of the table of parameters.
 
-use crate::chain::Decision;
 use crate::claim::Outcome;
 use crate::counts::DecisionSummary;
 use crate::format::eight_digits;
@@ -42,7 +41,17 @@ const BEFORE_COUNTS: usize = 11;
 
 impl Row {
     /// The row of a point, with its decision if it is known.
-    pub fn new(point: &Point, decision: Option<&Decision>, tally: Tally, confidence: f64) -> Self {
+    pub fn new(
+        point: &Point,
+        decision: Option<DecisionSummary>,
+        tally: Tally,
+        confidence: f64,
+    ) -> Self {
+        let decision = decision.unwrap_or(DecisionSummary {
+            size: point.design.size(),
+            threshold: None,
+            reachable: None,
+        });
         Self {
             curve: point.curve + 1,
             label: point.label.clone(),
@@ -50,27 +59,12 @@ impl Row {
                 Hypothesis::H0 => "H0".to_owned(),
                 Hypothesis::H1 => "H1".to_owned(),
             },
-            size: decision.and_then(Decision::size).or(point.design.size()),
+            size: decision.size,
             confidence,
             tally,
-            threshold: decision.and_then(Decision::threshold).map(eight_digits),
-            reachable: decision.and_then(Decision::reachable).map(eight_digits),
-            values: Values::of(&point.scenario),
-        }
-    }
-
-    /// The row of a point with the summary of its decision.
-    pub fn summarised(
-        point: &Point,
-        decision: &DecisionSummary,
-        tally: Tally,
-        confidence: f64,
-    ) -> Self {
-        Self {
-            size: decision.size,
             threshold: decision.threshold,
             reachable: decision.reachable,
-            ..Self::new(point, None, tally, confidence)
+            values: Values::of(&point.scenario),
         }
     }
 

@@ -1,7 +1,7 @@
 //! What a run would take.
 
 use super::missing::Work;
-use super::{Missing, StudyError, Trials};
+use super::{Missing, Progress, StudyError, Trials};
 use crate::counts::Counts;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -60,18 +60,28 @@ impl Estimate {
     }
 }
 
-/// Runs all of a study's trials at once.
-#[cfg(test)]
-pub(crate) fn whole(mut trials: Box<dyn Trials + '_>, number: u64) -> Counts {
-    let counts = Mutex::new(Counts::default());
+/// Runs all of a study's trials at once, unless `progress` stops it, and keeps the counts in memory.
+///
+/// # Errors
+/// Where a pilot shows no decision.
+pub fn whole(
+    mut trials: Box<dyn Trials + '_>,
+    number: u64,
+    progress: &dyn Progress,
+) -> Result<Counts, StudyError> {
+    let mut counts = Counts::default();
     loop {
-        let so_far = counts.lock().unwrap().clone();
-        let missing = Missing::new(&*trials, &trials.needed(&so_far), &so_far, &(0..number));
-        if missing.is_empty() {
-            return so_far;
+        let missing = Missing::new(&*trials, &trials.needed(&counts), &counts, &(0..number));
+        if missing.is_empty() || progress.is_stopped() {
+            return Ok(counts);
         }
-        let decisions = trials.prepare(&missing.targets(), &()).unwrap();
-        counts.lock().unwrap().decisions.extend(decisions);
-        Work::new(&*trials, &missing).count(&counts, &());
+        let decisions = trials.prepare(&missing.targets(), progress)?;
+        counts.decisions.extend(decisions);
+        let work = Work::new(&*trials, &missing);
+        progress.begin("points", work.size(), number);
+        let shared = Mutex::new(counts);
+        work.count(&shared, progress);
+        counts = shared.into_inner().expect("nobody panics with the counts");
+        progress.end();
     }
 }

@@ -31,12 +31,9 @@ mod save;
 mod session;
 mod status;
 mod study;
-pub(crate) mod tally;
 mod trials;
 
-pub use estimate::Estimate;
-#[cfg(test)]
-pub(crate) use estimate::whole;
+pub use estimate::{Estimate, whole};
 pub use existing::Overwrite;
 pub use identity::Identity;
 pub use merge::{Absent, MergeError, merge, part};
@@ -44,5 +41,4 @@ pub use missing::Missing;
 pub use session::Session;
 pub use status::{State, Status};
 pub use study::{AnyStudy, DrawError, Output, Table};
-pub use tally::{Tallied, run};
 pub use trials::{Group, Progress, StudyError, Target, Trials};

@@ -22,6 +22,7 @@ pub(crate) mod trace;
 
 pub use kind::{Context, Study, TooMany};
 pub use loaded::Loaded;
+pub use sweep::Sweep;
 
 use crate::experiment::{ConfigError, Experiment};
 use crate::results::Origin;
@@ -130,7 +131,7 @@ mod tests {
 
     /// What a study comes to.
     pub fn rows<S: Study>(study: &S, trials: u64) -> Vec<S::Row> {
-        let counts = study.trials().map(|all| whole(all, trials));
+        let counts = study.trials().map(|all| whole(all, trials, &()).unwrap());
         study.rows(&counts.unwrap_or_default())
     }
 }

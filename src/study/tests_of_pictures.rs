@@ -1,11 +1,10 @@
 //! What the pictures of the committed results say, without pixels.
 
-use super::sweep::picture::{Sweep, SweepCurve};
 use super::*;
-use crate::figure::render;
+use crate::claim::{Axis, Curve, Scope};
+use crate::figure::{FigureError, render};
 use crate::plot::{Limit, Mark, Panel, Place, Plot, Point};
 use crate::results::Row;
-use crate::scenario::{Parameter, parameter};
 use serde::de::DeserializeOwned;
 use std::path::{Path, PathBuf};
 
@@ -29,19 +28,20 @@ fn drawn<S: Study>(name: &str) -> (Vec<S::Row>, Plot) {
     (rows, plot)
 }
 
-/// A sweep of curves in these panels, without more to say.
-fn sweep(axis: &'static Parameter, values: &[f64], panels: &[Option<&str>]) -> Sweep {
-    let curve = |panel: &Option<&str>| SweepCurve {
+/// The picture of a sweep over no numbers, of curves in these panels, without more to say.
+fn sweep(axis: &'static str, panels: &[Option<&str>], rows: &[Row]) -> Result<Plot, FigureError> {
+    let curve = |panel: &Option<&str>| Curve {
+        label: String::new(),
         panel: panel.map(str::to_owned),
         series: panel.map(|_| "both".to_owned()),
-        step_gain: Some(3.0),
+    };
+    let axis = Axis {
+        name: axis,
+        ..Axis::default()
     };
     let curves = panels.iter().map(curve).collect();
-    Sweep {
-        axis,
-        values: values.to_vec(),
-        curves,
-    }
+    let step_gains = vec![3.0; panels.len()];
+    sweep::picture::plot(&Scope { curves, axis }, &step_gains, rows, 7)
 }
 
 /// Every picture must fit on its sheet.
@@ -83,13 +83,7 @@ fn points(plot: &Plot, panel: usize) -> Vec<&[Point]> {
 fn a_sweep_of_power_shows_each_curve_in_its_band() {
     let rows: Vec<Row> = rows("fig6");
     let curves = rows.iter().map(|row| row.curve).max().unwrap();
-    let values: Vec<f64> = Vec::new();
-    let plot = sweep::picture::plot(
-        &sweep(parameter("delta").unwrap(), &values, &vec![None; curves]),
-        &rows,
-        7,
-    );
-    let plot = checked(plot.unwrap());
+    let plot = checked(sweep("delta", &vec![None; curves], &rows).unwrap());
     assert_eq!(
         labels(&plot.panels[0]),
         ["Δ/σ_ξ", "D, probability of detection"]
@@ -126,12 +120,7 @@ fn a_sweep_of_power_shows_each_curve_in_its_band() {
 fn false_alarms_by_rule_are_bars_around_their_level() {
     let rows: Vec<Row> = rows("rest");
     let curves = rows.iter().map(|row| row.curve).max().unwrap();
-    let plot = sweep::picture::plot(
-        &sweep(parameter("rule").unwrap(), &[], &vec![None; curves]),
-        &rows,
-        7,
-    );
-    let plot = checked(plot.unwrap());
+    let plot = checked(sweep("rule", &vec![None; curves], &rows).unwrap());
     assert_eq!(
         labels(&plot.panels[0]),
         ["decision rule", "false-alarm rate"]
@@ -169,8 +158,7 @@ fn panels_share_a_legend_and_their_axes() {
     let rows: Vec<Row> = rows("fig6");
     let rows: Vec<Row> = rows.into_iter().filter(|row| row.curve <= 3).collect();
     let panels = [Some("upper left"), Some("upper right"), Some("below")];
-    let plot = sweep::picture::plot(&sweep(parameter("delta").unwrap(), &[], &panels), &rows, 7);
-    let plot = checked(plot.unwrap());
+    let plot = checked(sweep("delta", &panels, &rows).unwrap());
     let titles: Vec<&str> = plot
         .panels
         .iter()
@@ -184,8 +172,7 @@ fn panels_share_a_legend_and_their_axes() {
         ["Δ/σ_ξ", "D, probability of detection"]
     );
     assert_eq!(names(&plot), ["both"]);
-    let nothing = sweep::picture::plot(&sweep(parameter("delta").unwrap(), &[], &panels), &[], 7);
-    let message = nothing.unwrap_err().to_string();
+    let message = sweep("delta", &panels, &[]).unwrap_err().to_string();
     assert!(
         message.contains("no point of the results lies on the axis delta"),
         "{message}"

@@ -491,7 +491,7 @@ fn impossible_counts_are_refused() {
             counts[0] = json!(counts[0].as_u64().unwrap() + 1);
         }
     };
-    refused(&lonely, "at one of them alone");
+    refused(&lonely, "at one point of a pair alone");
 }
 
 /// The same for rides, whose numbers must be consistent; and a small file that claims many delays takes little

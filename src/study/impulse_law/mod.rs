@@ -396,7 +396,7 @@ mod tests {
             }
         }
         let study = study(300, &[0.3], 7);
-        let counted = whole(study.trials().unwrap(), 300);
+        let counted = whole(study.trials().unwrap(), 300, &()).unwrap();
         let counter = counted.get(&study.counters.keys[0]).unwrap();
         assert_eq!(counter.sums, Sums::of(counts.as_flattened()));
     }

@@ -115,11 +115,8 @@ impl Study for OperatingPoint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::SweepConfig;
-    use crate::pilot::Pilots;
-    use crate::plan::Plan;
-    use crate::run;
     use crate::stats::tally::Tally;
+    use crate::study::Sweep;
     use crate::study::tests::{read, rows};
 
     const SEARCH: &str = "question = \"?\"\nseed = 5\ntrials = 4000\n[impulses]\nnu = 0.2\n\
@@ -145,10 +142,10 @@ mod tests {
                  reference = {size}\nshift = {size}\nscale = {size}\n\
                  [axis]\ndelta = {{ from = 0.0, to = 3.2, step = 0.003125 }}\n"
             );
-            let plan = Plan::new(&SweepConfig::parse("test", &text).unwrap()).unwrap();
-            let decisions = Pilots::new(&plan).unwrap().decide(|_| {}).unwrap();
-            let tallies = run::run(&plan, &decisions, &[], |_| {}).tallies;
-            let along: Vec<(f64, Tally)> = (plan.points.iter().zip(tallies))
+            let sweep: Sweep = read(&text);
+            let points = sweep.rows(&sweep.counts(&()).unwrap());
+            let tallies = points.into_iter().map(|row| row.tally);
+            let along: Vec<(f64, Tally)> = (sweep.plan.points.iter().zip(tallies))
                 .filter(|(point, _)| point.scenario.moves())
                 .map(|(point, tally)| (point.scenario.motion.delta, tally))
                 .collect();

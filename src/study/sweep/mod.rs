@@ -2,11 +2,12 @@
 
 mod labels;
 pub(super) mod picture;
+mod tally;
 mod targets;
 mod trials;
 mod x_axis;
 
-use crate::claim::{self, Curve, Evidence, Outcome, Scope};
+use crate::claim::{self, Evidence, Outcome, Scope};
 use crate::counts::{Counts, Key, Sums};
 use crate::experiment::{Experiment, SWEEP, SweepConfig, schema};
 use crate::figure::FigureError;
@@ -30,7 +31,9 @@ impl Study for Sweep {
     type Row = Row;
 
     fn read(experiment: &Experiment, _context: Context) -> Result<Self, StudyError> {
-        Self::new(SweepConfig::new(experiment.clone())?)
+        let config = SweepConfig::new(experiment.clone())?;
+        targets::check_sizes(&config)?;
+        Ok(Self::new(config)?)
     }
 
     fn schema(generator: &mut SchemaGenerator) -> Value {
@@ -58,18 +61,16 @@ impl Study for Sweep {
     fn rows(&self, counts: &Counts) -> Vec<Row> {
         let points = self.plan.points.iter().zip(&self.keys);
         let shape = Subject::Point(0).shape();
+        let confidence = self.config.header().confidence.get();
         points
             .map(|(point, key)| {
                 let (trials, sums) = counted(counts, key, &shape);
-                let hits = sums.counts[0];
-                let decision = self.decision(point, key, counts);
-                let tally = Tally { hits, trials };
-                Row::summarised(
-                    point,
-                    &decision,
-                    tally,
-                    self.config.header().confidence.get(),
-                )
+                let tally = Tally {
+                    hits: sums.counts[0],
+                    trials,
+                };
+                let decision = counts.decisions.get(key).copied();
+                Row::new(point, decision, tally, confidence)
             })
             .collect()
     }
@@ -130,27 +131,10 @@ impl Study for Sweep {
     }
 
     fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        let values = &self.config.axis().values;
-        let curve = |(index, curve): (usize, &Curve)| picture::SweepCurve {
-            panel: curve.panel.clone(),
-            series: curve.series.clone(),
-            step_gain: (values.first())
-                .and_then(|value| self.config.scenario(index, value).ok())
-                .map(|scenario| scenario.sensor.step_gain()),
-        };
-        let sweep = picture::Sweep {
-            axis: self.config.parameter(),
-            values: values.iter().filter_map(|value| value.number()).collect(),
-            curves: self
-                .config
-                .scope
-                .curves
-                .iter()
-                .enumerate()
-                .map(curve)
-                .collect(),
-        };
-        picture::plot(&sweep, rows, seed)
+        let step_gain =
+            |places: &Vec<usize>| self.plan.points[places[0]].scenario.sensor.step_gain();
+        let step_gains: Vec<f64> = self.plan.along.iter().map(step_gain).collect();
+        picture::plot(&self.config.scope, &step_gains, rows, seed)
     }
 
     fn points(&self) -> String {

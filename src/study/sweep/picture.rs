@@ -3,6 +3,7 @@
 
 use super::labels::{self, WHITENED_DELTA, axis_label, common_facts, is_held_against_alpha};
 use super::x_axis::XAxis;
+use crate::claim::{self, Scope};
 use crate::figure::FigureError;
 use crate::plot::{
     Axis, Curve, Entry, Key, LONG_RANGE, Limit, Mark, Panel, Place, Plot, Point, Style, add_bands,
@@ -19,46 +20,32 @@ const SMALL_HEIGHT: f64 = 114.0;
 const TITLE: f64 = 22.0;
 const TOP_AXIS: f64 = 32.0;
 
-/// What is swept.
-#[derive(Clone, Debug)]
-pub struct Sweep {
-    pub axis: &'static Parameter,
-    /// Of the axis, where they are numbers.
-    pub values: Vec<f64>,
-    pub curves: Vec<SweepCurve>,
-}
-
-/// How a curve is shown.
-#[derive(Clone, Debug)]
-pub struct SweepCurve {
-    /// The panel it is drawn in.
-    pub panel: Option<String>,
-    /// Its name in the legend, where curves of several panels share it.
-    pub series: Option<String>,
-    /// 1 − β: what a unit of Δ in the record becomes after whitening.
-    pub step_gain: Option<f64>,
-}
-
 /// Curves that share a panel.
 struct Group {
     title: String,
     curves: Vec<Curve>,
 }
 
-/// The picture of a sweep.
+/// The picture of a sweep. `step_gains` has of every curve 1 − β: what a unit of Δ in the record becomes after
+/// whitening.
 ///
 /// # Errors
 /// Where no row lies on the axis.
-pub fn plot(sweep: &Sweep, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-    let curves = 1..=sweep.curves.len();
+pub fn plot(
+    scope: &Scope,
+    step_gains: &[f64],
+    rows: &[Row],
+    seed: u64,
+) -> Result<Plot, FigureError> {
+    let curves = 1..=scope.curves.len();
     let drawn: Vec<Vec<&Row>> = curves.map(|curve| rows_of(rows, curve)).collect();
     let all = drawn.concat();
     if all.is_empty() {
-        return Err(FigureError::Empty(sweep.axis.name));
+        return Err(FigureError::Empty(scope.axis.name));
     }
-    let axis = XAxis::new(sweep.axis, &sweep.values, &all);
+    let axis = XAxis::new(&scope.axis, &all);
     let common = common_facts(&all);
-    let (entries, mut groups) = grouped(sweep, &drawn, &axis, &common);
+    let (entries, mut groups) = grouped(&scope.curves, &drawn, &axis, &common);
     let is_false_alarm = all.iter().all(|row| row.is_at_rest());
     let is_log = is_false_alarm && spans_far(&groups);
     groups.iter_mut().for_each(|group| group.scale(is_log));
@@ -69,12 +56,14 @@ pub fn plot(sweep: &Sweep, rows: &[Row], seed: u64) -> Result<Plot, FigureError>
     } else {
         power_axis()
     };
-    let label = axis_label(sweep.axis, is_whitened(&all));
+    let label = axis_label(axis.parameter, is_whitened(&all));
     let mut plot = panels(&groups, &axis, label, &y);
-    if let Some(unit) = whitened_unit(sweep, &all).filter(|_| !axis.is_logarithmic()) {
+    if let Some(unit) =
+        whitened_unit(axis.parameter, step_gains, &all).filter(|_| !axis.is_logarithmic())
+    {
         plot.add_whitened_axis(unit);
     }
-    plot.set_caption(&labels::caption(&all, common, sweep.axis, seed));
+    plot.set_caption(&labels::caption(&all, common, axis.parameter, seed));
     if points(&groups).any(|point| point.limit.is_some()) {
         let arrows = "arrows: upper limits where no trial gave a false alarm";
         plot.caption.push(arrows.to_owned());
@@ -120,7 +109,7 @@ impl Group {
 
 /// The legend, and the curves in the panels that they name.
 fn grouped(
-    sweep: &Sweep,
+    curves: &[claim::Curve],
     drawn: &[Vec<&Row>],
     axis: &XAxis,
     common: &[Option<labels::Fact>],
@@ -132,10 +121,13 @@ fn grouped(
     };
     let mut entries: Vec<Entry> = Vec::new();
     let mut groups: Vec<Group> = Vec::new();
-    let curves = sweep.curves.iter().zip(drawn);
-    for (curve, rows) in curves.filter(|(_, rows)| !rows.is_empty()) {
+    for (curve, rows) in curves
+        .iter()
+        .zip(drawn)
+        .filter(|(_, rows)| !rows.is_empty())
+    {
         let series = curve.series.clone();
-        let text = series.unwrap_or_else(|| labels::legend(rows, common, sweep.axis));
+        let text = series.unwrap_or_else(|| labels::legend(rows, common, axis.parameter));
         let known = entries.iter().find(|entry| entry.text == text);
         let style = known.map_or(Style::of(entries.len()), |entry| entry.style);
         if known.is_none() {
@@ -249,13 +241,13 @@ fn is_whitened(rows: &[&Row]) -> bool {
 }
 
 /// 1 − β, where the axis is Δ in the record and every curve has the same sensor, undecimated.
-fn whitened_unit(sweep: &Sweep, rows: &[&Row]) -> Option<f64> {
+fn whitened_unit(axis: &Parameter, step_gains: &[f64], rows: &[&Row]) -> Option<f64> {
     let first = rows[0];
     let agrees = |row: &&Row| {
         let is_same = |name| row.values.cell(name) == first.values.cell(name);
         let is_plain = row.values.number("decimation") == 1.0;
         row.values.text("delta_at") == "record" && is_same("sensor") && is_plain
     };
-    let is_one = sweep.axis.name == "delta" && rows.iter().all(agrees);
-    sweep.curves[first.curve - 1].step_gain.filter(|_| is_one)
+    let is_one = axis.name == "delta" && rows.iter().all(agrees);
+    is_one.then(|| step_gains[first.curve - 1])
 }

@@ -1,33 +1,35 @@
 //! What a sweep counts: its points, and the pairs of points that claims compare.
 
 use crate::claim::{self, Pair};
-use crate::counts::{Counts, DecisionSummary, Key, Shape};
-use crate::experiment::{SWEEP, SweepConfig};
-use crate::plan::{Plan, Point};
-use crate::results::{self, Row};
-use crate::run::{Identity, StudyError, Target};
-use crate::stats::tally::Tally;
+use crate::counts::{Key, Shape};
+use crate::experiment::{ConfigError, SWEEP, SweepConfig};
+use crate::plan::Plan;
+use crate::results;
+use crate::run::{Identity, Target};
 use crate::study::kind::TooMany;
 use std::collections::{BTreeMap, BTreeSet};
+use std::slice;
 
 /// A plan, and what its claims compare.
 pub struct Sweep {
+    /// What its author wrote.
     pub config: SweepConfig,
+    /// Its points.
     pub plan: Plan,
     /// Pairs of points that claims compare.
     pub pairs: Vec<Pair>,
     /// Of each pair what it is compared by.
-    pub compared: Vec<Compared>,
+    pub(super) compared: Vec<Compared>,
     /// The counter of every point.
-    pub keys: Vec<Key>,
+    pub(super) keys: Vec<Key>,
     /// Every counter once, in the order of the keys, and what it counts.
-    pub targets: Vec<Target>,
-    pub subjects: Vec<Subject>,
+    pub(super) targets: Vec<Target>,
+    pub(super) subjects: Vec<Subject>,
 }
 
 /// What a counter counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Subject {
+pub(super) enum Subject {
     /// How often a point of the plan decides for H₁.
     Point(usize),
     /// Of two points that share their noise, how often only the first, only the second does.
@@ -36,7 +38,7 @@ pub enum Subject {
 
 /// How two points are compared.
 #[derive(Clone, Debug)]
-pub enum Compared {
+pub(super) enum Compared {
     /// They are the same and never differ.
     Itself,
     /// By the trials of the noise they share.
@@ -53,22 +55,41 @@ impl Subject {
             Self::Pair(_) => 2,
         })
     }
+
+    /// The points it is of.
+    pub fn points(&self) -> &[usize] {
+        match self {
+            Self::Point(point) => slice::from_ref(point),
+            Self::Pair(points) => points,
+        }
+    }
+
+    /// The same of points with other places.
+    pub fn map(self, place: impl Fn(usize) -> usize) -> Self {
+        match self {
+            Self::Point(point) => Self::Point(place(point)),
+            Self::Pair(points) => Self::Pair(points.map(place)),
+        }
+    }
 }
 
 impl Sweep {
     /// Plans a config.
     ///
     /// # Errors
-    /// Where a parameter of a point is out of range, no region or record can be made for it, or there is more
-    /// than can be planned, compared or drawn.
-    pub fn new(config: SweepConfig) -> Result<Self, StudyError> {
-        check_sizes(&config)?;
+    /// Where a parameter of a point is out of range, or no region or record can be made for it.
+    pub fn new(config: SweepConfig) -> Result<Self, ConfigError> {
         let plan = Plan::new(&config)?;
+        let pairs = plan.pairs(&config);
+        Ok(Self::comparing(config, plan, pairs))
+    }
+
+    /// Of a plan, and these pairs of its points.
+    pub(super) fn comparing(config: SweepConfig, plan: Plan, pairs: Vec<Pair>) -> Self {
         let keys: Vec<Key> = identities(&plan)
             .map(|identity| identity.key(SWEEP, plan.seed, plan.common_random_numbers))
             .collect();
-        let pairs = plan.pairs(&config);
-        let family_of = plan.families();
+        let family_of = plan.schedule.family_of();
         let compared: Vec<Compared> = pairs
             .iter()
             .map(|pair| Compared::new([pair.first, pair.second], &keys, &family_of))
@@ -83,7 +104,7 @@ impl Sweep {
             key: key.clone(),
             shape: subject.shape(),
         };
-        Ok(Self {
+        Self {
             targets: each.iter().map(target).collect(),
             subjects: each.into_values().collect(),
             config,
@@ -91,13 +112,7 @@ impl Sweep {
             pairs,
             compared,
             keys,
-        })
-    }
-
-    /// How a point decides, as far as that is known.
-    pub fn decision(&self, point: &Point, key: &Key, counts: &Counts) -> DecisionSummary {
-        let known = counts.decisions.get(key).copied();
-        known.unwrap_or_else(|| Row::new(point, None, NOTHING, 0.5).decision())
+        }
     }
 }
 
@@ -107,7 +122,7 @@ const MOST_COMPARISONS: usize = 50_000;
 const MOST_PANELS: usize = 12;
 
 /// Refuses what would take hours or gigabytes, before anything is paid for.
-fn check_sizes(config: &SweepConfig) -> Result<(), TooMany> {
+pub(super) fn check_sizes(config: &SweepConfig) -> Result<(), TooMany> {
     let comparisons = claim::number_of_pairs(&config.narrative.claims, &config.scope);
     let remedy = "make fewer claims, or of fewer curves";
     TooMany::check("comparisons", comparisons, MOST_COMPARISONS, remedy)?;
@@ -119,9 +134,6 @@ fn check_sizes(config: &SweepConfig) -> Result<(), TooMany> {
         .collect();
     TooMany::check("panels", panels.len(), MOST_PANELS, "split the config")
 }
-
-/// A point that was not counted.
-pub const NOTHING: Tally = Tally { hits: 0, trials: 1 };
 
 impl Compared {
     fn new(places: [usize; 2], keys: &[Key], family_of: &[usize]) -> Self {
@@ -136,7 +148,7 @@ impl Compared {
 }
 
 /// Every parameter of every point, its place among the curves apart.
-pub fn identities(plan: &Plan) -> impl Iterator<Item = Identity> + '_ {
+pub(super) fn identities(plan: &Plan) -> impl Iterator<Item = Identity> + '_ {
     plan.points.iter().map(|point| Identity {
         parameters: results::parameters(&point.scenario),
         place: format!(", in curve {}", point.curve + 1),

@@ -1,13 +1,13 @@
 //! The trials of a sweep: families of points that share their noise, and the pilots before them.
 
-use super::targets::{NOTHING, Subject, Sweep};
+use super::tally::{Decisions, Tallies};
+use super::targets::{Subject, Sweep};
 use crate::chain::{Decision, Family};
 use crate::counts::{Counter, Counts, DecisionSummary, Key, Sums};
 use crate::pilot::Pilots;
-use crate::plan::Plan;
-use crate::results::Row;
-use crate::run::tally::{Decisions, Families, Tallies};
-use crate::run::{Group, Progress, StudyError, Target, Trials};
+use crate::plan::Point;
+use crate::run::{self, Group, Progress, StudyError, Target, Trials};
+use crate::schedule::Schedule;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
@@ -16,6 +16,17 @@ use std::sync::Arc;
 pub(super) struct Sampling<'a> {
     sweep: &'a Sweep,
     decisions: Vec<Option<Decision>>,
+}
+
+impl Sweep {
+    /// Runs all of its trials at once and keeps the counts in memory.
+    ///
+    /// # Errors
+    /// Where a pilot shows no decision.
+    pub fn counts(&self, progress: &dyn Progress) -> Result<Counts, StudyError> {
+        let sampling = Box::new(Sampling::new(self));
+        run::whole(sampling, self.plan.schedule.trials, progress)
+    }
 }
 
 impl<'a> Sampling<'a> {
@@ -29,16 +40,10 @@ impl<'a> Sampling<'a> {
         let each = targets
             .iter()
             .flat_map(|&at| self.sweep.subjects[at].points());
-        each.collect::<BTreeSet<usize>>().into_iter().collect()
-    }
-}
-
-impl Subject {
-    fn points(self) -> Vec<usize> {
-        match self {
-            Self::Point(point) => vec![point],
-            Self::Pair(points) => points.to_vec(),
-        }
+        each.copied()
+            .collect::<BTreeSet<usize>>()
+            .into_iter()
+            .collect()
     }
 }
 
@@ -63,9 +68,8 @@ impl Trials for Sampling<'_> {
             let Subject::Pair(points) = *subject else {
                 continue;
             };
-            let each = points.map(|point| counts.get(&keys[point]));
-            if let (Some(pair), [Some(first), Some(second)]) = (counts.get(&target.key), each) {
-                check_pair(pair, [first, second])?;
+            if let Some(pair) = counts.get(&target.key) {
+                check_pair(pair, points.map(|point| counts.get(&keys[point])))?;
             }
         }
         Ok(())
@@ -76,33 +80,33 @@ impl Trials for Sampling<'_> {
         targets: &[usize],
         progress: &dyn Progress,
     ) -> Result<BTreeMap<Key, DecisionSummary>, StudyError> {
-        let points = self.points(targets);
-        let plan = self.sweep.plan.subset(&points);
-        let pilots = Pilots::new(&plan)?;
+        let plan = &self.sweep.plan;
+        let places = self.points(targets);
+        let points: Vec<Point> = places.iter().map(|&at| plan.points[at].clone()).collect();
+        let pilots = Pilots::new(&points, plan.pilot, plan.seed)?;
         progress.begin("pilots", pilots.work(), plan.pilot);
         let decisions = pilots.decide(|work| progress.done(work));
         progress.end();
         let mut summaries = BTreeMap::new();
-        for ((&at, point), decision) in points.iter().zip(&plan.points).zip(decisions?) {
-            let row = Row::new(point, Some(&decision), NOTHING, 0.5);
-            summaries.insert(self.sweep.keys[at].clone(), row.decision());
+        for (at, decision) in places.into_iter().zip(decisions?) {
+            summaries.insert(self.sweep.keys[at].clone(), decision.summary());
             self.decisions[at] = Some(decision);
         }
         Ok(summaries)
     }
 
     fn pretend(&mut self) -> Result<u64, StudyError> {
-        let pilots = Pilots::new(&self.sweep.plan)?;
+        let plan = &self.sweep.plan;
+        let pilots = Pilots::new(&plan.points, plan.pilot, plan.seed)?;
         self.decisions = pilots.stand_ins().into_iter().map(Some).collect();
         Ok(pilots.work())
     }
 
     fn groups(&self, targets: &[usize]) -> Vec<Group<'_>> {
         let job = Arc::new(Job::new(self, targets));
-        let families = job.plan.schedule.families.iter().enumerate();
+        let families = job.schedule.families.iter().enumerate();
         let group = |(family, of): (usize, &Family)| {
-            let counters = job.counted[family].iter().map(|&(target, _)| target);
-            let (counters, job) = (counters.collect(), Arc::clone(&job));
+            let (counters, job) = (job.targets[family].clone(), Arc::clone(&job));
             Group {
                 work: of.points_per_trial() as u64,
                 gigabytes: of.gigabytes(),
@@ -116,23 +120,27 @@ impl Trials for Sampling<'_> {
 /// A pair and its points that cannot have been counted in the same trials.
 #[derive(Debug, thiserror::Error)]
 #[error(
-    "points of {hits:?} detections, of which {alone:?} at one of them alone: the others must be as many at both"
+    "{alone:?} trials decided at one point of a pair alone, of points of {hits:?} detections: the others must be as \
+     many at both, and all no more than there are trials"
 )]
 struct Contradiction {
-    hits: [u64; 2],
+    hits: [Option<u64>; 2],
     alone: [u64; 2],
 }
 
 /// Whether some trials can have been decided for H₁ at both points, as many as either of them has beside those that
 /// it alone decided so: exactly, where all are of the same trials. In what a point counted and the pair did not, any
 /// number may have been; and so in what the pair counted and the point did not.
-fn check_pair(pair: &Counter, points: [&Counter; 2]) -> Result<(), Contradiction> {
+fn check_pair(pair: &Counter, points: [Option<&Counter>; 2]) -> Result<(), Contradiction> {
     let alone = [pair.sums.counts[0], pair.sums.counts[1]];
-    let hits = points.map(|point| point.sums.counts[0]);
+    let hits = points.map(|point| point.map(|point| point.sums.counts[0]));
     let number = |number| i128::from(number);
     let others = number(pair.trials.len()) - number(alone[0]) - number(alone[1]);
     let (mut least, mut most) = (0, others);
     for (point, alone) in points.into_iter().zip(alone) {
+        let Some(point) = point else {
+            continue;
+        };
         let both = number(point.sums.counts[0]) - number(alone);
         least = least.max(both - number(point.trials.without(&pair.trials).len()));
         most = most.min(both + number(pair.trials.without(&point.trials).len()));
@@ -145,67 +153,46 @@ fn check_pair(pair: &Counter, points: [&Counter; 2]) -> Result<(), Contradiction
 
 /// Some of the points, arranged by the noise they share.
 struct Job {
-    plan: Plan,
+    schedule: Schedule,
     /// None before the pilots.
     decisions: Option<Decisions>,
-    families: Families,
-    /// The targets of each group, and what each counts: a place in this plan, or a pair of `families`.
-    counted: Vec<Vec<(usize, Counted)>>,
-}
-
-#[derive(Clone, Copy)]
-enum Counted {
-    Point(usize),
-    Pair(usize),
+    /// The targets of each family.
+    targets: Vec<Vec<usize>>,
+    /// What each of them counts, points by their places in the schedule.
+    subjects: Vec<Vec<Subject>>,
 }
 
 impl Job {
     fn new(sampling: &Sampling, targets: &[usize]) -> Self {
         let points = sampling.points(targets);
-        let here = |point: usize| points.binary_search(&point).expect("it is among them");
-        let subjects = targets.iter().map(|&at| sampling.sweep.subjects[at]);
-        let pairs = subjects.clone().filter_map(|subject| match subject {
-            Subject::Pair(points) => Some(points.map(here)),
-            Subject::Point(_) => None,
-        });
-        let plan = sampling.sweep.plan.subset(&points);
-        let families = Families::new(&plan, pairs.collect());
-        let decisions: Option<Vec<Decision>> = points
+        let schedule = sampling.sweep.plan.schedule_of(&points);
+        let decisions = points
             .iter()
-            .map(|&point| sampling.decisions[point].clone())
-            .collect();
-        let mut counted = vec![Vec::new(); plan.schedule.families.len()];
-        let family_of = plan.families();
-        let mut pair = 0..;
-        for (&target, subject) in targets.iter().zip(subjects) {
-            let (family, what) = match subject {
-                Subject::Point(point) => (family_of[here(point)], Counted::Point(here(point))),
-                Subject::Pair([first, _]) => {
-                    let pair = pair.next().expect("there is no end to numbers");
-                    (family_of[here(first)], Counted::Pair(pair))
-                }
-            };
-            counted[family].push((target, what));
+            .map(|&point| sampling.decisions[point].clone());
+        let decisions: Option<Vec<Decision>> = decisions.collect();
+        let family_of = schedule.family_of();
+        let mut of_family = vec![Vec::new(); schedule.families.len()];
+        let mut subjects = vec![Vec::new(); schedule.families.len()];
+        for &target in targets {
+            let here = |point: usize| points.binary_search(&point).expect("it is among them");
+            let subject = sampling.sweep.subjects[target].map(here);
+            let family = family_of[subject.points()[0]];
+            of_family[family].push(target);
+            subjects[family].push(subject);
         }
         Self {
-            plan,
+            schedule,
             decisions: decisions.map(Decisions::new),
-            families,
-            counted,
+            targets: of_family,
+            subjects,
         }
     }
 
     fn run(&self, group: usize, trials: Range<u64>) -> Vec<Sums> {
         let decisions = self.decisions.as_ref().expect("the pilots have run");
-        let mut tallies = Tallies::new(decisions, &self.families);
-        self.plan.schedule.run_block(group, trials, &mut tallies);
-        let counted = self.counted[group].iter();
-        counted
-            .map(|&(_, counted)| match counted {
-                Counted::Point(place) => Sums::of(&tallies.hits[place..=place]),
-                Counted::Pair(pair) => Sums::of(&tallies.discordant[pair]),
-            })
-            .collect()
+        let mut tallies = Tallies::new(decisions, &self.subjects[group]);
+        self.schedule.run_block(group, trials, &mut tallies);
+        tallies.sums
     }
 }
 
@@ -239,7 +226,7 @@ mod tests {
             let second = count(1, &Shape::events(1), &|[_, second]| vec![second]);
             let alone = |[first, second]: [bool; 2]| vec![first && !second, second && !first];
             let pair = count(2, &Shape::events(2), &alone);
-            prop_assert!(check_pair(&pair, [&first, &second]).is_ok());
+            prop_assert!(check_pair(&pair, [Some(&first), Some(&second)]).is_ok());
             let apart = |point: &Counter| {
                 point.trials.without(&pair.trials).len() + pair.trials.without(&point.trials).len()
             };
@@ -247,7 +234,7 @@ mod tests {
             for at in [0, 1] {
                 let mut other = pair.clone();
                 other.sums.counts[at] += unshared + 1;
-                prop_assert!(check_pair(&other, [&first, &second]).is_err());
+                prop_assert!(check_pair(&other, [Some(&first), Some(&second)]).is_err());
             }
         }
     }

@@ -1,21 +1,28 @@
 //! The axis of a sweep: where each row stands on it, and what its ticks say.
 
+use crate::claim;
 use crate::plot::{Axis, is_long};
 use crate::results::Row;
-use crate::scenario::Parameter;
+use crate::scenario::{Parameter, parameter};
 
 /// Where the rows of a sweep stand on its axis.
-pub(super) struct XAxis<'a> {
-    parameter: &'static Parameter,
+pub(super) struct XAxis {
+    pub parameter: &'static Parameter,
     /// What it is swept over, where these are numbers.
-    values: &'a [f64],
+    values: Vec<f64>,
     is_logarithmic: bool,
     /// The rules on a rule axis, in order.
     rules: Vec<String>,
 }
 
-impl<'a> XAxis<'a> {
-    pub fn new(parameter: &'static Parameter, values: &'a [f64], rows: &[&Row]) -> Self {
+impl XAxis {
+    pub fn new(axis: &claim::Axis, rows: &[&Row]) -> Self {
+        let parameter = parameter(axis.name).expect("the axis is a parameter");
+        let values: Vec<f64> = axis
+            .values
+            .iter()
+            .filter_map(|(_, number)| *number)
+            .collect();
         let mut rules: Vec<String> = Vec::new();
         for row in rows.iter().filter(|_| parameter.name == "rule") {
             let rule = row.values.text("rule");
@@ -25,8 +32,8 @@ impl<'a> XAxis<'a> {
         }
         Self {
             parameter,
+            is_logarithmic: is_long(&values),
             values,
-            is_logarithmic: is_long(values),
             rules,
         }
     }

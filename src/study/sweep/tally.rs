@@ -1,0 +1,201 @@
+//! What the points of a family decide, counted; and for pairs of points, how often only the one of them decided
+//! for H₁.
+
+use super::targets::Subject;
+use crate::chain::{Decision, Observation, View};
+use crate::counts::Sums;
+use crate::detect::{Region, Statistics};
+use crate::schedule::Gather;
+
+/// The decision of every point, those that points share kept once: a curve has one, and a trial goes through
+/// all of its points.
+#[derive(Clone, Debug)]
+pub(super) struct Decisions {
+    distinct: Vec<Decision>,
+    of: Vec<u32>,
+}
+
+impl Decisions {
+    pub fn new(decisions: impl IntoIterator<Item = Decision>) -> Self {
+        let mut distinct: Vec<Decision> = Vec::new();
+        let mut of = Vec::new();
+        for decision in decisions {
+            let known = distinct.iter().position(|known| known.is_same(&decision));
+            of.push(known.unwrap_or(distinct.len()) as u32);
+            if known.is_none() {
+                distinct.push(decision);
+            }
+        }
+        Self { distinct, of }
+    }
+}
+
+/// What some subjects of one family count. Decisions of [`WORD`] trials are gathered as bits of a word before they
+/// are counted, so that a pair of points is compared once a word and not once a trial.
+pub(super) struct Tallies<'a> {
+    decisions: &'a Decisions,
+    subjects: &'a [Subject],
+    /// What each point decided in the trials since the last count, the first in the lowest bit.
+    decided: Vec<u64>,
+    /// How many trials that are.
+    gathered: u32,
+    /// Of each subject.
+    pub sums: Vec<Sums>,
+}
+
+/// Trials that a word has bits for.
+const WORD: u32 = u64::BITS;
+
+impl<'a> Tallies<'a> {
+    /// Of subjects among which every point of the family is.
+    pub fn new(decisions: &'a Decisions, subjects: &'a [Subject]) -> Self {
+        let sums = subjects.iter().map(|subject| subject.shape().empty().sums);
+        Self {
+            decisions,
+            subjects,
+            decided: vec![0; decisions.of.len()],
+            gathered: 0,
+            sums: sums.collect(),
+        }
+    }
+
+    /// Counts what has been gathered.
+    fn count(&mut self) {
+        let decided = |place: usize| self.decided[place];
+        for (subject, sums) in self.subjects.iter().zip(&mut self.sums) {
+            let mut add = |at: usize, decided: u64| {
+                sums.counts[at] += u64::from(decided.count_ones());
+            };
+            match *subject {
+                Subject::Point(place) => add(0, decided(place)),
+                Subject::Pair(pair) => {
+                    let [first, second] = pair.map(decided);
+                    add(0, first & !second);
+                    add(1, second & !first);
+                }
+            }
+        }
+        for &place in self.subjects.iter().flat_map(Subject::points) {
+            self.decided[place] = 0;
+        }
+        self.gathered = 0;
+    }
+}
+
+impl View for Tallies<'_> {
+    fn look(&mut self, place: usize, observation: &mut Observation) {
+        let decision = &self.decisions.distinct[self.decisions.of[place] as usize];
+        let is_h1 = decision.is_h1(observation);
+        self.decided[place] |= u64::from(is_h1) << self.gathered;
+    }
+
+    fn look_along(&mut self, points: &[[u32; 2]], statistics: &[Statistics], _: &mut Observation) {
+        let alike = |a: &[u32; 2], b: &[u32; 2]| {
+            self.decisions.of[a[1] as usize] == self.decisions.of[b[1] as usize]
+        };
+        for points in points.chunk_by(alike) {
+            let decision = self.decisions.of[points[0][1] as usize];
+            match &self.decisions.distinct[decision as usize] {
+                Decision::Region { region, .. } => {
+                    decide(region, points, statistics, self.gathered, &mut self.decided);
+                }
+                Decision::Threshold { .. } => unreachable!("a score looks at the samples"),
+            }
+        }
+    }
+}
+
+/// Sets bit `trial` of each point whose W and T lie in the region.
+#[inline(never)]
+fn decide(
+    region: &Region,
+    points: &[[u32; 2]],
+    statistics: &[Statistics],
+    trial: u32,
+    decided: &mut [u64],
+) {
+    for &[number, place] in points {
+        let is_h1 = region.contains(statistics[number as usize]);
+        decided[place as usize] |= u64::from(is_h1) << trial;
+    }
+}
+
+impl Gather for Tallies<'_> {
+    fn end_trial(&mut self) {
+        self.gathered += 1;
+        if self.gathered == WORD {
+            self.count();
+        }
+    }
+
+    fn end_block(&mut self) {
+        self.count();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::chain::{Observation, Trial};
+    use crate::claim::{Pair, Place};
+    use crate::experiment::SweepConfig;
+    use crate::pilot::Pilots;
+    use crate::plan::Plan;
+    use crate::study::{Study, Sweep};
+
+    /// A pair's discordant counts against the definition, by two runs of its own: the decisions of one point
+    /// and of the other, trial by trial.
+    #[test]
+    fn discordant_trials_are_those_on_which_two_points_differ() {
+        let text = "question = \"?\"\nseed = 3\ntrials = 3000\n[axis]\ndelta = [0.2, 0.5]\n\
+                    [[curve]]\n[[curve]]\nimpulses = { nu = 0.3, theta = 9.0 }\n\
+                    [[curve]]\nnoise = { law = \"laplace\" }\n\
+                    [[claim]]\nclaim = \"?\"\ntest = \"grows\"\n";
+        let config = SweepConfig::parse("test", text).unwrap();
+        let plan = Plan::new(&config).unwrap();
+        let places = plan.points.len();
+        let nowhere = || Place {
+            curve: String::new(),
+            value: String::new(),
+        };
+        let pairs = (0..places).flat_map(|first| {
+            (0..places).map(move |second| Pair {
+                claim: 0,
+                first,
+                second,
+                places: [nowhere(), nowhere()],
+            })
+        });
+        let pairs = pairs.collect();
+        let sweep = Sweep::comparing(config, plan, pairs);
+        let counts = sweep.counts(&()).unwrap();
+        let comparisons = sweep.comparisons(&sweep.rows(&counts), &counts);
+        let plan = &sweep.plan;
+        let pilots = Pilots::new(&plan.points, plan.pilot, plan.seed).unwrap();
+        let decisions = pilots.decide(|_| {}).unwrap();
+        let mut decided = vec![vec![false; 3000]; places];
+        for family in &plan.schedule.families {
+            let mut trial = Trial::new(family);
+            for index in 0..3000 {
+                trial.run(index, &mut |place: usize, observation: &mut Observation| {
+                    decided[place][index as usize] = decisions[place].is_h1(observation);
+                });
+            }
+        }
+        assert_eq!(comparisons.len(), places * places);
+        for (&Pair { first, second, .. }, comparison) in sweep.pairs.iter().zip(&comparisons) {
+            let of_law = |place: usize| plan.points[place].scenario.noise;
+            let alone = |a: usize, b: usize| {
+                let trials = decided[a].iter().zip(&decided[b]);
+                trials.filter(|(a, b)| **a && !**b).count() as u64
+            };
+            let is_shared = of_law(first) == of_law(second);
+            let expected = is_shared.then(|| [alone(first, second), alone(second, first)]);
+            let discordant = comparison.first_only.zip(comparison.second_only);
+            assert_eq!(
+                discordant.map(<[u64; 2]>::from),
+                expected,
+                "{first} {second}"
+            );
+        }
+    }
+}
