@@ -60,7 +60,7 @@
 //!    gives; `run/missing.rs` spreads the missing blocks of trials over the threads.
 //! 7. In a block `study/sweep/trials.rs` has `schedule.rs` run trial after trial: `chain/trial.rs` takes noise from
 //!    `chain/batch.rs`, adds Δ by `chain/motion.rs`, whitens and ranks, and each point decides.
-//! 8. The decisions are counted as bits of words, and `counts` adds them up.
+//! 8. `study/sweep/tally.rs` counts the decisions, and `counts` adds the blocks up.
 //! 9. `study/sweep/mod.rs` makes the row (`results/row.rs`, `delta` by the table of step 2); `results/directory.rs`
 //!    writes it, and `study/sweep/picture.rs` makes of the rows a plot that `figure` draws.
 //!
