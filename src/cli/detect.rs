@@ -90,15 +90,16 @@ impl Detect {
 
     /// Refuses what is in the way before anything takes long.
     fn outputs(&self) -> Result<Outputs, Failure> {
-        let files = [&self.figure, &self.save_state, &self.csv];
-        apart(&self.recording, files.into_iter().flatten())?;
         let picture = |path: &PathBuf| Output::picture(path, self.force);
         let file = |path: &PathBuf| Output::new(path, self.force);
-        Ok(Outputs {
+        let outputs = Outputs {
             figure: self.figure.as_ref().map(picture).transpose()?,
             state: self.save_state.as_ref().map(file).transpose()?,
             csv: self.csv.as_ref().map(file).transpose()?,
-        })
+        };
+        let files = [&self.figure, &self.save_state, &self.csv];
+        apart(&self.recording, files.into_iter().flatten())?;
+        Ok(outputs)
     }
 
     /// Opens the recording, and prints the warnings about it.

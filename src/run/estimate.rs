@@ -3,6 +3,7 @@
 use super::missing::Work;
 use super::{Missing, Progress, StudyError, Trials};
 use crate::counts::Counts;
+use crate::simd::LANES;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
@@ -37,14 +38,18 @@ impl Estimate {
         let all = Work::new(trials, &of(number));
         // A trial-point of a pilot costs about as much as one of the run.
         let total = (all.size() + pilots) as f64;
-        let mut short = number.min(trials.block() * rayon::current_num_threads() as u64);
+        let threads = |work: &Work| work.blocks().clamp(1, rayon::current_num_threads() as u64);
+        // As many as run side by side: of the slowest points a block would take minutes.
+        let mut short = number.min(LANES as u64);
         let time = loop {
             let work = Work::new(trials, &of(short));
             let start = Instant::now();
             work.count(&Mutex::default(), &());
             let time = start.elapsed();
             if time >= LONG_ENOUGH || short == number {
-                break time.mul_f64(total / work.size().max(1) as f64);
+                // A short run may have fewer blocks than there are threads.
+                let busy = threads(&work) as f64 / threads(&all) as f64;
+                break time.mul_f64(busy * total / work.size().max(1) as f64);
             }
             short = number.min(4 * short);
         };

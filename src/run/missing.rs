@@ -104,11 +104,15 @@ impl<'a> Work<'a> {
         self.stretches.iter().map(work).sum()
     }
 
+    /// Pieces that threads take one by one.
+    pub fn blocks(&self) -> u64 {
+        let end = |at: &Stretch| at.before + blocks(&at.trials, self.block);
+        self.stretches.last().map_or(0, end)
+    }
+
     /// Adds to `counts` all that is missing, block by block on the current thread pool.
     pub fn count(&self, counts: &Mutex<Counts>, progress: &dyn Progress) {
-        let end = |at: &Stretch| at.before + blocks(&at.trials, self.block);
-        let all = self.stretches.last().map_or(0, end);
-        (0..all).into_par_iter().for_each(|block| {
+        (0..self.blocks()).into_par_iter().for_each(|block| {
             if progress.is_stopped() {
                 return;
             }
