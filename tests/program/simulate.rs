@@ -251,7 +251,7 @@ fn bad_flags_get_sentences() {
             "a ride must have 1 to 200000000 samples",
         ),
         (&["--sigma", "0"], "sigma must lie in"),
-        (&["--vibration=-1"], "vibration must be zero or positive"),
+        (&["--vibration=-1"], "vibration must lie in [0, 1e6] sigma"),
         (
             &["--step", "0"],
             "step must lie in [1e-9, 1e9] times sigma, got 0",
