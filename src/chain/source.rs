@@ -1,9 +1,14 @@
 //! The parameters that the noise of a trial depends on.
 
 use crate::detect::Samples;
+use crate::fields::further;
 use crate::scenario::Scenario;
-use crate::signal::{Disturbance, Impulses, Motion, Noise, Sensor};
+use crate::signal::{Disturbance, Noise, Sensor};
 use crate::simd::LANES;
+
+/// The fields that the text of noise that nothing shares has always named: the text addresses the draws.
+const MOTION: &[&str] = &["delta", "delta_at", "profile", "duration", "offset"];
+const IMPULSES: &[&str] = &["nu", "theta", "during"];
 
 /// The parameters of a trial's noise, and its length.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,15 +67,7 @@ impl Source {
     /// The subject with everything else that a scenario simulates, except the decision: for points that do
     /// not share noise.
     pub fn subject_of_all(&self, scenario: &Scenario) -> String {
-        // In full, so that nothing that a motion may have in addition is forgotten here.
-        let Motion {
-            delta: _,
-            delta_at: _,
-            profile,
-            duration,
-            offset,
-        } = scenario.motion;
-        let Impulses { nu, theta, during } = scenario.impulses;
+        let (motion, impulses) = (&scenario.motion, &scenario.impulses);
         let (whitening, digitiser) = (&scenario.whitening, &scenario.digitiser);
         format!(
             "{} whitening {} {} {} {} digitiser {:?} {:?} motion {} {} {} {} impulses {} {} {}",
@@ -82,13 +79,14 @@ impl Source {
             digitiser.quantum(),
             digitiser.range(),
             scenario.record_delta(),
-            profile,
-            duration,
-            offset,
-            nu.get(),
-            theta.get(),
-            during,
-        )
+            motion.profile,
+            motion.duration,
+            motion.offset,
+            impulses.nu.get(),
+            impulses.theta.get(),
+            impulses.during,
+        ) + &further(motion, MOTION)
+            + &further(impulses, IMPULSES)
     }
 
     /// Raw samples before the record proper: 0 if the noise starts out stationary.

@@ -1,10 +1,10 @@
 //! `liftsim merge DIR…`: shards into one result.
 
+use super::store::stored;
 use super::{CommandResult, Failure, print, sweep};
 use clap::Args;
 use liftsim::results::{Directory, Shard};
 use liftsim::run::{self, Absent, MergeError};
-use liftsim::study::Loaded;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -31,7 +31,7 @@ impl Merge {
         let origin = run::part(&directories[0]).map_err(Failure::input)?.origin;
         let name = Path::new(&origin.config_name);
         let out = self.out.unwrap_or_else(|| sweep::default_directory(name));
-        let loaded = Loaded::again(&origin).map_err(Failure::study)?;
+        let loaded = stored(&directories[0], &origin)?;
         let merged = run::merge(&*loaded.study, &origin, &directories, Directory::new(&out));
         let (session, absent) = merged.map_err(failure)?;
         if session.missing().is_none() {

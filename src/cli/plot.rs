@@ -1,11 +1,10 @@
 //! `liftsim plot DIR`: draws the figure again from the stored rows.
 
-use super::store::{line, store};
+use super::store::{line, store, stored};
 use super::{CommandResult, Failure, print};
 use clap::Args;
 use liftsim::results::Directory;
 use liftsim::run::DrawError;
-use liftsim::study::Loaded;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -23,8 +22,11 @@ impl Plot {
         directory.manifest().map_err(Failure::input)?;
         let _lock = directory.lock().map_err(Failure::input)?;
         let mut manifest = directory.manifest().map_err(Failure::input)?;
-        let study = Loaded::again(&manifest.origin).map_err(Failure::study)?;
+        let study = stored(&directory, &manifest.origin)?;
         let points = directory.points(&manifest).map_err(Failure::input)?;
+        let comparisons = directory.comparisons(&manifest).map_err(Failure::input)?;
+        (study.verify(&points, &comparisons))
+            .map_err(|error| Failure::input(directory.impossible(&error)))?;
         let drawing = study
             .draw(&points, &manifest)
             .map_err(|error| match error {

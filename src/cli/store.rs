@@ -1,7 +1,9 @@
 //! From results to files: what every verb that writes a result directory shares.
 
 use super::Failure;
+use anyhow::anyhow;
 use liftsim::results::{self, Directory, Manifest, Origin};
+use liftsim::study::Loaded;
 use std::collections::BTreeMap;
 
 /// How results came about that took `seconds`; no file is vouched for yet.
@@ -48,6 +50,16 @@ impl Written {
     pub fn note(&self) -> &'static str {
         if self.is_new { "written" } else { "unchanged" }
     }
+}
+
+/// The study of a config that is stored in a directory.
+pub fn stored(directory: &Directory, origin: &Origin) -> Result<Loaded, Failure> {
+    Loaded::again(origin).map_err(|error| {
+        Failure::Input(anyhow!(
+            "{}: its stored config cannot be read (choose another directory): {error}",
+            directory.path().display()
+        ))
+    })
 }
 
 /// Writes a file, lets the manifest vouch for it, and says whether it is new.

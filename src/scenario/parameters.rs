@@ -4,6 +4,7 @@
 //! A parameter is a field of a section's type and a line here.
 
 use super::Scenario;
+use crate::fields::further;
 use crate::signal::{Impulses, Motion, Sensor};
 use crate::whiten::Order;
 use serde::de::{Deserializer, Error, Visitor};
@@ -348,18 +349,13 @@ impl PartialEq for Parameter {
 
 /// The stated motion of a method, in words.
 fn stated((motion, impulses): (Motion, Impulses)) -> Cell {
-    // In full, so that nothing that a motion may have in addition is forgotten here.
-    let Motion {
-        delta,
-        delta_at,
-        profile,
-        duration,
-        offset,
-    } = motion;
-    let Impulses { nu, theta, during } = impulses;
-    let (nu, theta) = (nu.get(), theta.get());
+    let named = ["delta", "delta_at", "profile", "duration", "offset"];
+    let further = further(&motion, &named) + &further(&impulses, &["nu", "theta", "during"]);
+    let (delta, duration, offset) = (motion.delta, motion.duration, motion.offset);
+    let (nu, theta, during) = (impulses.nu.get(), impulses.theta.get(), impulses.during);
     Cell::text(format_args!(
-        "delta {delta} {delta_at} {profile} duration {duration} offset {offset} nu {nu} theta {theta} {during}"
+        "delta {delta} {} {} duration {duration} offset {offset} nu {nu} theta {theta} {during}{further}",
+        motion.delta_at, motion.profile
     ))
 }
 

@@ -7,7 +7,7 @@ use crate::experiment::Experiment;
 use crate::figure::{Drawing, render};
 use crate::plot::layout;
 use crate::report::Section;
-use crate::results::{Directory, Manifest, Origin, RESULTS, ResultsError, file_name};
+use crate::results::{Comparison, Directory, Manifest, Origin, RESULTS, ResultsError, file_name};
 use crate::run::{AnyStudy, DrawError, Output, StudyError};
 
 /// A config's study, with the numbers of this run.
@@ -69,6 +69,22 @@ impl Loaded {
         Ok(())
     }
 
+    /// Whether the rows of a finished result can have been counted, so far as they hold their counts.
+    ///
+    /// # Errors
+    /// If they contradict themselves, each other or the number of trials.
+    pub fn verify(&self, points: &[u8], comparisons: &[Comparison]) -> Result<(), StudyError> {
+        let recalled = self.study.recall(points, comparisons)?;
+        let (Some(counts), Some(trials)) = (recalled, self.study.trials()) else {
+            return Ok(());
+        };
+        let all = self.origin.trials;
+        for target in trials.targets() {
+            counts.check(&target.key, &target.shape, 0..all, all)?;
+        }
+        trials.check(&counts)
+    }
+
     /// Draws `points.csv`.
     ///
     /// # Errors
@@ -86,7 +102,10 @@ impl Loaded {
         let manifest = directory.manifest()?;
         let comparisons = directory.comparisons(&manifest)?;
         let quantities = directory.quantities(&manifest)?;
-        let outcomes = self.study.outcomes(&directory.points(&manifest)?);
+        let points = directory.points(&manifest)?;
+        self.verify(&points, &comparisons)
+            .map_err(|error| directory.impossible(&error))?;
+        let outcomes = self.study.outcomes(&points);
         let evidence = Evidence {
             scope: self.scope.clone(),
             outcomes: outcomes.map_err(|error| directory.damaged_points(error))?,
