@@ -1,5 +1,5 @@
-//! What a config comes to: every point with its scenario and region, and the families that share
-//! noise. Whatever can go wrong goes wrong here, before the first trial.
+//! The plan of a sweep: every point with its scenario and region, and the families that share noise. Errors
+//! in a config are found here, before the first trial.
 
 use crate::chain::{Detector, Purpose, Scenario};
 use crate::claim::{self, Pair};
@@ -12,12 +12,13 @@ use std::sync::Arc;
 /// Every point of an experiment, ready to run.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// In the order of the results.
+    /// The points, in the order of the results.
     pub points: Vec<Point>,
-    /// Of each curve the point at each value of the axis: the one in motion, or the one at rest where nothing
-    /// in the curve moves. What is the same at rest is planned once, under the first curve.
+    /// For each curve, the index of the point at each value of the axis. This is the point in motion, or the
+    /// point at rest if nothing in the curve moves. Points that are equal at rest are planned once, under the
+    /// first curve.
     pub along: Vec<Vec<usize>>,
-    /// Where every draw starts from.
+    /// The seed of all random draws.
     pub seed: u64,
     /// Whether points share their noise.
     pub common_random_numbers: bool,
@@ -30,31 +31,31 @@ pub struct Plan {
 /// One point of one curve under one hypothesis.
 #[derive(Clone, Debug)]
 pub struct Point {
-    /// From 0.
+    /// The number of the curve, from 0.
     pub curve: usize,
-    /// Which value of the axis, from 0.
+    /// The number of the axis value, from 0.
     pub value: usize,
     /// The curve's label.
     pub label: String,
     /// Whether anything moves.
     pub hypothesis: Hypothesis,
-    /// Every parameter.
+    /// The parameters of the point.
     pub scenario: Scenario,
-    /// How it decides.
+    /// How the point makes its decision.
     pub design: Design,
 }
 
-/// How a point comes by its decision.
+/// How a point obtains its decision rule.
 #[derive(Clone, Debug)]
 pub enum Design {
-    /// A region that the exact laws give.
+    /// The region follows from the exact laws.
     Region(Arc<Region>),
-    /// What a pilot run finds.
+    /// A pilot run determines the rule.
     Pilot,
 }
 
 impl Design {
-    /// The exact size, where it is known before any pilot.
+    /// The exact size, if it is known without a pilot.
     pub fn size(&self) -> Option<f64> {
         match self {
             Self::Region(region) => Some(region.size()),
@@ -63,7 +64,7 @@ impl Design {
     }
 }
 
-/// What a point simulates.
+/// The hypothesis that a point simulates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hypothesis {
     /// Rest.
@@ -73,12 +74,12 @@ pub enum Hypothesis {
 }
 
 impl Plan {
-    /// Every point of every curve, and for each distinct (sensor, noise, whitening, samples,
-    /// detector) the same at rest. A curve in which nothing ever moves is a false-alarm curve: it
-    /// has points at rest alone, and so has a config that asks for nothing else.
+    /// Plans every point of every curve, and one point at rest for each distinct (sensor, noise, whitening,
+    /// samples, detector). A curve in which nothing ever moves is a false-alarm curve and has only points at
+    /// rest. A config that asks only for points at rest has only these, too.
     ///
     /// # Errors
-    /// Where a parameter of a point is out of range, or no region or record can be made for it.
+    /// If a parameter of a point is out of range, or no region or record can be made for the point.
     pub fn new(config: &SweepConfig) -> Result<Self, ConfigError> {
         let header = config.header();
         let (points, along) = points(config)?;
@@ -104,7 +105,7 @@ impl Plan {
         })
     }
 
-    /// The schedule of some of its points alone.
+    /// The schedule of a subset of the points.
     pub fn schedule_of(&self, points: &[usize]) -> Schedule {
         let schedule = Schedule::new(
             points.iter().map(|&at| &self.points[at].scenario),
@@ -116,13 +117,13 @@ impl Plan {
         schedule.expect("the records fitted in memory with more points")
     }
 
-    /// The pairs of points that the claims of its config compare.
+    /// The pairs of points that the claims of the config compare.
     pub fn pairs(&self, config: &SweepConfig) -> Vec<Pair> {
         claim::pairs(&config.narrative.claims, &config.scope, &self.along)
     }
 }
 
-/// Every point, and of each curve the place of the point at each value of the axis.
+/// Every point, and for each curve the index of the point at each value of the axis.
 fn points(config: &SweepConfig) -> Result<(Vec<Point>, Vec<Vec<usize>>), ConfigError> {
     let mut designer = Designer::default();
     let (mut points, mut at_rest, mut along) = (Vec::<Point>::new(), Vec::new(), Vec::new());
@@ -142,6 +143,7 @@ fn points(config: &SweepConfig) -> Result<(Vec<Point>, Vec<Vec<usize>>), ConfigE
                 design: design.clone(),
             };
             let resting = scenario.at_rest();
+            // An earlier value or curve may have planned the same point at rest.
             let known = at_rest
                 .iter()
                 .find(|&&at: &&usize| points[at].scenario == resting);
@@ -161,7 +163,7 @@ fn points(config: &SweepConfig) -> Result<(Vec<Point>, Vec<Vec<usize>>), ConfigE
     Ok((points, along))
 }
 
-/// Of each curve the scenario at each value of the axis.
+/// For each curve, the scenario at each value of the axis.
 fn scenarios(config: &SweepConfig) -> Result<Vec<Vec<Scenario>>, ConfigError> {
     let curves = 0..config.scope.curves.len();
     curves
@@ -172,7 +174,7 @@ fn scenarios(config: &SweepConfig) -> Result<Vec<Vec<Scenario>>, ConfigError> {
         .collect()
 }
 
-/// Makes each region once. Of the laws, which are large, it keeps only those of the last sizes.
+/// Makes each region once. It keeps only the latest laws, because laws are large.
 #[derive(Default)]
 struct Designer {
     laws: Option<(Samples, Alternative, NullLaws)>,
@@ -180,8 +182,9 @@ struct Designer {
 }
 
 impl Designer {
-    /// The exact region, or the promise of a pilot. A rule that is to be calibrated is made all the
-    /// same: what it cannot reach exactly, it cannot reach at all.
+    /// The exact region, or a note that a pilot will determine it. The exact region is made even for a rule
+    /// that a pilot will calibrate, because a level that cannot be reached exactly cannot be reached by
+    /// calibration.
     fn design(&mut self, scenario: &Scenario) -> Result<Design, ScenarioError> {
         let detector = &scenario.detector;
         let region = match &detector.method {

@@ -1,8 +1,8 @@
-//! Many trials of many points: families that share noise, run in parallel in blocks.
+//! Runs many trials of many points. Families of points that share noise run in parallel, in blocks.
 //!
-//! A block is up to [`BLOCK`] consecutive trials of one family: the unit of scheduling, no more. A
-//! trial's draws are addressed by its own index, and what a [`Gather`] gathers of them must add up to the
-//! same in any order, so neither the blocks nor the number of threads leave a trace.
+//! A block is up to [`BLOCK`] consecutive trials of one family. It is only the unit of scheduling. The draws
+//! of a trial are addressed by the trial's index, and the sums of a [`Gather`] must be the same in any order,
+//! so neither the blocks nor the number of threads affect the results.
 
 use crate::chain::{Family, Purpose, RecordTooLong, Scenario, Trial, View};
 use rayon::prelude::*;
@@ -15,21 +15,21 @@ pub const BLOCK: u64 = 1024;
 pub struct Schedule {
     /// The scenarios by the noise they share.
     pub families: Vec<Family>,
-    /// Of every scenario.
+    /// The number of trials of every scenario.
     pub trials: u64,
 }
 
-/// What becomes of the trials.
+/// A view that gathers the outcomes of trials.
 pub trait Gather: View + Send {
-    /// A trial is over: all places of its family have been shown.
+    /// A trial has ended, and all places of its family have been shown.
     fn end_trial(&mut self) {}
 
-    /// A block is over.
+    /// A block has ended.
     fn end_block(&mut self) {}
 }
 
 impl Schedule {
-    /// Arranges `scenarios`; the place of each is that in the list.
+    /// Arranges `scenarios`. The place of a scenario is its index in the list.
     ///
     /// # Errors
     /// As [`Family::arrange`].
@@ -44,8 +44,8 @@ impl Schedule {
         Ok(Self { families, trials })
     }
 
-    /// Runs every trial of every family on the current thread pool; `add` adds what two have gathered.
-    /// `progress` hears of every finished block: how many trials of how many points it brought.
+    /// Runs every trial of every family on the current thread pool. `add` combines two sinks into one.
+    /// `progress` is called after every block with its number of trials times its number of points.
     pub fn run<S: Gather>(
         &self,
         new: impl Fn() -> S + Sync + Send,
@@ -76,7 +76,7 @@ impl Schedule {
         sink.end_block();
     }
 
-    /// Of every scenario the family it belongs to: those of one family share their noise.
+    /// The family of every scenario. Scenarios of one family share their noise.
     pub fn family_of(&self) -> Vec<usize> {
         let families = self.families.iter().enumerate();
         let mut each: Vec<(usize, usize)> = families
@@ -86,7 +86,7 @@ impl Schedule {
         each.into_iter().map(|(_, family)| family).collect()
     }
 
-    /// What [`Schedule::run`]'s progress adds up to.
+    /// The total that [`Schedule::run`] reports as progress.
     pub fn work(&self) -> u64 {
         let points: usize = self.families.iter().map(Family::points_per_trial).sum();
         self.trials * points as u64

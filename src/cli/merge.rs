@@ -1,4 +1,4 @@
-//! `liftsim merge DIR…`: shards into one result.
+//! `liftsim merge DIR…`: merges shards into one result.
 
 use super::store::stored;
 use super::{CommandResult, Failure, print, sweep};
@@ -50,7 +50,7 @@ fn failure(error: MergeError) -> Failure {
     }
 }
 
-/// What is missing, in words.
+/// Lists the missing parts in words.
 fn incomplete(absent: &Absent, command: &str, out: &Path) -> String {
     let mut text = String::from("incomplete:\n");
     if !absent.shards.is_empty() {

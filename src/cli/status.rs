@@ -1,4 +1,4 @@
-//! `liftsim status DIR…`: who has done what.
+//! `liftsim status DIR…`: shows the progress of each directory.
 
 use super::{CommandResult, Failure, print, table};
 use clap::Args;
@@ -50,7 +50,7 @@ impl StatusCommand {
     }
 }
 
-/// The directories of shards in the order of their numbers.
+/// The directories of the shards, in the order of their numbers.
 fn shards(directory: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(directory.join("shards"));
     let entries = entries.into_iter().flatten().flatten();

@@ -1,4 +1,4 @@
-//! From results to files: what every verb that writes a result directory shares.
+//! Writes results to files. Every command that writes a result directory uses these functions.
 
 use super::Failure;
 use anyhow::anyhow;
@@ -6,7 +6,7 @@ use liftsim::results::{self, Directory, Manifest, Origin};
 use liftsim::study::Loaded;
 use std::collections::BTreeMap;
 
-/// How results came about that took `seconds`; no file is vouched for yet.
+/// The manifest of results that took `seconds`. It lists no files yet.
 pub fn manifest(origin: &Origin, seconds: f64) -> Manifest {
     Manifest {
         origin: origin.clone(),
@@ -20,18 +20,18 @@ pub fn manifest(origin: &Origin, seconds: f64) -> Manifest {
     }
 }
 
-/// What has been written.
+/// A record of the files that have been written.
 pub struct Written {
-    /// A line per file.
+    /// The text for the user, with one line per file.
     pub files: String,
     /// Whether a file other than the manifest has new bytes.
     pub is_new: bool,
-    /// Wall clock of the simulation.
+    /// Wall-clock time of the simulation, in seconds.
     pub seconds: f64,
 }
 
 impl Written {
-    /// Nothing yet.
+    /// A record with no files yet.
     pub fn new(seconds: f64) -> Self {
         Self {
             files: String::new(),
@@ -40,19 +40,19 @@ impl Written {
         }
     }
 
-    /// One more file.
+    /// Adds one more file to the record.
     pub fn add(&mut self, directory: &Directory, name: &str, is_new: bool) {
         self.files += &line(directory, name, is_new);
         self.is_new |= is_new;
     }
 
-    /// In a word.
+    /// The outcome in one word.
     pub fn note(&self) -> &'static str {
         if self.is_new { "written" } else { "unchanged" }
     }
 }
 
-/// The study of a config that is stored in a directory.
+/// Loads the study of a config that is stored in a directory.
 pub fn stored(directory: &Directory, origin: &Origin) -> Result<Loaded, Failure> {
     Loaded::again(origin).map_err(|error| {
         Failure::Input(anyhow!(
@@ -62,7 +62,7 @@ pub fn stored(directory: &Directory, origin: &Origin) -> Result<Loaded, Failure>
     })
 }
 
-/// Writes a file, lets the manifest vouch for it, and says whether it is new.
+/// Writes a file, enters its hash in the manifest, and returns whether its bytes are new.
 pub fn store(
     directory: &Directory,
     manifest: &mut Manifest,
@@ -76,13 +76,13 @@ pub fn store(
     Ok(is_new)
 }
 
-/// A file and whether it is new.
+/// A line that names a file and says whether its bytes are new.
 pub fn line(directory: &Directory, name: &str, is_new: bool) -> String {
     let note = if is_new { "written" } else { "unchanged" };
     format!("{}  {note}\n", directory.path().join(name).display())
 }
 
-/// The processor family, and which vector instructions it offers.
+/// The processor family and its vector instructions.
 fn architecture() -> String {
     #[cfg(target_arch = "x86_64")]
     let features = [

@@ -68,7 +68,7 @@ impl Sweep {
         Ok(ExitCode::SUCCESS)
     }
 
-    /// results/<file stem>, and a place in it for each shard.
+    /// The directory results/<file stem>, with a subdirectory for each shard.
     fn default_directory(&self) -> PathBuf {
         let directory = default_directory(&self.simulation.config);
         match self.shard {
@@ -78,12 +78,12 @@ impl Sweep {
     }
 }
 
-/// results/<file stem>.
+/// The directory results/<file stem>.
 pub(super) fn default_directory(config: &Path) -> PathBuf {
     Path::new("results").join(config.file_stem().unwrap_or(config.as_os_str()))
 }
 
-/// Writes what a run came to, and says so. A shard has written all it has.
+/// Writes the results of a run and returns a summary. A shard saves only its counts.
 pub(super) fn finish(
     loaded: &Loaded,
     mut session: Session,
@@ -95,7 +95,8 @@ pub(super) fn finish(
         None => format!("[{}]", loaded.study.name()),
     };
     if let Some(shard) = shard {
-        // A share of no trials is one, too; and whoever joins it compares the words of the config.
+        // Save even a share without trials, because `merge` needs its file and compares the text of its
+        // config.
         let is_new = session.save().map_err(Failure::run)?;
         let counts = line(&directory, "counts.json", is_new);
         return Ok(format!("shard {shard}: {what}\n{counts}"));
@@ -115,7 +116,7 @@ pub(super) fn finish(
     Ok(format!("{findings}{what} in {seconds:.1} s\n{files}"))
 }
 
-/// Writes counts, then pictures, then the manifest that vouches for both.
+/// Writes the counts, then the figures, then the manifest with the hashes of both.
 pub(super) fn write(loaded: &Loaded, mut session: Session) -> Result<(Output, Written), Failure> {
     let start = Instant::now();
     let study = &loaded.study;
@@ -125,7 +126,7 @@ pub(super) fn write(loaded: &Loaded, mut session: Session) -> Result<(Output, Wr
         seconds = start.elapsed().as_secs_f64();
         loaded.judge(&output).map_err(Failure::study)?;
     }
-    // Until the manifest is written, a run continues from the counts.
+    // Save the counts first, so that a run interrupted before the manifest is written continues from them.
     session.save().map_err(Failure::run)?;
     let directory = session.directory().clone();
     let mut manifest = made_by(&session, manifest(&loaded.origin, seconds));
@@ -153,7 +154,7 @@ pub(super) fn write(loaded: &Loaded, mut session: Session) -> Result<(Output, Wr
     Ok((output, written))
 }
 
-/// Counts that are only written again keep the origin they had.
+/// Keeps the origin of the counts if nothing was simulated since and the results are only written again.
 fn made_by(session: &Session, now: Manifest) -> Manifest {
     match session.made_by().cloned() {
         Some(made_by) => Manifest {

@@ -1,4 +1,4 @@
-//! A config's text, its tree, and what every experiment says.
+//! The text of a config, its tree, and the keys that every experiment has.
 
 use super::header::Header;
 use crate::claim::{Narrative, Scope};
@@ -10,10 +10,10 @@ use std::error::Error;
 use std::ops::Range;
 use std::path::Path;
 
-/// A config's text, its tree, and what every experiment says.
+/// The text of a config, its tree, and the keys that every experiment has.
 #[derive(Clone, Debug)]
 pub struct Experiment {
-    /// What it says of itself.
+    /// The keys at the top of the config.
     pub header: Header,
     pub(super) source: Source,
     pub(super) root: Node,
@@ -48,12 +48,13 @@ impl Experiment {
     /// Reads a file that describes one of the `studies`, named by their tables.
     ///
     /// # Errors
-    /// Where it cannot be read, is no TOML, has an unknown key, lacks a required one, or names no study or two.
+    /// If the file cannot be read, is not TOML, has an unknown key, lacks a required key, or names no study
+    /// or more than one.
     pub fn load(path: &Path, studies: &[&'static str]) -> Result<Self, ConfigError> {
         Self::new(Source::load(path)?, studies)
     }
 
-    /// Reads a file's text; `name` is what messages call it.
+    /// Reads a file's text. Messages call the file `name`.
     ///
     /// # Errors
     /// As [`Experiment::load`].
@@ -85,15 +86,15 @@ impl Experiment {
         self.root.get(self.study).expect("it names the study")
     }
 
-    /// The study's table as its own type.
+    /// Reads the study's table as its own type.
     ///
     /// # Errors
-    /// Where a key is unknown or missing, or a value does not fit.
+    /// If a key is unknown or missing, or a value does not fit.
     pub fn read<T: DeserializeOwned>(&self) -> Result<T, ConfigError> {
         self.read_part(self.table())
     }
 
-    /// The same of some keys of it.
+    /// Reads `part` of the study's table.
     ///
     /// # Errors
     /// As [`Experiment::read`].
@@ -101,20 +102,21 @@ impl Experiment {
         self.source.read(part, self.study)
     }
 
-    /// What the sections of the file say.
+    /// The sections of the file.
     pub fn sections(&self) -> Node {
         keys_of::<Sections>(&self.root)
     }
 
-    /// The scenario of the file's sections.
+    /// The scenario that the file's sections describe.
     ///
     /// # Errors
-    /// Where a section is not what it must be, or does not fit the others.
+    /// If a section is not valid or does not fit the others.
     pub fn scenario(&self) -> Result<Scenario, ConfigError> {
         self.scenario_of(&self.sections())
     }
 
-    /// The scenario of other sections, at the study's table where they stand nowhere.
+    /// The scenario of other sections. Errors about values that the file does not contain point at the
+    /// study's table.
     ///
     /// # Errors
     /// As [`Experiment::scenario`].
@@ -122,13 +124,13 @@ impl Experiment {
         self.laid_scenario(sections, &self.table().span)
     }
 
-    /// The scenario that laid sections make; `otherwise` is the place of what stands in no section.
+    /// The scenario of laid sections. Errors about values that no section contains point at `otherwise`.
     pub fn laid_scenario(
         &self,
         laid: &Node,
         otherwise: &Range<usize>,
     ) -> Result<Scenario, ConfigError> {
-        // An empty section is as good as none.
+        // An empty section counts as absent.
         let is_empty = |key: &str| {
             let section = laid.get(key).and_then(Node::table);
             section.is_some_and(|section| section.is_empty())
@@ -141,17 +143,17 @@ impl Experiment {
         })
     }
 
-    /// Refuses what means nothing to a study that is no sweep: sections, or keys of them, that `uses` does not
-    /// name, and the number of trials where it counts none.
+    /// Refuses keys that mean nothing to a study that is not a sweep: sections, or keys in sections, that
+    /// `uses` does not name, and the number of trials if the study counts no trials.
     ///
     /// # Errors
-    /// At the first such key.
+    /// If there is such a key. The error points at the first one.
     pub fn check_used(&self, uses: &[&str], counts_trials: bool) -> Result<(), ConfigError> {
         if self.study == SWEEP {
             return Ok(());
         }
         let sections = self.sections();
-        // An unknown key is called unknown before it is called useless.
+        // Read the sections first, so that a misspelt key is reported as unknown and not as unused.
         self.source.read::<Sections>(&sections, "")?;
         let is_used = |path: &str| {
             let section = path.split_once('.').map_or(path, |(section, _)| section);
@@ -178,17 +180,17 @@ impl Experiment {
         }
     }
 
-    /// A top-level key and its place; that of `[[curve]]` is the word itself.
+    /// A top-level key and its place in the file. The place of `[[curve]]` is the word itself.
     fn place(&self, key: &str) -> Option<(String, Range<usize>)> {
         let (key_span, node) = self.root.table()?.get(key)?;
         let span = if key == "curve" { key_span } else { &node.span };
         Some((key.to_owned(), span.clone()))
     }
 
-    /// What it says for the report and claims, checked against what the claims may refer to.
+    /// Reads the texts for the report and the claims, and checks that the claims refer only to `scope`.
     ///
     /// # Errors
-    /// Where a claim does not fit `scope`.
+    /// If a claim does not fit `scope`.
     pub fn narrative(&self, scope: &Scope) -> Result<Narrative, ConfigError> {
         let narrative: Narrative = self.source.read(&keys_of::<Narrative>(&self.root), "")?;
         narrative.check(scope).map_err(|(path, problem)| {
@@ -198,7 +200,7 @@ impl Experiment {
         Ok(narrative)
     }
 
-    /// A conflict of values, at the study's table where nothing to blame is written.
+    /// A conflict of values. It points at the study's table if the file contains none of these values.
     pub fn conflict(&self, conflict: Conflict) -> ConfigError {
         self.source
             .conflict(&self.root, conflict, &self.table().span)
@@ -214,7 +216,7 @@ impl Experiment {
         self.source.text()
     }
 
-    /// What messages call the file.
+    /// The name of the file in messages.
     pub fn name(&self) -> &str {
         self.source.name()
     }
@@ -238,7 +240,7 @@ fn check_known(source: &Source, root: &Node, studies: &[&'static str]) -> Result
     }
 }
 
-/// The one study whose table is there.
+/// The one study whose table is in the file.
 fn study(
     source: &Source,
     root: &Node,
@@ -246,7 +248,7 @@ fn study(
 ) -> Result<&'static str, ConfigError> {
     let there = |name: &&'static str| Some((*name, root.get(name)?.span.clone()));
     let mut asked: Vec<_> = studies.iter().filter_map(there).collect();
-    // [axis] is the first, wherever it stands.
+    // A message about two studies names [axis] first, wherever it stands in the file.
     asked.sort_by_key(|(name, span)| (*name != SWEEP, span.start));
     match &asked[..] {
         [] => {

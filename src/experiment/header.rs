@@ -1,4 +1,4 @@
-//! What every experiment says of itself.
+//! The keys at the top of every config.
 
 use crate::config::Conflict;
 use crate::rule::OutOfRange;
@@ -44,13 +44,13 @@ bounded_f64! {
         { "type": "number", "minimum": 1e-5, "exclusiveMaximum": 0.5 };
 }
 
-/// Trials per point where the file says nothing.
+/// Trials per point if the file does not set them.
 const DEFAULT_TRIALS: u64 = 200_000;
 
-/// Trials of a pilot run where neither the file nor the command line says anything.
+/// Trials of a pilot run if neither the file nor the command line sets them.
 pub const DEFAULT_PILOT_TRIALS: u64 = 200_000;
 
-/// A pilot keeps what it has seen in memory.
+/// The largest number of trials of a pilot run. It is limited because a pilot keeps its trials in memory.
 pub const MOST_PILOT_TRIALS: u64 = 10_000_000;
 
 fn usual_confidence() -> Level {
@@ -91,12 +91,12 @@ impl Header {
         self.trials.unwrap_or(DEFAULT_TRIALS)
     }
 
-    /// Takes another number of trials, whatever the file says.
+    /// Sets the number of trials and overrides the file.
     pub fn set_trials(&mut self, trials: u64) {
         self.trials = Some(trials);
     }
 
-    /// Fixes the number of trials where the width of an interval is given in its place.
+    /// Computes the number of trials if the file gives the width of an interval instead.
     pub(super) fn settle(&mut self) -> Result<(), Conflict> {
         let Some(half_width) = self.half_width.map(HalfWidth::get) else {
             return Ok(());

@@ -1,7 +1,8 @@
-//! The experiment as its author wrote it: a config, read strictly.
+//! Reads a config strictly, as its author wrote it.
 //!
-//! A config is a [`Header`], the claims it tests, the sections of a scenario, and the table of one study: `[axis]`
-//! with any `[[curve]]` is a sweep, any other table names its study. Every refusal points at the value to change.
+//! A config consists of a [`Header`], the claims it tests, the sections of a scenario, and the table of one
+//! study. `[axis]` with any `[[curve]]` is a sweep; any other table names its study. Every error points at
+//! the value to change.
 
 mod file;
 mod header;

@@ -1,55 +1,56 @@
-//! Curves along an axis: file ⊕ curve ⊕ axis value, laid over each other as they are written.
+//! Curves along an axis. A point's parameters are file ⊕ curve ⊕ axis value, and later values replace earlier
+//! ones.
 
 use crate::config::{Axis, AxisValue, Conflict, Node, Value};
 use crate::rule::OutOfRange;
 use serde::Deserialize;
 
-/// What a curve says, and what it says with the file under it.
+/// The keys of a curve, and its parameters laid over those of the file.
 #[derive(Clone, Debug)]
 pub struct Laid {
-    /// What tells it from the others; by default its number.
+    /// The label that distinguishes the curve from the others. The default is its number.
     pub label: String,
-    /// The keys of its table that are no parameters.
+    /// The keys of the curve's table that are not parameters.
     pub header: Node,
-    /// Every parameter that the file or the curve sets: the file's with its own laid over them.
+    /// Every parameter that the file or the curve sets. The curve's values replace those of the file.
     pub values: Node,
 }
 
 /// An axis, and curves that change the parameters of a table.
 #[derive(Clone, Debug)]
 pub struct Overlay {
-    /// What the x axis sweeps.
+    /// The axis: the name and values that are swept.
     pub axis: Axis,
-    /// At least one.
+    /// The curves. There is at least one.
     pub curves: Vec<Laid>,
     /// The parameters that the axis sets.
     paths: Vec<String>,
 }
 
-/// What the keys of a table mean to an overlay.
+/// The meaning of a table's keys to an overlay.
 pub struct Keys<'a> {
-    /// Before a key in messages, such as `ride.`.
+    /// The text before a key in messages, such as `ride.`.
     pub prefix: &'static str,
-    /// What an axis may sweep, and the paths that each sets.
+    /// The names that an axis may sweep, each with the paths that it sets.
     pub swept: &'a [(&'static str, Vec<&'static str>)],
     /// Whether a key of the table, or of a curve, is a parameter or a section of parameters.
     pub is_parameter: &'a dyn Fn(&str) -> bool,
-    /// Parameters of which one replaces the others.
+    /// Groups of alternative parameters. Setting one parameter of a group replaces the others.
     pub choices: &'a [&'a [&'a str]],
-    /// What of a label must tell it from others.
+    /// The part of a label that must differ from that of every other label.
     pub name: fn(&str) -> String,
 }
 
-/// More curves than this are a mistake.
+/// The largest number of curves. A config with more curves is taken for a mistake.
 const MOST_CURVES: usize = 1000;
-/// So are more points.
+/// The largest number of points. A config with more points is taken for a mistake, too.
 const MOST_POINTS: usize = 20_000;
 
 impl Overlay {
-    /// Reads `axis` and `curve` of a table.
+    /// Reads the keys `axis` and `curve` of a table.
     ///
     /// # Errors
-    /// Where the axis is no axis, a curve has no label of its own, or something is both swept and set.
+    /// If the axis is not valid, a curve has no label of its own, or a parameter is both swept and set.
     pub fn read(table: &Node, keys: &Keys) -> Result<Self, Conflict> {
         let nothing = Node::empty(table.span.clone());
         let axis = table.get("axis").unwrap_or(&nothing);
@@ -96,7 +97,7 @@ impl Overlay {
         Err(Conflict::at(&self.axis.span, unfit.explained(remedy)))
     }
 
-    /// What is swept must not be set as well, not in other words either.
+    /// Checks that `values` does not set the swept parameter, neither itself nor an alternative to it.
     fn check_free(&self, values: &Node, keys: &Keys) -> Result<(), Conflict> {
         let rivals = |path: &String| {
             let choice = keys
@@ -114,7 +115,7 @@ impl Overlay {
         }
     }
 
-    /// The label of the next curve.
+    /// Reads the label of the next curve.
     fn label(&self, curve: &Node, keys: &Keys) -> Result<String, Conflict> {
         let number = self.curves.len();
         let path = format!("{}curve[{number}].label", keys.prefix);
@@ -144,7 +145,7 @@ impl Overlay {
     }
 }
 
-/// The tables under `curve`; one plain curve where there are none.
+/// The tables under `curve`, or one plain curve if there are no tables.
 fn curve_tables(table: &Node, prefix: &str) -> Result<Vec<Node>, Conflict> {
     let plain = || Ok(vec![Node::empty(table.span.clone())]);
     let Some((span, node)) = table.table().and_then(|entries| entries.get("curve")) else {

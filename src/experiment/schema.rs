@@ -12,7 +12,7 @@ pub fn properties<T: JsonSchema>(generator: &mut SchemaGenerator) -> Map<String,
     }
 }
 
-/// An axis of one of these keys, each with the schema of its values.
+/// The schema of an axis that sweeps one of these keys. Each key is given with the schema of its values.
 pub fn axis<'a>(keys: impl Iterator<Item = (&'a str, Value)>) -> Value {
     let values = |value: Value| {
         json!({

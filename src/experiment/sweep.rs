@@ -1,4 +1,4 @@
-//! A sweep: an axis, curves, and the scenario of each value on each curve: file ⊕ curve ⊕ axis.
+//! A sweep: an axis, curves, and the scenario of each axis value on each curve, which is file ⊕ curve ⊕ axis.
 
 use super::file::{Experiment, SWEEP};
 use super::header::Header;
@@ -14,15 +14,15 @@ use serde::de::IgnoredAny;
 use std::error::Error;
 use std::path::Path;
 
-/// Keys of the sections of which one replaces the others.
+/// Groups of alternative keys of the sections. Setting one key of a group replaces the others.
 const CHOICES: &[&[&str]] = &[&["sensor.model", "sensor.ar", "sensor.transfer"]];
 
 /// A sweep as its author wrote it.
 #[derive(Clone, Debug)]
 pub struct SweepConfig {
-    /// Its curves, one at least, and what the axis sweeps: what its claims may refer to.
+    /// The curves (at least one) and the axis, to which claims may refer.
     pub scope: Scope,
-    /// What the report says of it, and the claims it tests.
+    /// The texts for the report, and the claims that the sweep tests.
     pub narrative: Narrative,
     experiment: Experiment,
     overlay: Overlay,
@@ -42,7 +42,7 @@ pub struct CurveHeader {
     series: Option<String>,
 }
 
-/// A config that is no sweep.
+/// The error for a config that is not a sweep.
 #[derive(Debug, thiserror::Error)]
 #[error(
     "[{0}] says what to draw, but nothing is swept here (give a config with [axis], \
@@ -51,7 +51,7 @@ pub struct CurveHeader {
 struct NoSweep(&'static str);
 
 impl SweepConfig {
-    /// Reads the text of a sweep; `name` is what messages call it.
+    /// Reads the text of a sweep. Messages call the file `name`.
     ///
     /// # Errors
     /// As [`Experiment::load`] and [`SweepConfig::new`].
@@ -67,10 +67,10 @@ impl SweepConfig {
         Self::new(Experiment::load(path, &[SWEEP])?)
     }
 
-    /// The sweep of an experiment.
+    /// Reads the sweep of an experiment.
     ///
     /// # Errors
-    /// Where it is none, or a curve or a claim is not what it must be.
+    /// If the experiment is not a sweep, or a curve or a claim is not valid.
     pub fn new(experiment: Experiment) -> Result<Self, ConfigError> {
         if experiment.study() != SWEEP {
             return Err(experiment.refuse(NoSweep(experiment.study())));
@@ -103,12 +103,12 @@ impl SweepConfig {
         })
     }
 
-    /// What it says of itself.
+    /// The keys at the top of the config.
     pub fn header(&self) -> &Header {
         &self.experiment.header
     }
 
-    /// What the x axis sweeps.
+    /// The axis: the name and values that are swept.
     pub fn axis(&self) -> &Axis {
         &self.overlay.axis
     }
@@ -121,13 +121,14 @@ impl SweepConfig {
     /// The scenario of `curve` (from 0) at one value of the axis.
     ///
     /// # Errors
-    /// Where a parameter is out of range or does not fit another.
+    /// If a parameter is out of range or does not fit another.
     pub fn scenario(&self, curve: usize, value: &AxisValue) -> Result<Scenario, ConfigError> {
         let laid = self.overlay.at(curve, value);
         self.experiment.laid_scenario(&laid, &self.axis().span)
     }
 
-    /// A problem of one point that only shows when its region is designed or its record laid out.
+    /// Reports a problem of one point that only appears when its region is designed or its record is laid
+    /// out.
     pub fn blame(
         &self,
         curve: usize,
@@ -145,7 +146,7 @@ fn swept(axis: &Axis) -> &'static Parameter {
     parameter(&axis.name).expect("the axis has been checked")
 }
 
-/// The axis as claims refer to it.
+/// Describes the axis in the form to which claims refer.
 fn described(axis: &Axis) -> claim::Axis {
     let parameter = swept(axis);
     let values = axis.values.iter();
@@ -162,7 +163,7 @@ fn described(axis: &Axis) -> claim::Axis {
     }
 }
 
-/// An axis of orders has numbers alone, since "auto" would stand nowhere among them.
+/// Checks that an axis of orders has only numbers, because "auto" has no position among numbers.
 fn check_order(axis: &Axis) -> Result<(), Conflict> {
     let name = axis.values.iter().find(|value| value.number().is_none());
     match name {
@@ -176,7 +177,7 @@ fn check_order(axis: &Axis) -> Result<(), Conflict> {
     }
 }
 
-/// The curves, whose panels and series must fit each other.
+/// Reads the curves and checks that their panels and series are consistent.
 fn curves(experiment: &Experiment, overlay: &Overlay) -> Result<Vec<Curve>, ConfigError> {
     let mut curves: Vec<Curve> = Vec::new();
     for (index, laid) in overlay.curves.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! How the parts of a config are laid over each other.
+//! Tests how the parts of a config are laid over each other.
 
 use super::SweepConfig;
 use crate::claim::Test;
@@ -15,7 +15,7 @@ fn config(rest: &str) -> SweepConfig {
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// A curve changes the keys it names and keeps the file's others; the axis has the last word.
+/// A curve changes the keys it names and keeps the other keys of the file. The axis overrides both.
 #[test]
 fn curves_lie_over_the_file_and_the_axis_over_both() {
     let config = config(
@@ -68,7 +68,7 @@ fn a_curve_replaces_the_sensor() {
     assert_eq!(sensor(1).ar(), [0.5]);
 }
 
-/// Δ acts to the last of Y₁ unless told otherwise, gaps included.
+/// Δ acts to the last of Y₁ by default, gaps included.
 #[test]
 fn duration_follows_the_samples() {
     let config = config("[samples]\ngap = 3\n[axis]\nshift = [5, 9]\n");
@@ -110,7 +110,7 @@ fn every_parameter_does_what_its_key_does() {
             "reference_and_scale" => format!("reference = {value}\nscale = {value}"),
             _ => format!("{name} = {value}"),
         };
-        // An axis that changes nothing lets the section speak.
+        // If the axis changes nothing, the value of the section applies.
         let idle = if section == "impulses" {
             "[axis]\ndelta = [0.0]"
         } else {
@@ -134,7 +134,7 @@ fn half_width_fixes_the_trials() {
     assert!((9_600..9_800).contains(&trials), "{trials}");
 }
 
-/// Every key away from its default reaches its place in the scenario.
+/// Every key that is set to a value other than its default reaches its place in the scenario.
 #[test]
 fn every_key_reaches_the_scenario() {
     let config = config(
@@ -247,7 +247,7 @@ fn duration_follows_the_offset() {
     assert!(error.contains("lower offset"), "{error}");
 }
 
-/// What a claim leaves out, and what it says in full; a text in several lines is one paragraph.
+/// A claim may leave keys out or give all of them. A text in several lines is one paragraph.
 #[test]
 fn claims_say_what_they_say() {
     let file = |report: &str, claims: &str| {

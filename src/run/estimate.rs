@@ -1,4 +1,4 @@
-//! What a run would take.
+//! Estimates the time and memory that a run would take.
 
 use super::missing::Work;
 use super::{Missing, Progress, StudyError, Trials};
@@ -7,27 +7,27 @@ use crate::simd::LANES;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-/// What a run would take.
+/// The time and memory that a run would take.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// Trials of single points, so far as it is known beforehand how many there are.
+    /// Work in trials of single points, as far as their number is known before the run.
     pub work: u64,
-    /// The same of pilots.
+    /// Work of the pilots, in the same unit.
     pub pilots: u64,
-    /// Counters that share one realisation count as one.
+    /// Number of groups of counters. Counters that share one realisation form one group.
     pub groups: usize,
-    /// Of the largest trial, in GB; every thread has its own.
+    /// Memory of the largest trial, in GB. Every thread needs this much.
     pub gigabytes: f64,
-    /// On the current thread pool.
+    /// Wall-clock time on the current thread pool.
     pub time: Duration,
 }
 
 impl Estimate {
-    /// Scales up the time of a short run of the same points, long enough to be measured; its counts are
-    /// thrown away.
+    /// Runs the same points for a short time, long enough to be measured, and scales that time up. The counts
+    /// of the short run are discarded.
     ///
     /// # Errors
-    /// Where it is known beforehand that a pilot shows no decision.
+    /// If it is known before the run that a pilot shows no decision.
     pub fn new(trials: &mut dyn Trials, number: u64) -> Result<Self, StudyError> {
         const LONG_ENOUGH: Duration = Duration::from_millis(300);
         let pilots = trials.pretend()?;
@@ -39,7 +39,7 @@ impl Estimate {
         // A trial-point of a pilot costs about as much as one of the run.
         let total = (all.size() + pilots) as f64;
         let threads = |work: &Work| work.blocks().clamp(1, rayon::current_num_threads() as u64);
-        // As many as run side by side: of the slowest points a block would take minutes.
+        // Start with one vector of trials, because a whole block of the slowest points would take minutes.
         let mut short = number.min(LANES as u64);
         let time = loop {
             let work = Work::new(trials, &of(short));
@@ -47,7 +47,7 @@ impl Estimate {
             work.count(&Mutex::default(), &());
             let time = start.elapsed();
             if time >= LONG_ENOUGH || short == number {
-                // A short run may have fewer blocks than there are threads.
+                // A short run may have fewer blocks than threads and so leave some threads idle.
                 let busy = threads(&work) as f64 / threads(&all) as f64;
                 break time.mul_f64(busy * total / work.size().max(1) as f64);
             }
@@ -68,7 +68,7 @@ impl Estimate {
 /// Runs all of a study's trials at once, unless `progress` stops it, and keeps the counts in memory.
 ///
 /// # Errors
-/// Where a pilot shows no decision.
+/// If a pilot shows no decision.
 pub fn whole(
     mut trials: Box<dyn Trials + '_>,
     number: u64,

@@ -1,18 +1,19 @@
-//! What a directory has, as counts; and whether they may be gone on with.
+//! Reads the contents of a directory as counts, and decides whether a run may continue from them.
 
 use super::{AnyStudy, Identity, StudyError, Target, Trials};
 use crate::counts::Counts;
 use crate::results::{Checkpoint, Directory, Manifest, RESULTS, ResultsError};
 use std::collections::BTreeSet;
 
-/// What becomes of what a directory holds.
+/// How a run treats the existing contents of its directory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overwrite {
-    /// It is gone on with; what is of another experiment is refused.
+    /// The run continues from the contents. Contents of another experiment are refused.
     Continue,
-    /// Of it is kept what is wanted here: the directory belongs to the experiment by its name.
+    /// The run keeps the counts that it wants and drops the others, because the directory belongs to the
+    /// experiment by its name.
     Adopt,
-    /// It is replaced.
+    /// The run replaces the contents.
     Fresh,
 }
 
@@ -20,12 +21,12 @@ pub enum Overwrite {
 #[derive(Debug)]
 pub(super) struct Existing {
     pub state: Checkpoint,
-    /// What made them, where they are a finished result.
+    /// The manifest of the run that made the counts, if they are a finished result.
     pub made_by: Option<Manifest>,
 }
 
 impl Existing {
-    /// Reads the counts of a run that is not over or, where there are none, those of a finished result.
+    /// Reads the counts of an unfinished run or, if there are none, those of a finished result.
     pub fn read(
         directory: &Directory,
         study: &dyn AnyStudy,
@@ -50,7 +51,7 @@ impl Existing {
         }
     }
 
-    /// A finished result, with its counts where they can be told from it.
+    /// Reads a finished result, with its counts if they can be recovered from its rows.
     fn finished(directory: &Directory, study: &dyn AnyStudy) -> Result<Self, ResultsError> {
         let manifest = directory.manifest()?;
         let points = directory.points(&manifest)?;
@@ -75,7 +76,7 @@ impl Existing {
         })
     }
 
-    /// Whether these counts may be gone on with in the run `here`.
+    /// Checks whether the run `here` may continue from these counts.
     pub fn admit(
         &self,
         directory: &Directory,
@@ -95,8 +96,8 @@ impl Existing {
         Ok(())
     }
 
-    /// The first thing that keeps these counts from being those of the run `here`; labels, captions, claims
-    /// and the number of trials do not count, nor does what is not here yet.
+    /// The first difference that prevents the run `here` from using these counts. Differences in labels,
+    /// captions, claims and the number of trials are ignored, and so are points that have no counts yet.
     fn difference(&self, here: &Checkpoint, study: &dyn AnyStudy) -> Option<String> {
         let (there, origin) = (&self.state.origin, &here.origin);
         let differs = |name, there: &dyn ToString, here: &dyn ToString| {
@@ -115,14 +116,14 @@ impl Existing {
             .or_else(|| differs("trials of a shard", &trials?, &origin.trials))
             .or_else(|| self.points_difference(study))
             .or_else(|| {
-                // Finished results of another version are replaced by those of this one.
+                // Finished results of another version are replaced. Unfinished counts are not.
                 let is_unfinished = self.made_by.is_none();
                 differs("results version", &there.results, &origin.results)
                     .filter(|_| is_unfinished)
             })
     }
 
-    /// What is another study, or a point that is not here.
+    /// The difference between the studies, or the first stored point that this study does not have.
     fn points_difference(&self, study: &dyn AnyStudy) -> Option<String> {
         let Some(there) = study.behind(&self.state.origin) else {
             return Some("its config cannot be read any more".to_owned());
@@ -133,7 +134,7 @@ impl Existing {
         Identity::difference(&there.identities(), &study.identities())
     }
 
-    /// Keeps the counts that are wanted.
+    /// Keeps only the counts that the study wants.
     pub fn keep(&mut self, trials: &dyn Trials) {
         let targets = trials.targets().iter();
         let wanted: BTreeSet<_> = targets.map(|target| &target.key).collect();
@@ -146,7 +147,7 @@ impl Existing {
     }
 }
 
-/// Whether the counts of a run, or of its share of one, can be what they say.
+/// Checks that the counts of a run, or of one share of a run, are possible.
 pub(super) fn check(trials: &dyn Trials, state: &Checkpoint) -> Result<(), StudyError> {
     for Target { key, shape } in trials.targets() {
         let share = state.wanted();

@@ -1,4 +1,4 @@
-//! What tells a point of one study from another.
+//! Identifies a point of a study by its parameters.
 
 use crate::counts::Key;
 use crate::results::RESULTS;
@@ -7,14 +7,14 @@ use std::collections::BTreeSet;
 /// The parameters that the outcome at one point depends on, seed and trials apart.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Identity {
-    /// Names and values.
+    /// Names and values of the parameters.
     pub parameters: Vec<(String, String)>,
-    /// Where the point stands, for messages: a curve, or nothing.
+    /// The curve of the point, as text for messages; empty if the point has no curve.
     pub place: String,
 }
 
 impl Identity {
-    /// Of a study that is one point.
+    /// The identity of a study that has a single point.
     pub fn new<N: Into<String>>(parameters: impl IntoIterator<Item = (N, String)>) -> Self {
         let parameters = parameters.into_iter();
         Self {
@@ -25,13 +25,13 @@ impl Identity {
         }
     }
 
-    /// The same with one parameter more.
+    /// The same identity with one more parameter.
     pub fn with(mut self, name: &str, value: f64) -> Self {
         self.parameters.push((name.to_owned(), value.to_string()));
         self
     }
 
-    /// Of the counter of this point.
+    /// The key of the counter of this point.
     pub fn key(&self, study: &str, seed: u64, common_random_numbers: bool) -> Key {
         let mut text = format!(
             "results {RESULTS} seed {seed} common_random_numbers {common_random_numbers} {study}"
@@ -42,7 +42,8 @@ impl Identity {
         Key::of(&text)
     }
 
-    /// How the first of `there` that is not here differs from the most similar one that is here and not there.
+    /// Compares the first point of `there` that `here` lacks with the most similar point of `here`, and names
+    /// the first parameter that differs. Points of `here` that `there` lacks are preferred.
     pub(super) fn difference(there: &[Self], here: &[Self]) -> Option<String> {
         let is_in = |all: &[Self]| all.iter().map(|one| one.parameters.clone()).collect();
         let (known, held): (BTreeSet<_>, BTreeSet<_>) = (is_in(here), is_in(there));

@@ -1,4 +1,4 @@
-//! Shards of one experiment, joined.
+//! Merges the shards of one experiment.
 
 use super::existing::check;
 use super::{AnyStudy, Overwrite, Session, StudyError, Trials};
@@ -8,7 +8,7 @@ use crate::rule::OutOfRange;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-/// Why counts cannot be joined.
+/// Why counts cannot be merged.
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the messages say it")]
 pub enum MergeError {
@@ -46,30 +46,30 @@ pub enum MergeError {
     More(PathBuf),
 }
 
-/// What a whole run has and these shards have not.
+/// The parts of a whole run that the shards lack.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Absent {
-    /// Shards of which there is no directory, where all are of the same cut.
+    /// Shards that have no directory. The list is empty if the given shards disagree on the number of shards.
     pub shards: Vec<Shard>,
-    /// Directories that are not finished, and the trials of every point that they lack on average.
+    /// Unfinished directories, each with the number of trials that it lacks per point on average.
     pub unfinished: Vec<(PathBuf, u64)>,
 }
 
-/// The counts of a shard.
+/// Reads the counts of a shard.
 ///
 /// # Errors
-/// Where there are none.
+/// If the directory holds no counts or they cannot be read.
 pub fn part(directory: &Directory) -> Result<Checkpoint, MergeError> {
     let path = || directory.path().to_owned();
     (directory.checkpoint()?).ok_or_else(|| MergeError::Nothing(path()))
 }
 
-/// Adds the counts of all `shards`, in time linear in their size, as those of the experiment in `directory`, ready
-/// to be written or gone on with.
+/// Adds the counts of all `shards` in time linear in their size. The sum becomes the counts of the experiment
+/// in `directory`, from which results can be written or the run continued.
 ///
 /// # Errors
-/// Where a shard has none or none that it can have, two are of different experiments or hold the same trials, or
-/// the directory holds another experiment or trials that the shards have not.
+/// If a shard has no counts or impossible counts, if two shards belong to different experiments or hold the
+/// same trials, or if the directory holds another experiment or trials that the shards lack.
 pub fn merge<'a>(
     study: &'a dyn AnyStudy,
     origin: &Origin,
@@ -83,7 +83,7 @@ pub fn merge<'a>(
     if !sum.counts.covers(session.counts()) {
         return Err(more());
     }
-    // A finished result that does not say its counts may have trials that the shards lack.
+    // A finished result without counts may have trials that the shards lack, so an incomplete sum is refused.
     let says_nothing = session.counts().iter().next().is_none();
     if is_finished && says_nothing && (!absent.shards.is_empty() || !absent.unfinished.is_empty()) {
         return Err(more());
@@ -98,7 +98,7 @@ pub fn merge<'a>(
     Ok((session, absent))
 }
 
-/// The counts of all, and what is not among them.
+/// The sum of all counts, and the parts of the run that are absent from it.
 fn join(
     study: &dyn AnyStudy,
     directories: &[Directory],
@@ -120,10 +120,10 @@ fn join(
                 difference,
             });
         }
-        // What cannot be might add up to what can.
+        // Check each part before adding it, because impossible counts might add up to a possible sum.
         let checked = check_part(&*trials, &known, &part);
         checked.map_err(|error| directory.impossible(&error))?;
-        // A counter that is not there lacks every trial.
+        // A counter that a shard has not entered yet lacks every trial.
         let targets = trials.targets().iter().filter(|_| part.shard.is_some());
         targets.for_each(|target| part.counts.expect(&target.key, &target.shape));
         let lacking = part.lacking();
@@ -143,7 +143,8 @@ fn join(
     Ok((sum.expect("there is at least one directory"), absent))
 }
 
-/// Whether a shard can be what it says: cut as the experiment is, of its counters, of its own trials.
+/// Checks that a shard is possible: it has the experiment's blocks and points, holds only the experiment's
+/// counters, and counts only its own trials.
 fn check_part(
     trials: &dyn Trials,
     known: &BTreeSet<&Key>,
@@ -167,7 +168,7 @@ fn check_part(
     check(trials, part)
 }
 
-/// Who of `before` has what `part` has too.
+/// Names the first directory of `before` whose trials overlap those of `part`.
 fn overlap(
     before: &[Directory],
     directory: &Directory,
@@ -186,7 +187,7 @@ fn overlap(
     }
 }
 
-/// The shards that are not among these.
+/// The shards that are not in `shards`.
 fn without_directory(shards: &BTreeSet<Shard>) -> Vec<Shard> {
     let Some(count) = shards.first().map(|shard| shard.count) else {
         return Vec::new();

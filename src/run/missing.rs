@@ -1,4 +1,4 @@
-//! What is wanted and not counted, and the counting of it.
+//! Finds the trials that are wanted and not yet counted, and counts them.
 
 use super::{Group, Progress, Target, Trials};
 use crate::counts::{Counts, Ranges};
@@ -7,12 +7,12 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Mutex;
 
-/// Targets, by their places, and the trials that each has not.
+/// Targets, by their indices, and the trials that each target lacks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Missing(Vec<(usize, Ranges)>);
 
 impl Missing {
-    /// What of the trials `wanted` of the targets `needed` is not in `counts`.
+    /// For each target in `needed`, the trials in `wanted` that `counts` does not contain.
     pub fn new(
         trials: &dyn Trials,
         needed: &[usize],
@@ -25,23 +25,24 @@ impl Missing {
         Self(each.filter(|(_, trials)| !trials.is_empty()).collect())
     }
 
-    /// Whether nothing is.
+    /// Whether no trial is missing.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// The targets, by their places.
+    /// The targets that lack trials, by their indices.
     pub fn targets(&self) -> Vec<usize> {
         self.0.iter().map(|(target, _)| *target).collect()
     }
 
-    /// Trials, and the targets that all miss them: each set of targets once.
+    /// Groups the missing trials by the set of targets that lack them. Each set of targets appears once.
     fn alike(&self) -> BTreeMap<Vec<usize>, Ranges> {
         let ranges = self.0.iter().flat_map(|(_, trials)| trials.iter());
         let mut cuts: Vec<u64> = ranges.flat_map(|range| [range.start, range.end]).collect();
         cuts.sort_unstable();
         cuts.dedup();
         let mut alike: BTreeMap<Vec<usize>, Ranges> = BTreeMap::new();
+        // Between two neighbouring cuts a target lacks either every trial or no trial.
         for ends in cuts.windows(2) {
             let segment = ends[0]..ends[1];
             let misses = |(_, trials): &&(usize, Ranges)| trials.overlap(&segment).is_some();
@@ -55,7 +56,7 @@ impl Missing {
     }
 }
 
-/// What is missing, in the order in which it is counted.
+/// The missing trials, in the order in which they are counted.
 pub(super) struct Work<'a> {
     targets: &'a [Target],
     pub groups: Vec<Group<'a>>,
@@ -63,7 +64,7 @@ pub(super) struct Work<'a> {
     block: u64,
 }
 
-/// Trials of one group that follow each other.
+/// Consecutive trials of one group.
 struct Stretch {
     group: usize,
     trials: Range<u64>,
@@ -72,7 +73,7 @@ struct Stretch {
 }
 
 impl<'a> Work<'a> {
-    /// Arranges what is missing so that targets that miss the same trials run together.
+    /// Arranges the missing trials so that targets that lack the same trials run together.
     pub fn new(trials: &'a dyn Trials, missing: &Missing) -> Self {
         let block = trials.block();
         let (mut groups, mut stretches, mut before) = (Vec::new(), Vec::new(), 0);
@@ -98,24 +99,25 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// What the progress of [`count`](Self::count) adds up to.
+    /// The total work that [`count`](Self::count) reports as progress.
     pub fn size(&self) -> u64 {
         let work = |at: &Stretch| (at.trials.end - at.trials.start) * self.groups[at.group].work;
         self.stretches.iter().map(work).sum()
     }
 
-    /// Pieces that threads take one by one.
+    /// The number of blocks. Threads take the blocks one by one.
     pub fn blocks(&self) -> u64 {
         let end = |at: &Stretch| at.before + blocks(&at.trials, self.block);
         self.stretches.last().map_or(0, end)
     }
 
-    /// Adds to `counts` all that is missing, block by block on the current thread pool.
+    /// Simulates the missing trials block by block on the current thread pool, and adds them to `counts`.
     pub fn count(&self, counts: &Mutex<Counts>, progress: &dyn Progress) {
         (0..self.blocks()).into_par_iter().for_each(|block| {
             if progress.is_stopped() {
                 return;
             }
+            // The last stretch that starts at or before this block contains it.
             let at = self.stretches.partition_point(|at| at.before <= block) - 1;
             let stretch = &self.stretches[at];
             let trials = block_of(&stretch.trials, block - stretch.before, self.block);
@@ -133,7 +135,7 @@ impl<'a> Work<'a> {
     }
 }
 
-/// Pieces that a stretch is cut into at multiples of `block`.
+/// The number of pieces of a stretch that is cut at multiples of `block`.
 fn blocks(trials: &Range<u64>, block: u64) -> u64 {
     if trials.is_empty() {
         0
@@ -142,7 +144,7 @@ fn blocks(trials: &Range<u64>, block: u64) -> u64 {
     }
 }
 
-/// Piece `index` of a stretch.
+/// The trials of piece `index` of a stretch.
 fn block_of(trials: &Range<u64>, index: u64, block: u64) -> Range<u64> {
     let first = (trials.start / block + index) * block;
     trials.start.max(first)..trials.end.min(first + block)

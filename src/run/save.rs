@@ -1,4 +1,4 @@
-//! Saves a run while it goes on.
+//! Saves the counts of a run while it continues.
 
 use super::Progress;
 use crate::counts::Counts;
@@ -6,10 +6,10 @@ use crate::results::{Checkpoint, Directory, ResultsError};
 use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
-/// Saves a run while it goes on, and passes on its progress.
+/// Saves the counts of a run while it continues, and passes its progress on.
 pub(super) struct Saver<'a> {
     directory: &'a Directory,
-    /// All but the counts.
+    /// The state to save, apart from the counts.
     state: &'a Checkpoint,
     counts: &'a Mutex<Counts>,
     period: Duration,
@@ -40,7 +40,7 @@ impl<'a> Saver<'a> {
         }
     }
 
-    /// What kept the counts from being saved.
+    /// Returns the first error that occurred while saving the counts.
     pub fn finish(self) -> Result<(), ResultsError> {
         self.error.into_inner().map_or(Ok(()), Err)
     }
@@ -62,7 +62,7 @@ impl<'a> Saver<'a> {
 impl Progress for Saver<'_> {
     fn done(&self, work: u64) {
         self.progress.done(work);
-        // Whoever finds another at it goes on simulating.
+        // If another thread is saving, this thread goes back to simulating instead of waiting.
         let Ok(mut last) = self.last.try_lock() else {
             return;
         };
@@ -70,6 +70,7 @@ impl Progress for Saver<'_> {
             return;
         }
         let saved = self.save();
+        // The period starts after the save, so that slow storage leaves time to simulate.
         *last = Instant::now();
         match saved {
             Ok(_) => self.progress.saved(),

@@ -1,4 +1,4 @@
-//! An experiment in its directory, worked off.
+//! Runs an experiment in its directory.
 
 use super::existing::{Existing, Overwrite, check};
 use super::missing::Work;
@@ -8,26 +8,26 @@ use crate::counts::Counts;
 use crate::results::{Checkpoint, Directory, Lock, Manifest, Origin, ResultsError, Shard};
 use std::time::{Duration, Instant};
 
-/// An experiment in its directory, which nobody else writes into as long as this lives.
+/// An experiment in its directory. The session locks the directory, so no other process writes into it.
 pub struct Session<'a> {
     trials: Box<dyn Trials + 'a>,
     directory: Directory,
-    /// What is saved, and how far it is.
+    /// The state that is saved: the counts so far and the run they belong to.
     pub(super) state: Checkpoint,
-    /// What made the results that all counts come from, as long as nothing is added to them.
+    /// The manifest of the results that all counts come from, as long as no counts are added.
     pub(super) made_by: Option<Manifest>,
-    /// Whether the results are here, down to the words of the config.
+    /// Whether the directory holds the results of exactly this config, word for word.
     pub(super) is_complete: bool,
-    /// Whether the saved counts are others than before.
+    /// Whether the saved counts differ from those at the start of the session.
     is_new: bool,
     lock: Lock,
 }
 
 impl<'a> Session<'a> {
-    /// Locks the directory and finds out what of the experiment, or of one share of it, is done there.
+    /// Locks the directory and reads the part of the experiment, or of one share of it, that is done there.
     ///
     /// # Errors
-    /// Where the directory is in use, cannot be written, or holds what is not to be overwritten.
+    /// If the directory is in use, cannot be written, or holds something that must not be overwritten.
     pub fn open(
         study: &'a dyn AnyStudy,
         origin: &Origin,
@@ -70,7 +70,7 @@ impl<'a> Session<'a> {
         Ok(session)
     }
 
-    /// Where it lives.
+    /// The directory of the experiment.
     pub fn directory(&self) -> &Directory {
         &self.directory
     }
@@ -80,33 +80,33 @@ impl<'a> Session<'a> {
         &self.state.counts
     }
 
-    /// How many points are counted.
+    /// The number of points that are counted.
     pub fn points(&self) -> usize {
         self.state.points
     }
 
-    /// Trials of every point that are wanted here.
+    /// The number of trials of every point that this run wants.
     pub fn wanted(&self) -> u64 {
         let wanted = self.state.wanted();
         wanted.end - wanted.start
     }
 
-    /// Wall clock of the simulation.
+    /// Wall-clock time of the simulation, in seconds.
     pub fn seconds(&self) -> f64 {
         self.state.seconds
     }
 
-    /// What made the results that all counts come from; none where anything was simulated since.
+    /// The manifest of the results that all counts come from, or `None` if counts were added since.
     pub fn made_by(&self) -> Option<&Manifest> {
         self.made_by.as_ref()
     }
 
-    /// Whether there is nothing to do: the results are here, down to the words of the config.
+    /// Whether the directory holds the results of exactly this config, so that the run has nothing to do.
     pub fn is_complete(&self) -> bool {
         self.is_complete
     }
 
-    /// What is wanted and not counted; none where all is done.
+    /// The trials that are wanted and not counted, or `None` if everything is done.
     pub fn missing(&self) -> Option<Missing> {
         let missing = (!self.is_complete).then(|| self.missing_of(&self.needed()))?;
         (!missing.is_empty()).then_some(missing)
@@ -117,12 +117,13 @@ impl<'a> Session<'a> {
         Missing::new(&*self.trials, targets, &state.counts, &state.wanted())
     }
 
-    /// What the progress of [`count`](Self::count) adds up to.
+    /// The total work that [`count`](Self::count) reports as progress.
     pub fn work(&self, missing: &Missing) -> u64 {
         Work::new(&*self.trials, missing).size()
     }
 
-    /// The targets of this run. A share does not know what the others find, so it counts all there may be.
+    /// The targets of this run. A share does not know the counts of the other shares, so it counts every
+    /// target.
     fn needed(&self) -> Vec<usize> {
         if self.state.shard.is_some() {
             (0..self.trials.targets().len()).collect()
@@ -131,10 +132,10 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// Runs the pilots of what is missing.
+    /// Runs the pilots of the missing targets.
     ///
     /// # Errors
-    /// Where a pilot shows no decision.
+    /// If a pilot shows no decision.
     pub fn prepare(
         &mut self,
         missing: &Missing,
@@ -145,11 +146,11 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
-    /// Simulates what is missing, and saves the counts every `period`, before and after. Says whether all of it
-    /// is done.
+    /// Simulates the missing trials. Saves the counts before, after, and every `period` in between. Returns
+    /// whether all missing trials are done.
     ///
     /// # Errors
-    /// Where the counts cannot be saved; what was saved before is left.
+    /// If the counts cannot be saved. Counts that were saved before remain.
     pub fn count(
         &mut self,
         missing: &Missing,
@@ -158,7 +159,7 @@ impl<'a> Session<'a> {
     ) -> Result<bool, ResultsError> {
         let start = Instant::now();
         self.made_by = None;
-        // A place that cannot be written is found out before it costs anything.
+        // Save once before simulating, so that a directory that cannot be written costs no simulation time.
         self.save()?;
         let counts = std::mem::take(&mut self.state.counts).into();
         let saver = Saver::new(&self.directory, &self.state, &counts, period, progress);
@@ -174,22 +175,22 @@ impl<'a> Session<'a> {
         Ok(!progress.is_stopped() || self.missing_of(&missing.targets()).is_empty())
     }
 
-    /// Saves the counts, be they none. Says whether they, or the words of the config, are others than when the
-    /// session was opened.
+    /// Saves the counts, even if there are no counts. Returns whether the counts or the text of the config
+    /// changed since the session was opened.
     ///
     /// # Errors
-    /// Where they cannot be written.
+    /// If the counts cannot be written.
     pub fn save(&mut self) -> Result<bool, ResultsError> {
         self.is_new |= self.directory.save(&self.state)?;
         Ok(self.is_new)
     }
 
-    /// The lock under which results can be written.
+    /// Ends the session and returns its lock, under which results can be written.
     pub fn close(self) -> Lock {
         self.lock
     }
 
-    /// Enters every counter, so that the file tells how much there is to do.
+    /// Enters every counter, so that the file shows how many trials are left to do.
     pub(super) fn expect(&mut self) {
         let needed = self.needed();
         for Target { key, shape } in needed.into_iter().map(|at| &self.trials.targets()[at]) {
@@ -197,7 +198,7 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// Whether the counts can be what they say.
+    /// Checks that the counts are possible.
     pub(super) fn check(&self) -> Result<(), ResultsError> {
         let checked = check(&*self.trials, &self.state);
         checked.map_err(|error| self.directory.impossible(&error))

@@ -1,24 +1,24 @@
-//! Who has done what.
+//! The progress of the run in a directory.
 
 use crate::results::{Checkpoint, Directory, Manifest, Shard};
 
-/// How far a directory is.
+/// The state of the run in a directory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
-    /// Everything is counted.
+    /// All trials are counted.
     Finished,
-    /// Something is missing.
+    /// Some trials are missing.
     Unfinished,
-    /// A run is at it.
+    /// A run is using the directory.
     Running,
-    /// What is there is not what was written.
+    /// The files cannot be read, or they differ from the files that were written.
     Damaged,
-    /// No result.
+    /// The directory holds no result.
     Foreign,
 }
 
 impl State {
-    /// In a word or two.
+    /// The state in a word or two.
     pub fn name(self) -> &'static str {
         match self {
             Self::Finished => "finished",
@@ -30,25 +30,25 @@ impl State {
     }
 }
 
-/// What a directory holds.
+/// The contents of a directory in numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Status {
-    /// How far it is.
+    /// The state of the run.
     pub state: State,
-    /// The name of the config; none where nothing can be told.
+    /// The name of the config, or `None` if the directory holds no readable result.
     pub experiment: Option<String>,
-    /// Its share of the trials.
+    /// The shard that the directory holds, if it holds one.
     pub shard: Option<Shard>,
-    /// Points that are counted; none where a finished result does not tell.
+    /// The number of points that are counted, or `None` for a finished result, which does not store it.
     pub points: Option<usize>,
-    /// Trials of a point, on average.
+    /// The number of trials done per point, on average.
     pub done: u64,
-    /// Trials of a point that are wanted.
+    /// The number of trials wanted per point.
     pub wanted: u64,
 }
 
 impl Status {
-    /// Of what is in a directory at this moment.
+    /// Reads the status of a directory at this moment.
     pub fn of(directory: &Directory) -> Self {
         let mut status = Self::unlocked(directory);
         if directory.is_locked() {

@@ -1,4 +1,4 @@
-//! A study as a run takes it.
+//! The interface between a study and a run.
 
 use super::{Identity, StudyError, Trials};
 use crate::claim::{Evidence, Outcome};
@@ -7,57 +7,57 @@ use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::{Comparison, Origin, csv_bytes};
 
-/// A study whose kind is not known, its rows as the bytes of `points.csv`.
+/// A study of any kind. Its rows are passed as the bytes of `points.csv`.
 pub trait AnyStudy: Send + Sync {
-    /// The name of its table.
+    /// The name of the study's table in the config.
     fn name(&self) -> &'static str;
 
-    /// What it is of, point by point.
+    /// The identity of every point of the study.
     fn identities(&self) -> Vec<Identity>;
 
-    /// What it counts; none where everything is computed.
+    /// The trials that the study counts, or `None` if the study computes everything.
     fn trials(&self) -> Option<Box<dyn Trials + '_>>;
 
-    /// The counts behind finished results of its own, where these tell them.
+    /// Recovers the counts from finished results of this study, if the results contain them.
     ///
     /// # Errors
-    /// Where the bytes are not the study's rows.
+    /// If the bytes are not the study's rows.
     fn recall(
         &self,
         points: &[u8],
         comparisons: &[Comparison],
     ) -> Result<Option<Counts>, csv::Error>;
 
-    /// The study behind other results; none where this version cannot read its config.
+    /// The study that made other results, or `None` if this version cannot read its config.
     fn behind(&self, origin: &Origin) -> Option<Box<dyn AnyStudy>>;
 
-    /// What the counts come to.
+    /// The output that the counts give.
     ///
     /// # Errors
-    /// Where a number is asked for that the rows do not give.
+    /// If the config asks for a number that the rows do not give.
     fn output(&self, counts: &Counts) -> Result<Output, StudyError>;
 
-    /// The rates that claims about curves are judged by.
+    /// The rates by which claims about curves are judged.
     ///
     /// # Errors
-    /// Where the bytes are not the study's rows.
+    /// If the bytes are not the study's rows.
     fn outcomes(&self, points: &[u8]) -> Result<Vec<Outcome>, csv::Error>;
 
-    /// The picture of its rows.
+    /// The plot of the study's rows.
     ///
     /// # Errors
-    /// Where the bytes are not the study's rows, or there is nothing to draw.
+    /// If the bytes are not the study's rows, or the rows contain nothing to draw.
     fn plot(&self, points: &[u8], seed: u64) -> Result<Plot, DrawError>;
 }
 
-/// What a study comes to.
+/// The output of a study.
 #[derive(Clone, Debug)]
 pub struct Output {
-    /// `points.csv`
+    /// The bytes of `points.csv`.
     pub points: Vec<u8>,
-    /// What claims are judged by, `comparisons.csv` and `quantities.csv` in it.
+    /// The evidence for judging claims. It includes `comparisons.csv` and `quantities.csv`.
     pub evidence: Evidence,
-    /// A table for whoever ran it.
+    /// A table that the command prints for its user.
     pub findings: Option<Table>,
 }
 
@@ -65,7 +65,7 @@ pub struct Output {
 pub type Table = (&'static [&'static str], Vec<Vec<String>>);
 
 impl Output {
-    /// The files by their names.
+    /// The output files, each with its name.
     pub fn files(&self) -> Vec<(&'static str, Vec<u8>)> {
         let Evidence {
             comparisons,
@@ -83,7 +83,7 @@ impl Output {
     }
 }
 
-/// Why rows could not be drawn.
+/// Why the rows could not be drawn.
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the messages say it")]
 pub enum DrawError {

@@ -1,4 +1,4 @@
-//! What a study gives to be counted.
+//! The trials that a study gives a run to count.
 
 use crate::counts::{Counts, DecisionSummary, Key, Shape, Sums};
 use crate::schedule::BLOCK;
@@ -11,26 +11,26 @@ pub type StudyError = Box<dyn std::error::Error + Send + Sync>;
 /// A counter that is wanted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Target {
-    /// What identifies it.
+    /// The key that identifies the counter.
     pub key: Key,
-    /// What it adds up.
+    /// The shape of the sums that the counter adds up.
     pub shape: Shape,
 }
 
 /// Counters that share one realisation.
 pub struct Group<'a> {
-    /// The targets, by their places.
+    /// The targets of the group, by their indices.
     pub counters: Vec<usize>,
-    /// What a trial costs, in trials of a single point.
+    /// The cost of a trial, in trials of a single point.
     pub work: u64,
     /// Memory of a trial, in GB.
     pub gigabytes: f64,
-    /// Runs some trials; returns the sums of each counter.
+    /// Runs the given trials and returns the sums of each counter.
     pub run: Box<dyn Fn(Range<u64>) -> Vec<Sums> + Sync + 'a>,
 }
 
 impl<'a> Group<'a> {
-    /// Of points that cost as much each as one by itself, and hardly any memory.
+    /// A group in which every point costs as much as it would by itself, and in which memory is negligible.
     pub fn new(counters: Vec<usize>, run: impl Fn(Range<u64>) -> Vec<Sums> + Sync + 'a) -> Self {
         Self {
             work: counters.len() as u64,
@@ -43,37 +43,37 @@ impl<'a> Group<'a> {
 
 /// Trials that may run in any order on any machine.
 pub trait Trials: Sync {
-    /// Every counter that may be wanted, each once.
+    /// Every counter that may be wanted. Each counter appears once.
     fn targets(&self) -> &[Target];
 
-    /// How many points these are of, pairs of points apart.
+    /// The number of points that the targets belong to. Pairs of points are not included.
     fn points(&self) -> usize {
         self.targets().len()
     }
 
-    /// Trials that are run together. Shards are whole blocks.
+    /// The number of trials that run together as one block. A shard consists of whole blocks.
     fn block(&self) -> u64 {
         BLOCK
     }
 
-    /// The targets that a whole run counts, by their places, so far as `counts` tell: in the end all that are not
-    /// there for shards alone.
+    /// The targets that a whole run counts, by their indices, as far as `counts` determines them. In the end
+    /// these are all targets except those that only shards count.
     fn needed(&self, _counts: &Counts) -> Vec<usize> {
         (0..self.targets().len()).collect()
     }
 
-    /// Whether counts that go together can be what they say.
+    /// Checks that counts that belong together do not contradict each other.
     ///
     /// # Errors
-    /// Where two contradict each other.
+    /// If two counts contradict each other.
     fn check(&self, _counts: &Counts) -> Result<(), StudyError> {
         Ok(())
     }
 
-    /// Runs what must come before the trials of these targets: pilots. Returns how each point decides.
+    /// Runs the pilots that these targets need before their trials. Returns the decision of each point.
     ///
     /// # Errors
-    /// Where a pilot shows no decision.
+    /// If a pilot shows no decision.
     fn prepare(
         &mut self,
         _targets: &[usize],
@@ -82,20 +82,20 @@ pub trait Trials: Sync {
         Ok(BTreeMap::new())
     }
 
-    /// Prepares for a run that only takes the time of a real one, and says how much work
-    /// [`prepare`](Self::prepare) takes.
+    /// Prepares for a run that only measures time, and returns the amount of work that
+    /// [`prepare`](Self::prepare) would do.
     ///
     /// # Errors
-    /// As [`prepare`](Self::prepare), so far as it is known beforehand.
+    /// As [`prepare`](Self::prepare), if the error is known before the run.
     fn pretend(&mut self) -> Result<u64, StudyError> {
         Ok(0)
     }
 
-    /// What simulates these targets and no others, each in one group.
+    /// The groups that simulate exactly these targets. Each target is in one group.
     fn groups(&self, targets: &[usize]) -> Vec<Group<'_>>;
 }
 
-/// Nothing is counted.
+/// No trials: for a study that counts nothing.
 impl Trials for () {
     fn targets(&self) -> &[Target] {
         &[]
@@ -110,25 +110,25 @@ impl Trials for () {
     }
 }
 
-/// Who is told how a run gets on, and may stop it.
+/// An observer that receives the progress of a run and may stop it.
 pub trait Progress: Sync {
-    /// A part of the run begins: `work` trials of single points, `trials` of each on average.
+    /// A part of the run begins. It has `work` trials of single points, on average `trials` per point.
     fn begin(&self, _stage: &'static str, _work: u64, _trials: u64) {}
 
-    /// Further trials of single points are done.
+    /// The run has finished `work` more trials of single points.
     fn done(&self, _work: u64) {}
 
-    /// The part is over.
+    /// The part of the run has ended.
     fn end(&self) {}
 
-    /// The counts so far are safe.
+    /// The counts so far are saved.
     fn saved(&self) {}
 
-    /// Whether to stop after the blocks that are running.
+    /// Whether the run should stop after the blocks that are now running.
     fn is_stopped(&self) -> bool {
         false
     }
 }
 
-/// Nobody is told.
+/// An observer that ignores the progress and never stops the run.
 impl Progress for () {}
