@@ -43,18 +43,20 @@
 //! | 10 | [`study`]: what a config's table describes |
 //!
 //! # A walk
-//! From `delta = [0.0, 0.5, 1.0]` under `[axis]` to a row of `points.csv`, file by file. Down:
+//! This walk leads from `delta = [0.0, 0.5, 1.0]` under `[axis]` to a row of `points.csv`, file by file.
+//! The way down:
 //!
 //! 1. `experiment/file.rs` has `config/tree.rs` read the text as a tree in which every value keeps its place, and
 //!    finds the one table that names a study; `study/mod.rs` has the list of studies.
 //! 2. `experiment/sweep.rs` reads this one: `experiment/overlay.rs` lays file, curve and axis value over each other.
 //!    `scenario/parameters.rs` says that the axis' `delta` is `motion.delta`.
-//! 3. `config/read.rs` lets serde read what is laid as `scenario/sections.rs`, whose types are the domain's;
-//!    `scenario/check.rs` asks what the sections ask of each other. Here a wrong value is refused, at its place.
-//! 4. `plan.rs` makes the point, how it decides, and by `schedule.rs` the points that share its noise.
+//! 3. `config/read.rs` lets serde read the result as `scenario/sections.rs`, whose types are the domain's;
+//!    `scenario/check.rs` checks that the sections fit each other. A wrong value is refused here,
+//!    at its place.
+//! 4. `plan.rs` makes the point and its decision, and uses `schedule.rs` to group points that share noise.
 //! 5. `study/sweep/targets.rs` names its counter, a hash of every parameter (`run/identity.rs`).
 //!
-//! And up:
+//! The way up:
 //!
 //! 6. `run/session.rs` sees what the directory has (`run/existing.rs`); `pilot` finds the decisions that no law
 //!    gives; `run/missing.rs` spreads the missing blocks of trials over the threads.
@@ -65,9 +67,9 @@
 //!    writes it, and `study/sweep/picture.rs` makes of the rows a plot that `figure` draws.
 //!
 //! # Laws
-//! - A trial cannot fail: what can go wrong goes wrong when the plan is made.
-//! - A trial is its coordinates: its draws are a function of the seed, of what is simulated and of its
-//!   index, never of thread, batch, order or machine.
+//! - A trial cannot fail: every error occurs when the plan is made.
+//! - A trial is determined by its coordinates: its draws are a function of the seed, of what is simulated
+//!   and of its index, never of thread, batch, order or machine.
 //! - Only integers are added across threads.
 //! - Simulate once, decide many times: one noise realisation serves every point that can share it.
 //!
@@ -85,7 +87,8 @@
 //! # Where [^1] is read one way among several
 //! - Δ and θ are raw, in the record, in units of σ_ξ after whitening; `delta_at = "whitened"` reads Δ
 //!   after whitening instead, a factor of 1 − β = 3.287 for the ADXL105.
-//! - (9) prints λ_i + Σ a_p λ_{i−p}; with the convention of (3) it is a minus, as its own Δ(1 − β) has it.
+//! - (9) prints λ_i + Σ a_p λ_{i−p}. With the convention of (3) the sign is a minus, in agreement with the
+//!   term Δ(1 − β) of (9).
 //! - The numerator of (2) lacks the factors 1/a and T₀. It only scales the signal.
 //! - The region ϑ is not given; every rule here is one choice, see [`detect`].
 //!

@@ -1,4 +1,4 @@
-//! Every study as one whose kind is not known.
+//! Lets any study be used without knowing its kind.
 
 use super::{Loaded, Study};
 use crate::claim::{Evidence, Outcome};

@@ -18,49 +18,49 @@ pub trait Study: Send + Sync + Sized + 'static {
     /// The name of its table.
     const NAME: &'static str;
 
-    /// The sections, or keys of them (`noise.law`), that change it; any other is refused.
+    /// The sections, or keys of sections (`noise.law`), that affect it. Any other is refused.
     const USES: &'static [&'static str];
 
     /// Whether it counts trials.
     const COUNTS_TRIALS: bool;
 
-    /// One of `points.csv`.
+    /// A row of `points.csv`.
     type Row: Serialize + DeserializeOwned;
 
     /// Reads its table.
     ///
     /// # Errors
-    /// Where the table is not what it must be, or no region or record can be made for it.
+    /// If the table is invalid, or no region or record can be made for it.
     fn read(experiment: &Experiment, context: Context) -> Result<Self, StudyError>;
 
-    /// What its table may say, as a JSON Schema.
+    /// The JSON Schema of its table.
     fn schema(generator: &mut SchemaGenerator) -> Value;
 
-    /// What it is of, point by point: every parameter that changes what comes out.
+    /// The identity of each point: every parameter that changes its results.
     fn identities(&self) -> Vec<Identity>;
 
-    /// What it counts; none where everything is computed. A study that runs no pilots is itself its trials.
+    /// What it counts; none if everything is computed. A study that runs no pilots is itself its trials.
     fn trials(&self) -> Option<Box<dyn Trials + '_>> {
         None
     }
 
-    /// What it comes to. Counters that are not there count as one trial in which nothing happened.
+    /// The rows that follow from the counts. A missing counter counts as one trial without events.
     fn rows(&self, counts: &Counts) -> Vec<Self::Row>;
 
-    /// Pairs of points held against each other.
+    /// Comparisons of pairs of points.
     fn comparisons(&self, _rows: &[Self::Row], _counts: &Counts) -> Vec<Comparison> {
         Vec::new()
     }
 
-    /// Single numbers.
+    /// Single numbers, for `quantities.csv`.
     ///
     /// # Errors
-    /// Where a number is asked for that the rows do not give.
+    /// If the rows do not give a number that is asked for.
     fn quantities(&self, _rows: &[Self::Row]) -> Result<Vec<Quantity>, StudyError> {
         Ok(Vec::new())
     }
 
-    /// The counts behind its rows, where these tell them.
+    /// The counts behind its rows, if the rows determine them.
     fn recall(&self, _rows: &[Self::Row], _comparisons: &[Comparison]) -> Option<Counts> {
         None
     }
@@ -68,15 +68,15 @@ pub trait Study: Send + Sync + Sized + 'static {
     /// Draws the rows.
     ///
     /// # Errors
-    /// Where there is nothing to draw, or drawing fails.
+    /// If there are no rows to draw, or drawing fails.
     fn plot(&self, rows: &[Self::Row], seed: u64) -> Result<Plot, FigureError>;
 
-    /// What is said of the rows when they are written.
+    /// The table to print when the rows are written.
     fn findings(&self, _rows: &[Self::Row]) -> Option<Table> {
         None
     }
 
-    /// How many points there are, in words, for a plan.
+    /// The number of points, in words, for a plan.
     fn points(&self) -> String {
         let points = self.trials().map_or(1, |trials| trials.points());
         format!("{points} of [{}]", Self::NAME)
@@ -93,11 +93,11 @@ pub trait Study: Send + Sync + Sized + 'static {
     }
 }
 
-/// More than a study should be asked for.
+/// A study asks for too many of something.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{what}: must be at most {most}, got {got} ({remedy})")]
 pub struct TooMany {
-    /// Of what.
+    /// What there are too many of.
     what: &'static str,
     most: usize,
     got: usize,
@@ -108,7 +108,7 @@ impl TooMany {
     /// Refuses more than `most`.
     ///
     /// # Errors
-    /// Where there are more.
+    /// If there are more.
     pub fn check(
         what: &'static str,
         got: usize,
@@ -130,16 +130,16 @@ impl TooMany {
 /// What the studies of one config share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Context {
-    /// Where every draw starts from.
+    /// The seed of all draws.
     pub seed: u64,
-    /// Trials per point; 1 where nothing is repeated.
+    /// Trials per point; 1 if the study counts no trials.
     pub trials: u64,
-    /// Of the intervals.
+    /// Confidence of the intervals.
     pub confidence: f64,
 }
 
 impl Context {
-    /// The numbers of a config, as a study takes them that counts trials or none.
+    /// The numbers of a config, for a study that counts trials or for one that does not.
     pub fn of(experiment: &Experiment, counts_trials: bool) -> Self {
         let header = &experiment.header;
         Self {
@@ -153,11 +153,11 @@ impl Context {
 /// The counters of the points of a study.
 #[derive(Debug, Default)]
 pub struct Counters {
-    /// Of every point.
+    /// The counter of each point.
     pub keys: Vec<Key>,
-    /// Every counter once.
+    /// Each distinct counter.
     pub targets: Vec<Target>,
-    /// The first point of each.
+    /// The first point of each target.
     pub points: Vec<usize>,
 }
 
@@ -182,7 +182,7 @@ impl Counters {
     }
 }
 
-/// What was counted of a target: its trials and sums; one trial in which nothing happened where nothing was.
+/// The trials and sums of a target. An uncounted target has one trial without events.
 pub fn counted(counts: &Counts, key: &Key, shape: &Shape) -> (u64, Sums) {
     match counts.get(key) {
         Some(counter) if !counter.trials.is_empty() => (counter.trials.len(), counter.sums.clone()),

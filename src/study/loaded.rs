@@ -1,4 +1,4 @@
-//! A config as a study that can be run, whatever its kind.
+//! A config as a study of any kind that can be run.
 
 use super::kind::{Context, Study};
 use crate::claim::{Evidence, Narrative, Scope};
@@ -14,11 +14,11 @@ use crate::run::{AnyStudy, DrawError, Output, StudyError};
 pub struct Loaded {
     /// What the config describes.
     pub study: Box<dyn AnyStudy>,
-    /// What its results are known by.
+    /// The origin that identifies its results.
     pub origin: Origin,
-    /// What the config asks.
+    /// The question of the config.
     pub question: String,
-    /// Of the intervals.
+    /// Confidence of the intervals.
     pub confidence: f64,
     /// How many points there are, in words.
     pub points: String,
@@ -27,7 +27,7 @@ pub struct Loaded {
 }
 
 impl Loaded {
-    /// Of a config with the table of `S`.
+    /// Loads a config with the table of `S`.
     pub(super) fn of<S: Study>(config: &Experiment) -> Result<Self, StudyError> {
         config.check_used(S::USES, S::COUNTS_TRIALS)?;
         let context = Context::of(config, S::COUNTS_TRIALS);
@@ -44,12 +44,12 @@ impl Loaded {
         })
     }
 
-    /// Judges the claims, fills the text and lays out the picture once on empty counts, so that whatever they
-    /// need is known to be there before anything is simulated. A study that is computed is judged when it is.
+    /// Judges the claims, fills the text and lays out the picture once on empty counts. This shows, before
+    /// any simulation, that everything they need exists. A study without trials is judged when computed.
     ///
     /// # Errors
-    /// If a claim or the text is about something that is not among the results, or the picture does not fit on
-    /// its sheet.
+    /// If a claim or the text is about something that is not among the results, or the picture does not
+    /// fit on its sheet.
     pub fn check(&self) -> Result<(), StudyError> {
         if self.study.trials().is_none() {
             return Ok(());
@@ -60,16 +60,16 @@ impl Loaded {
         Ok(())
     }
 
-    /// Judges the claims on what a study came to, and fills the text.
+    /// Judges the claims on the results of a study, and fills the text.
     ///
     /// # Errors
-    /// Where a claim or the text is about something that is not among the results.
+    /// If a claim or the text is about something that is not among the results.
     pub fn judge(&self, output: &Output) -> Result<(), StudyError> {
         self.section("", output.evidence.clone()).judge()?;
         Ok(())
     }
 
-    /// Whether the rows of a finished result can have been counted, so far as they hold their counts.
+    /// Checks that the rows of a finished result are possible counts, as far as they hold their counts.
     ///
     /// # Errors
     /// If they contradict themselves, each other or the number of trials.
@@ -88,16 +88,16 @@ impl Loaded {
     /// Draws `points.csv`.
     ///
     /// # Errors
-    /// Where the bytes are not the study's, or drawing fails.
+    /// If the bytes do not belong to the study, or drawing fails.
     pub fn draw(&self, points: &[u8], manifest: &Manifest) -> Result<Drawing, DrawError> {
         let plot = self.study.plot(points, manifest.origin.seed)?;
         Ok(render(&plot, &manifest.provenance())?)
     }
 
-    /// For the report, from the files of `directory`.
+    /// The section of the report, from the files of `directory`.
     ///
     /// # Errors
-    /// Where one of them is missing or damaged.
+    /// If one of the files is missing or damaged.
     pub fn report(&self, name: &str, directory: &Directory) -> Result<Section, ResultsError> {
         let manifest = directory.manifest()?;
         let comparisons = directory.comparisons(&manifest)?;
@@ -127,7 +127,7 @@ impl Loaded {
     }
 }
 
-/// What a config's results are known by.
+/// The origin that identifies a config's results.
 fn origin(config: &Experiment, trials: u64) -> Origin {
     let header = &config.header;
     Origin {

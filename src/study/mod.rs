@@ -1,9 +1,9 @@
-//! Studies: what a config's table describes. Each is a file, and two words here: its module, and its line in
-//! [`STUDIES`].
+//! Studies: what a config's table describes. Each study is a module, which this file names twice: as a module
+//! and as a line in [`STUDIES`].
 //!
-//! A study comes to rows of its own (`points.csv`), from which its picture is drawn, and where it has any to
-//! single numbers (`quantities.csv`). What it counts in trials goes through [`run`](crate::run); what it computes
-//! is a function of the config alone.
+//! A study produces its own rows (`points.csv`), from which its picture is drawn, and may produce single
+//! numbers (`quantities.csv`). Counts of trials go through [`run`](crate::run). Everything else that it
+//! computes is a function of the config alone.
 
 mod any;
 pub(crate) mod autocorrelation;
@@ -31,7 +31,7 @@ use schemars::SchemaGenerator;
 use serde_json::Value;
 use std::path::Path;
 
-/// Every study.
+/// All studies.
 pub const STUDIES: &[Entry] = &[
     Entry::of::<sweep::Sweep>(),
     Entry::of::<autocorrelation::Autocorrelation>(),
@@ -44,11 +44,11 @@ pub const STUDIES: &[Entry] = &[
     Entry::of::<ride::Rides>(),
 ];
 
-/// A study in the list of all.
+/// An entry of the list of studies.
 pub struct Entry {
     /// The name of its table.
     pub name: &'static str,
-    /// What its table may say, as a JSON Schema.
+    /// The JSON Schema of its table.
     pub schema: fn(&mut SchemaGenerator) -> Value,
     load: fn(&Experiment) -> Result<Loaded, StudyError>,
 }
@@ -75,7 +75,7 @@ pub fn load(path: &Path) -> Result<Experiment, ConfigError> {
     Experiment::load(path, &names())
 }
 
-/// Reads the text of any study's config; `name` is what messages call it.
+/// Reads the text of any study's config. Messages call it `name`.
 ///
 /// # Errors
 /// As [`Experiment::load`].
@@ -84,10 +84,10 @@ pub fn parse(name: &str, text: &str) -> Result<Experiment, ConfigError> {
 }
 
 impl Loaded {
-    /// Plans what a config describes.
+    /// Plans the study that a config describes.
     ///
     /// # Errors
-    /// Where a parameter of a point is out of range, or no region or record can be made for it.
+    /// If a parameter of a point is out of range, or no region or record can be made for it.
     pub fn new(config: Experiment) -> Result<Self, StudyError> {
         let mut studies = STUDIES.iter();
         let entry = studies.find(|entry| entry.name == config.study());
@@ -97,7 +97,7 @@ impl Loaded {
     /// The experiment behind results.
     ///
     /// # Errors
-    /// Where this version cannot read its config.
+    /// If this version cannot read its config.
     pub fn again(origin: &Origin) -> Result<Self, StudyError> {
         let mut config = parse(&origin.config_name, &origin.config)?;
         config.header.set_trials(origin.trials);
@@ -129,7 +129,7 @@ mod tests {
         S::read(&experiment, context).unwrap_or_else(|error| panic!("{error}"))
     }
 
-    /// What a study comes to.
+    /// Runs a study and returns its rows.
     pub fn rows<S: Study>(study: &S, trials: u64) -> Vec<S::Row> {
         let counts = study.trials().map(|all| whole(all, trials, &()).unwrap());
         study.rows(&counts.unwrap_or_default())

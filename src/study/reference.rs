@@ -1,5 +1,5 @@
-//! The reference of every table and key, written from the types that read them: a JSON Schema for editors, and
-//! the same in words.
+//! The reference of all tables and keys, generated from the types that read them: a JSON Schema for editors,
+//! and the same reference in words.
 
 use super::STUDIES;
 use crate::claim::Narrative;
@@ -13,7 +13,7 @@ use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
-/// What a config may say, as a JSON Schema.
+/// The JSON Schema of a config.
 pub fn schema() -> Value {
     let mut generator = generator();
     let sections = properties::<Sections>(&mut generator);
@@ -51,7 +51,7 @@ pub fn schema() -> Value {
     })
 }
 
-/// A choice whose parameters may all be left out may be written as its name alone.
+/// A choice with only optional parameters may be written as its name alone.
 fn allow_bare_names(schema: &mut Value) {
     if let Some(Value::Array(choices)) = schema.get_mut("oneOf") {
         let bare: Vec<Value> = choices.iter().filter_map(bare_name).collect();
@@ -71,7 +71,7 @@ fn bare_name(choice: &Value) -> Option<Value> {
     (parameters["type"] == "object" && none_is_required).then(|| json!({ "const": name }))
 }
 
-/// The same in words.
+/// The reference in words, as Markdown.
 pub fn markdown() -> String {
     let schema = schema();
     let empty = Map::new();
@@ -87,7 +87,7 @@ pub fn markdown() -> String {
             (schema, format!("[{name}]"))
         };
         let description = schema["description"].as_str().unwrap_or_default();
-        // A curve's sections are those of the file.
+        // A curve has the same sections as the file.
         let own = own_keys(table);
         let is_own = |key: &String| name != "curve" || !all.contains_key(key);
         let entries = own.iter().filter(|(key, _)| is_own(key));
@@ -104,7 +104,7 @@ fn is_table(schema: &Value) -> bool {
         || choices.is_some_and(|choices| choices.iter().all(|choice| choice["type"] == "object"))
 }
 
-/// The keys of a table, or those of all that it may be; each of a choice means what the choice means.
+/// The keys of a table, or of all its alternatives. Each key of a choice has the meaning of the choice.
 fn own_keys(table: &Value) -> Map<String, Value> {
     let own = table["properties"].as_object().cloned().unwrap_or_default();
     let choices = table["oneOf"].as_array().into_iter().flatten();
@@ -179,7 +179,7 @@ fn one_line(text: &str) -> String {
         .replace('|', "\\|")
 }
 
-/// What each of several names means, where that is said.
+/// The meaning of each of several names, if the schema gives it.
 fn choices(schema: &Value) -> String {
     let choices = schema["oneOf"].as_array().into_iter().flatten();
     let said: Vec<String> = choices
@@ -197,9 +197,9 @@ fn choices(schema: &Value) -> String {
     }
 }
 
-/// What a value looks like, in words.
+/// The form of a value, in words.
 fn kind(schema: &Value) -> String {
-    // An axis takes a value or several; its table says so once.
+    // An axis takes one value or several. Its table says so once.
     if let Some(items) = schema["anyOf"][0].get("items") {
         return kind(items);
     }

@@ -18,7 +18,7 @@ pub(super) fn within(
     Err(OutOfRange::new(path, rule, value).into())
 }
 
-/// Refuses an empty list, one of more than `most`, and the first value that stands there before.
+/// Refuses an empty list, a list of more than `most` values, and the first value that occurs twice.
 pub(super) fn distinct<T: PartialEq + Debug>(
     path: &str,
     [one, several]: [&str; 2],

@@ -1,4 +1,4 @@
-//! What the pictures of the committed results say, without pixels.
+//! Tests of the pictures of the committed results, without pixels.
 
 use super::*;
 use crate::claim::{Axis, Curve, Scope};
@@ -18,7 +18,7 @@ fn rows<R: DeserializeOwned>(study: &str) -> Vec<R> {
     rows.collect::<Result<_, _>>().unwrap()
 }
 
-/// What a study draws of its committed rows.
+/// A study's committed rows and the plot that it draws from them.
 fn drawn<S: Study>(name: &str) -> (Vec<S::Row>, Plot) {
     let experiment = load(&path(&format!("configs/{name}.toml"))).unwrap();
     let context = Context::of(&experiment, S::COUNTS_TRIALS);
@@ -28,7 +28,7 @@ fn drawn<S: Study>(name: &str) -> (Vec<S::Row>, Plot) {
     (rows, plot)
 }
 
-/// The picture of a sweep over no numbers, of curves in these panels, without more to say.
+/// The picture of a sweep without numeric values, with its curves in these panels and no further text.
 fn sweep(axis: &'static str, panels: &[Option<&str>], rows: &[Row]) -> Result<Plot, FigureError> {
     let curve = |panel: &Option<&str>| Curve {
         label: String::new(),
@@ -68,7 +68,7 @@ fn ticks(panel: &Panel) -> Vec<&str> {
         .collect()
 }
 
-/// The points of a panel's marks that have any.
+/// The points of a panel's marks. Kinds of marks without points are left out.
 fn points(plot: &Plot, panel: usize) -> Vec<&[Point]> {
     let of = |mark| match mark {
         &Mark::Band(ref points, _) | &Mark::Points(ref points, _) | &Mark::Bars(ref points, _) => {

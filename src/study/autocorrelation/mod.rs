@@ -1,16 +1,15 @@
 //! The autocorrelation of the sensor's noise, Fig. 1 of [^1]: theory and simulation.
 //!
 //! # Theory
-//! Of the predictors of order 1, 2, …, p, which the step-down recursion takes from φ, the one of order
-//! k satisfies the Yule–Walker equations up to lag k, so ρ_k = Σ_{j≤k} φ_j^{(k)} ρ_{k−j}; beyond p,
-//! ρ_k = Σ φ_j ρ_{k−j}. For p = 2 that is ρ₁ = φ₁/(1 − φ₂), ρ_k = φ₁ρ_{k−1} + φ₂ρ_{k−2}. The last
+//! The step-down recursion gives the predictors of order 1, 2, …, p from φ. The predictor of order k
+//! satisfies the Yule–Walker equations up to lag k, so ρ_k = Σ_{j≤k} φ_j^{(k)} ρ_{k−j}. Beyond lag p,
+//! ρ_k = Σ φ_j ρ_{k−j}. For p = 2 this gives ρ₁ = φ₁/(1 − φ₂) and ρ_k = φ₁ρ_{k−1} + φ₂ρ_{k−2}. The last
 //! coefficients κ_k = φ_k^{(k)} give σ_x²/σ_ξ² = ∏ 1/(1 − κ_k²).
 //!
 //! # Simulation
-//! Of each record the products x_i x_{i−k} are averaged over the n − k that there are and divided by the
-//! σ_x² of theory: the mean is known to be zero and nothing is divided by an estimate, so the estimator
-//! has no bias at any length. The records are independent, and the interval is the normal one of
-//! their mean.
+//! For each record, the n − k products x_i x_{i−k} are averaged and divided by the theoretical σ_x². The
+//! mean is known to be zero and the divisor is not an estimate, so the estimator has no bias at any
+//! length. The records are independent, and the interval is the normal interval of their mean.
 //!
 //! [^1]: see [`crate::signal`].
 
@@ -49,7 +48,7 @@ const TRANSFER: Transfer = Transfer {
 /// The coefficients and the numerator that (2) prints.
 const PRINTED: [f64; 2] = [-1.5365, -0.75056];
 const PRINTED_NUMERATOR: f64 = 9.404e-6;
-/// A record takes a tenth of a millisecond.
+/// Trials in a block. A record takes a tenth of a millisecond.
 const BLOCK: u64 = 16;
 
 /// The autocorrelation of the sensor's noise: theory and simulation.
@@ -99,7 +98,7 @@ impl Keys {
             Law::StudentT(freedom) if freedom <= 4.0 => {}
             _ => return Ok(()),
         }
-        // The band is that of a mean of squares, which a heavy tail does not have.
+        // The band needs the variance of squares, which a heavy tail does not have.
         let rule = "have a fourth moment, which the band of an autocorrelation needs";
         let unfit = OutOfRange::new("noise.law", rule, scenario.noise);
         let remedy = " (take another law, or a student_t above 4)";
@@ -246,7 +245,7 @@ impl Trials for &Autocorrelation {
 }
 
 impl Autocorrelation {
-    /// Of one record after the other.
+    /// Sums over the records, one after the other.
     fn sums(&self, stream: &Stream, trials: Range<u64>) -> Sums {
         let variance = variance_ratio(self.scenario.sensor.ar());
         let mut sums = self.shape().empty().sums;
@@ -278,7 +277,7 @@ fn mean_product(record: &[f64], lag: usize) -> f64 {
     sum / (record.len() - lag) as f64
 }
 
-/// What (2) is worth, how far the simulation is from theory, what whitening gains.
+/// How accurate (2) is, how far the simulation is from theory, and what whitening gains.
 fn quantities(sensor: &Sensor, confidence: f64, rows: &[Row]) -> Vec<Quantity> {
     let exact = transfer_ar();
     let decay = TRANSFER.b / (2.0 * TRANSFER.a);
@@ -306,7 +305,7 @@ fn quantities(sensor: &Sensor, confidence: f64, rows: &[Row]) -> Vec<Quantity> {
     ]
 }
 
-/// max |estimate − theory|, its interval from intervals of all lags that hold together (Bonferroni).
+/// max |estimate − theory|. Its interval follows from simultaneous intervals at all lags (Bonferroni).
 fn largest_deviation(rows: &[Row], confidence: f64) -> Quantity {
     let together = 1.0 - (1.0 - confidence) / rows.len() as f64;
     let wider = two_sided_quantile(together) / two_sided_quantile(confidence);
@@ -392,8 +391,8 @@ mod tests {
         (rho, product(0))
     }
 
-    /// Against the infinite moving average; 4000 terms of a response that falls by 0.5 % a sample at
-    /// the slowest leave less than 1e-15.
+    /// Compares theory with the infinite moving average. The response falls by at least 0.5 % per sample,
+    /// so 4000 terms leave less than 1e-15.
     #[test]
     fn theory_is_that_of_the_response() {
         for ar in [
@@ -423,8 +422,9 @@ mod tests {
         assert!((variance - 9.97).abs() < 0.01);
     }
 
-    /// 31 means of 4000 short records, where an estimator with a bias of 1/length would be off by six
-    /// deviations or more. Every |z| below 6: fails with probability below 31 · 2e-9 = 7e-8.
+    /// Takes 31 means of 4000 short records. An estimator with a bias of 1/length would be off by six
+    /// deviations or more. The test requires |z| < 6 everywhere: it fails with probability below
+    /// 31 · 2e-9 = 7e-8.
     #[test]
     fn the_estimator_has_no_bias() {
         let (study, rows) = study(4000, 60, 30);

@@ -13,8 +13,8 @@ pub struct Row {
     pub exact_transfer: f64,
     /// Mean of the records' estimates.
     pub estimate: f64,
-    /// Its interval.
+    /// The lower end of its interval.
     pub low: f64,
-    /// Its interval.
+    /// The upper end of its interval.
     pub high: f64,
 }

@@ -1,10 +1,10 @@
 //! The laws of one impulse λ_i and of the sum S_i, eqs (5) and (6) of [^1], against simulation.
 //!
-//! (5): P(λ_i = ±θ) = ν/2, P(λ_i = 0) = 1 − ν, exact at every i. (6), P(S_i = 0) = ½, is the limit: S
-//! returns to zero or leaves it with every impulse, so P(S_i = 0) is the probability of an even number
-//! of them, (1 + (1 − 2ν)^i)/2.
+//! (5) says P(λ_i = ±θ) = ν/2 and P(λ_i = 0) = 1 − ν, which is exact at every i. (6) says
+//! P(S_i = 0) = ½, which is a limit: S returns to zero or leaves it with every impulse, so P(S_i = 0)
+//! is the probability of an even number of impulses, (1 + (1 − 2ν)^i)/2.
 //!
-//! All ν are decided by the same draws, one a sample.
+//! All ν use the same draws, one per sample.
 //!
 //! [^1]: see [`crate::signal`].
 
@@ -48,7 +48,7 @@ fn two_hundred() -> usize {
     200
 }
 
-/// More curves than this cannot be told apart.
+/// A reader cannot distinguish more curves than this.
 const MOST_CURVES: usize = 36;
 const LONGEST: usize = 10_000;
 
@@ -64,7 +64,7 @@ impl Keys {
     }
 }
 
-/// Every ν at samples 1 … `length`.
+/// The study: every ν at samples 1 … `length`.
 pub(super) struct ImpulseLaw {
     context: Context,
     nu: Vec<f64>,
@@ -84,7 +84,7 @@ impl ImpulseLaw {
         study
     }
 
-    /// Of each sample how often S was zero, λ positive and λ zero.
+    /// Three counts per sample: how often S was zero, λ was positive and λ was zero.
     fn shape(&self) -> Shape {
         Shape::events(3 * self.length)
     }
@@ -164,7 +164,7 @@ impl Trials for &ImpulseLaw {
         &self.counters.targets
     }
 
-    /// λ is positive, negative or zero.
+    /// λ is positive, negative or zero, so positive and zero together occur at most once per trial.
     fn check(&self, counts: &Counts) -> Result<(), StudyError> {
         for key in &self.counters.keys {
             let Some(Counter { trials, sums }) = counts.get(key) else {
@@ -190,7 +190,7 @@ impl Trials for &ImpulseLaw {
     }
 }
 
-/// Several ν on the same draws.
+/// Counts several ν on the same draws.
 fn count(stream: &Stream, nu: &[f64], length: usize, trials: Range<u64>) -> Vec<Sums> {
     let mut counts = vec![vec![[0u64; 3]; length]; nu.len()];
     for trial in trials {
@@ -235,7 +235,7 @@ fn quantities(rows: &[Row], confidence: f64) -> Vec<Quantity> {
     quantities
 }
 
-/// P(S_i = 0) from S = 0.
+/// P(S_i = 0) after a start from S = 0.
 fn zero_sum(nu: f64, sample: usize) -> f64 {
     f64::midpoint(1.0, libm::pow(1.0 - 2.0 * nu, sample as f64))
 }
@@ -243,10 +243,10 @@ fn zero_sum(nu: f64, sample: usize) -> f64 {
 /// The first i with |P(S_i = 0) − ½| ≤ 0.005, that is |1 − 2ν|^i ≤ 0.01.
 fn samples_to_one_percent(nu: f64) -> f64 {
     let shrinks = (1.0 - 2.0 * nu).abs();
-    // The logarithm of `shrinks`, also where that rounds to 1.
+    // This is the logarithm of `shrinks`. It stays accurate where `shrinks` rounds to 1.
     let decay = libm::log1p(-2.0 * nu.min(1.0 - nu));
     let rough = (libm::log(0.01) / decay).floor().max(1.0);
-    // A last bit of the quotient must not decide.
+    // The quotient is rounded, so its neighbours are tried as well.
     let is_enough = |i: f64| libm::pow(shrinks, i) <= 0.01;
     [rough, rough + 1.0]
         .into_iter()
@@ -254,8 +254,8 @@ fn samples_to_one_percent(nu: f64) -> f64 {
         .unwrap_or(rough + 2.0)
 }
 
-/// The largest |rate − probability|, its interval from intervals of all rates that hold together
-/// (Bonferroni): from zero where every one of them covers its probability.
+/// The largest |rate − probability|. Its interval follows from simultaneous intervals of all rates
+/// (Bonferroni). It starts at zero if every one of them covers its probability.
 fn largest_deviation(name: &str, compared: &[(Tally, f64)], confidence: f64) -> Quantity {
     let together = 1.0 - (1.0 - confidence) / compared.len() as f64;
     let deviations = compared.par_iter().map(|&(tally, probability)| {
@@ -330,7 +330,7 @@ mod tests {
         ImpulseLaw::new(context, nu.to_vec(), length)
     }
 
-    /// Against the chain itself: P(0) and P(±θ) taken step by step from (4)'s rule.
+    /// Compares the closed form with the chain: P(0) and P(±θ) follow step by step from the rule of (4).
     #[test]
     fn closed_form_is_that_of_the_chain() {
         for nu in [0.01, 0.3, 0.5, 0.9] {
@@ -348,12 +348,12 @@ mod tests {
             let tried = (1..).find(|&i| (zero_sum(nu, i) - 0.5).abs() <= 0.005);
             assert_eq!(samples_to_one_percent(nu), tried.unwrap() as f64, "{nu}");
         }
-        // ln 100 / 2ν where 1 − 2ν is 1 to every digit.
+        // The answer is ln 100 / 2ν where 1 − 2ν rounds to 1.
         let many = samples_to_one_percent(1e-17);
         assert!((many / 2.302_585_093e17 - 1.0).abs() < 1e-9, "{many}");
     }
 
-    /// 2 · 20 · 3 exact tests, each failing with probability 5e-9 at most: 6e-7 in all.
+    /// Makes 2 · 20 · 3 exact tests. Each fails with probability 5e-9 at most: 6e-7 in all.
     #[test]
     fn simulation_follows_the_laws() {
         let trials = 20_000;
@@ -372,7 +372,7 @@ mod tests {
         }
     }
 
-    /// The same draws, one trial after another.
+    /// Counts the same draws again, one trial after another.
     #[test]
     fn counts_are_those_of_a_plain_loop() {
         let stream = Stream::new(2014, "impulse law", "");

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// One ν at one sample. Each law has its exact value, how often the event came up in `trials`, and the
-/// exact interval of its probability.
+/// One ν at one sample. Each law has its exact value, the number of trials in which the event occurred,
+/// and the exact interval of its probability.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "the columns of three laws are alike")]
 pub struct Row {

@@ -1,9 +1,9 @@
 //! Whether W and T are independent under H₀, eqs (13)–(14) of [^1], by enumeration.
 //!
-//! (13): every way of dealing the pooled ranks to X, Y₁ and Y₂ is equally likely. Here each is made,
-//! W and T are taken from their definitions (12), and the cases n(w, t), n(w), n(t) of n are counted.
-//! (14) holds where n(w, t)·n = n(w)·n(t) for every w and t: whole numbers, no rounding, and nothing
-//! of the laws that the detector relies on.
+//! (13): every assignment of the pooled ranks to X, Y₁ and Y₂ is equally likely. This study makes each
+//! of the n assignments, computes W and T by their definitions (12), and counts n(w, t), n(w) and n(t).
+//! (14) holds if n(w, t)·n = n(w)·n(t) for every w and t. These are whole numbers without rounding, and
+//! they do not use the laws that the detector relies on.
 //!
 //! [^1]: see [`crate::signal`].
 
@@ -36,9 +36,9 @@ pub(super) struct Independence {
     sizes: Vec<[usize; 3]>,
 }
 
-/// An enumeration may take so many assignments of ranks; the square of their number is exact in an f64.
+/// The most assignments of ranks in one enumeration. The square of their number is exact in an f64.
 const MOST_ASSIGNMENTS: u128 = 50_000_000;
-/// All enumerations of a config are held in memory.
+/// The most sets of sizes. All enumerations of a config are held in memory.
 const MOST_SIZES: usize = 100;
 
 impl Independence {
@@ -64,7 +64,7 @@ impl Independence {
     }
 }
 
-/// (N + M₁ + M₂)!/(N! M₁! M₂!), unless it is very large.
+/// (N + M₁ + M₂)!/(N! M₁! M₂!). `None` if it is very large.
 fn assignments([n, m1, m2]: [usize; 3]) -> Option<u128> {
     let mut number = 1u128;
     for (before, more) in [(n, m1), (n.checked_add(m1)?, m2)] {
@@ -103,7 +103,7 @@ impl Study for Independence {
         rows(&self.sizes)
     }
 
-    /// The largest difference of all, and how many assignments were made.
+    /// The largest difference overall, and the number of assignments.
     fn quantities(&self, rows: &[Row]) -> Result<Vec<Quantity>, StudyError> {
         let findings = findings(rows);
         let largest = findings.iter().map(|finding| finding.largest_difference);
@@ -139,14 +139,14 @@ const HEADER: &[&str] = &[
     "largest |n(w,t) n - n(w) n(t)|",
 ];
 
-/// Every cell of every set of sizes.
+/// The rows of all sets of sizes.
 pub(super) fn rows(sizes: &[[usize; 3]]) -> Vec<Row> {
     let each = sizes.par_iter();
     each.flat_map_iter(|&sizes| cells(sizes, &enumerate(sizes)))
         .collect()
 }
 
-/// Which sample a rank is dealt to.
+/// The sample that a rank is assigned to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Sample {
     Reference,
@@ -154,7 +154,7 @@ enum Sample {
     Scale,
 }
 
-/// n(w, t).
+/// Counts n(w, t) over all assignments.
 fn enumerate([n, m1, m2]: [usize; 3]) -> BTreeMap<(u64, usize), u64> {
     let mut owners = [
         vec![Sample::Reference; n],
@@ -171,7 +171,7 @@ fn enumerate([n, m1, m2]: [usize; 3]) -> BTreeMap<(u64, usize), u64> {
     }
 }
 
-/// W and T by (12), of the ranks 1, 2, … dealt to `owners`.
+/// W and T by (12), for the ranks 1, 2, … assigned to `owners`.
 fn statistics(owners: &[Sample]) -> (u64, usize) {
     let (mut rank_sum, mut lowest, mut highest) = (0, usize::MAX, 0);
     for (rank, owner) in (1..).zip(owners) {
@@ -188,7 +188,7 @@ fn statistics(owners: &[Sample]) -> (u64, usize) {
     (rank_sum, exceedances)
 }
 
-/// The next arrangement in lexicographic order; false after the last.
+/// Makes the next arrangement in lexicographic order. Returns false after the last.
 fn next_arrangement(owners: &mut [Sample]) -> bool {
     let Some(pivot) = owners.windows(2).rposition(|pair| pair[0] < pair[1]) else {
         return false;
@@ -199,7 +199,8 @@ fn next_arrangement(owners: &mut [Sample]) -> bool {
     true
 }
 
-/// The rows of one set of sizes: every w that occurs with every t that occurs, together or not.
+/// The rows of one set of sizes: every w that occurs with every t that occurs, even if they never occur
+/// together.
 fn cells(sizes: [usize; 3], counts: &BTreeMap<(u64, usize), u64>) -> Vec<Row> {
     let (mut of_w, mut of_t) = (BTreeMap::new(), BTreeMap::new());
     for (&(w, t), count) in counts {
@@ -232,8 +233,8 @@ fn cells(sizes: [usize; 3], counts: &BTreeMap<(u64, usize), u64>) -> Vec<Row> {
 mod tests {
     use super::*;
 
-    /// At 1/1/1 by hand: X, Y₁, Y₂ hold the ranks 1, 2, 3 in some order, W is the rank of Y₁ and Y₂
-    /// always lies outside the single X.
+    /// Checks 1/1/1 by hand. X, Y₁ and Y₂ hold the ranks 1, 2, 3 in some order, W is the rank of Y₁, and
+    /// Y₂ always lies outside the single X.
     #[test]
     fn one_each_by_hand() {
         let counts = enumerate([1, 1, 1]);
@@ -241,7 +242,7 @@ mod tests {
         assert_eq!(counts, BTreeMap::from(expected));
     }
 
-    /// Each arrangement comes once: their number is the multinomial coefficient, eq. (13).
+    /// Each arrangement occurs once: their number is the multinomial coefficient, eq. (13).
     #[test]
     fn every_assignment_once() {
         for (sizes, number) in [
@@ -262,7 +263,7 @@ mod tests {
         assert_eq!(seen.len(), 6);
     }
 
-    /// (14), and the laws of the detector, which share no code with this.
+    /// Checks (14) and the laws of the detector, which share no code with this enumeration.
     #[test]
     fn independent_and_of_the_known_laws() {
         use crate::detect::{NullLaw, Samples};
@@ -284,7 +285,7 @@ mod tests {
         }
     }
 
-    /// Rows that are not independent are seen to be so: 3 · 4 against 1 · 3 and the like.
+    /// The study detects rows that are not independent, such as 3 · 4 against 1 · 3.
     #[test]
     fn dependence_shows() {
         let mut rows = rows(&[[2, 1, 1]]);

@@ -24,7 +24,7 @@ pub struct Row {
     pub joint: f64,
 }
 
-/// What the enumeration of one set of sizes comes to.
+/// The result of the enumeration of one set of sizes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Finding {
     /// N, M₁, M₂.

@@ -1,6 +1,6 @@
-//! Where the three samples of a trial lie, Fig. 5 of [^1], against the phases of the motion.
+//! The places of the three samples of a trial, Fig. 5 of [^1], relative to the phases of the motion.
 //!
-//! Positions count observations from the first after X, where the motion may start.
+//! Positions count observations from the first one after X, where the motion may start.
 //!
 //! [^1]: see [`crate::signal`].
 
@@ -30,7 +30,7 @@ struct Keys {}
 /// The samples of a scenario.
 pub(super) struct Layout(Scenario);
 
-/// More observations than this have no end that can be drawn.
+/// The most observations. A longer layout cannot be drawn.
 const LONGEST: usize = 1_000_000;
 
 impl Layout {
@@ -101,7 +101,7 @@ impl Study for Layout {
     }
 }
 
-/// The phases, then the samples, each in the order of time, empty ones left out.
+/// The phases, then the samples, each in the order of time. Empty ones are left out.
 fn rows(scenario: &Scenario) -> Vec<Row> {
     let samples = &scenario.samples;
     let from_motion = |position: usize| position as i64 - samples.reference() as i64;

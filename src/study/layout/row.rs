@@ -9,6 +9,6 @@ pub struct Row {
     pub name: String,
     /// Its first observation.
     pub start: i64,
-    /// The first after it.
+    /// The first observation after it.
     pub end: i64,
 }

@@ -1,4 +1,4 @@
-//! The search: every Δ that may be counted, and the crossings that the counts show.
+//! The search: each Δ that may be counted, and the crossings that the counts show.
 
 use super::row::Row;
 use super::search::{DeltaRange, STEPS, Search, Sized, grid};
@@ -20,7 +20,7 @@ pub struct OperatingPoint {
     pub search: Search,
     pub sized: Vec<Sized>,
     pub targets: Vec<Target>,
-    /// The place among the targets of each size's Δ, coarse or fine, by its bits.
+    /// For each size, the place of each Δ, coarse or fine, among the targets. The bits of Δ are the key.
     pub places: Vec<BTreeMap<u64, usize>>,
 }
 
@@ -28,7 +28,7 @@ impl OperatingPoint {
     /// Plans a search.
     ///
     /// # Errors
-    /// Where a size has no region, a motion that does not fit, or a record that does not fit in memory.
+    /// If a size has no region, a motion that does not fit, or a record that does not fit in memory.
     pub fn new(context: Context, scenario: &Scenario, search: Search) -> Result<Self, StudyError> {
         let DeltaRange { from, to } = search.delta;
         let coarse = grid(from, to);
@@ -76,7 +76,7 @@ struct Level {
     high: f64,
 }
 
-/// The grids of one size, and which of the fine ones have been asked for, by the coarse step that they end at.
+/// The grids of one size, and the fine grids that have been asked for, by the coarse step at their end.
 pub struct Grids<'a> {
     study: &'a OperatingPoint,
     counts: &'a Counts,
@@ -123,8 +123,8 @@ impl<'a> Grids<'a> {
         self.levels(self.study.sized[self.size].fine(above))
     }
 
-    /// The neighbours on the fine grid between which `is_reached` first holds; twice the start of the
-    /// grid where it holds there, none where it never does.
+    /// The neighbours on the fine grid between which `is_reached` first holds. If it holds at the start of
+    /// the grid, both are the start. If it never holds, there are no neighbours.
     fn first(&mut self, is_reached: impl Fn(&Level) -> bool) -> Option<[f64; 2]> {
         let above = self.coarse.iter().position(&is_reached)?;
         if above == 0 {
@@ -135,7 +135,7 @@ impl<'a> Grids<'a> {
         Some([fine[above - 1].delta, fine[above].delta])
     }
 
-    /// The same for the place after which `is_reached` holds to the end.
+    /// The neighbours on the fine grid after which `is_reached` holds to the end.
     fn last(&mut self, is_reached: impl Fn(&Level) -> bool) -> Option<[f64; 2]> {
         let fails = |at: &Level| !is_reached(at);
         let Some(below) = self.coarse.iter().rposition(fails) else {

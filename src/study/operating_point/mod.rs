@@ -1,14 +1,14 @@
 //! The operating point: the Δ/σ_ξ at which the power reaches a wanted value, for samples of several
 //! sizes, by a search with an interval.
 //!
-//! At every Δ of a grid all trials are run on the same noise, then again on a grid thirty-two times
-//! finer wherever something happens. The operating point is where the rate first reaches the wanted power.
-//! Its interval inverts the exact intervals of the rates: from the last Δ before the upper limit first
-//! reaches the power, to the first Δ after the lower limit was last below it. Where the power grows with
-//! Δ, either end is missed only if the interval at one of the two neighbours of the true point misses,
-//! so it covers that point with the stated confidence. Outside the search nothing is known: where the upper
-//! limit reaches the power at its start the interval is open below, where the lower limit has not reached it
-//! at its end it is open above.
+//! All trials run on the same noise at every Δ of a grid. They run again on a grid thirty-two times finer
+//! around each crossing. The operating point is the Δ at which the rate first reaches the wanted power.
+//! Its interval inverts the exact intervals of the rates: it runs from the last Δ before the upper limit
+//! first reaches the power to the first Δ after the lower limit was last below it. If the power grows with
+//! Δ, an end misses only if the interval at one of the two neighbours of the true point misses, so the
+//! interval covers that point with the stated confidence. The search says nothing beyond its ends. If the
+//! upper limit reaches the power at the start of the search, the interval is open below. If the lower limit
+//! has not reached it at the end, the interval is open above.
 
 mod grids;
 pub(super) mod picture;
@@ -63,7 +63,7 @@ impl Study for OperatingPoint {
         Search::json_schema(generator).to_value()
     }
 
-    /// The wanted powers change no count.
+    /// The wanted powers are left out, because they change no count.
     fn identities(&self) -> Vec<Identity> {
         let DeltaRange { from, to } = self.search.delta;
         let sized = self.sized.iter();
@@ -86,7 +86,7 @@ impl Study for OperatingPoint {
             .collect()
     }
 
-    /// Δ/σ_ξ of every row by name; the end of the search, a bound, where the power is not reached.
+    /// Δ/σ_ξ of each row by name. If the power is not reached, this is the end of the search, a bound.
     fn quantities(&self, rows: &[Row]) -> Result<Vec<Quantity>, StudyError> {
         let quantity = |row: &Row| {
             let power = row.power.to_string().replace('.', "_");
@@ -129,8 +129,8 @@ mod tests {
         (study, rows)
     }
 
-    /// Against brute force: a sweep over every Δ of the finest grid on the same draws, and the three
-    /// crossings read off its rates and limits.
+    /// Compares the search with brute force: a sweep over every Δ of the finest grid on the same draws. The
+    /// three crossings are read off its rates and limits.
     #[test]
     fn finds_what_a_grid_of_every_point_shows() {
         let (_, rows) = searched(SEARCH);
@@ -176,7 +176,7 @@ mod tests {
         }
     }
 
-    /// A power beyond the range is not reached, and says so.
+    /// A power beyond the range is not reached, and the row shows it.
     #[test]
     fn what_is_not_reached_is_left_out() {
         let text = SEARCH.replace("3.2", "0.05").replace("0.9]", "0.999]");
@@ -187,8 +187,8 @@ mod tests {
         assert!(quantities.iter().all(bound), "{quantities:?}");
     }
 
-    /// Searches that have the point within, before or beyond them or at either end, against one that has it
-    /// well within: each interval has the point in it and is open where the search ends too early.
+    /// Compares searches that have the point inside, before, beyond or at either end with one that has it
+    /// well inside. Each interval contains the point and is open where the search ends too early.
     #[test]
     fn a_search_that_ends_too_early_is_open() {
         let searched = |from: f64, to: f64| {

@@ -9,18 +9,18 @@ pub struct Row {
     pub all_samples: usize,
     /// α.
     pub alpha: f64,
-    /// Of the region.
+    /// The exact size of the region.
     pub size: f64,
     /// The wanted power.
     pub power: f64,
-    /// Δ/σ_ξ, or the start of the search where the power is reached already; none where it never is.
+    /// Δ/σ_ξ. The start of the search if the power is already reached there; none if it is never reached.
     pub delta: Option<f64>,
-    /// Of its interval; none where that is open below.
+    /// The lower end of its interval; none if the interval is open below.
     pub low: Option<f64>,
-    /// Of its interval; none where that is open above.
+    /// The upper end of its interval; none if the interval is open above.
     pub high: Option<f64>,
-    /// At every Δ.
+    /// Trials at each Δ.
     pub trials: u64,
-    /// Of the interval.
+    /// Confidence of the interval.
     pub confidence: f64,
 }

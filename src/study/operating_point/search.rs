@@ -1,4 +1,4 @@
-//! What is looked for, and the scenario of each size with its grids of Δ.
+//! The keys of a search, and the scenario of each size with its grids of Δ.
 
 use crate::chain::{Purpose, RecordTooLong, Scenario};
 use crate::config::Conflict;
@@ -36,12 +36,12 @@ pub struct DeltaRange {
     pub to: f64,
 }
 
-/// Each size has a thousand levels.
+/// The most sizes. Each size has a thousand values of Δ.
 const MOST_SIZES: usize = 100;
 const MOST_POWERS: usize = 100;
 
 impl Search {
-    /// Whether its values fit each other.
+    /// Checks that the values fit each other.
     pub fn check(&self) -> Result<(), Conflict> {
         const SIZES: &str = "operating_point.sizes";
         const POWER: &str = "operating_point.power";
@@ -77,10 +77,10 @@ impl Search {
     }
 }
 
-/// Steps of each grid.
+/// The number of steps in each grid.
 pub const STEPS: usize = 32;
 
-/// `from`, `to` and the steps between them.
+/// The grid of `from`, `to` and the steps between them.
 pub fn grid(from: f64, to: f64) -> Vec<f64> {
     let delta = |step| from + (to - from) * step as f64 / STEPS as f64;
     (0..=STEPS).map(delta).collect()
@@ -93,7 +93,7 @@ pub struct Sized {
     pub region: Region,
     /// Δ at every step of the coarse grid.
     pub coarse: Vec<f64>,
-    /// Without Δ.
+    /// The scenario without Δ.
     identity: Identity,
 }
 
@@ -109,7 +109,7 @@ impl Sized {
         };
         let laws = NullLaws::new(detector.alternative, &samples).map_err(RegionError::from)?;
         let region = laws.region(rule, detector.alpha)?;
-        // As long as Y₁ lasts, wherever it starts: the duration follows the size.
+        // The acceleration lasts to the end of Y₁, so its duration follows the size.
         let motion = Motion {
             duration: samples
                 .acceleration()
@@ -136,7 +136,7 @@ impl Sized {
         grid(self.coarse[above - 1], self.coarse[above])
     }
 
-    /// Δ at every step of every grid.
+    /// Δ at each step of all grids.
     pub fn deltas(&self) -> impl Iterator<Item = f64> {
         let fine = (1..=STEPS).flat_map(|above| self.fine(above));
         self.coarse.iter().copied().chain(fine)

@@ -1,4 +1,4 @@
-//! The trials behind operating points: Δ by Δ on one noise for each size.
+//! The trials behind operating points. For each size, all Δ share one noise.
 
 use super::grids::{Grids, OperatingPoint};
 use crate::chain::{Observation, View};
@@ -27,7 +27,7 @@ impl Trials for &OperatingPoint {
             if deltas.iter().all(is_counted) {
                 let mut grids = Grids::new(study, counts, size);
                 for &power in &study.search.power {
-                    // Asked for the sake of what it finds missing.
+                    // The row is not used: the call records the fine grids that it needs.
                     let _ = grids.row(power);
                 }
                 let fine = grids.asked.iter();
@@ -38,9 +38,9 @@ impl Trials for &OperatingPoint {
         needed.into_iter().collect()
     }
 
-    /// Δ by Δ on one noise for each size.
+    /// One group for each size. All of its Δ share one noise.
     fn groups(&self, targets: &[usize]) -> Vec<Group<'_>> {
-        // What two sizes have in common is counted with the first of them.
+        // A target that two sizes share is counted with the first of them.
         let mut left: BTreeSet<usize> = targets.iter().copied().collect();
         let mut groups = Vec::new();
         for (sized, places) in self.sized.iter().zip(&self.places) {

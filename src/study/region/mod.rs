@@ -31,7 +31,7 @@ struct Keys {
     rules: Vec<Method>,
 }
 
-/// More regions than this cannot be told apart.
+/// A reader cannot distinguish more regions than this.
 const MOST_RULES: usize = 36;
 
 /// The rules of methods that have exact regions, each once.
@@ -62,7 +62,7 @@ pub(super) struct Regions {
 
 impl Regions {
     /// # Errors
-    /// Where a rule has no region.
+    /// If a rule has no region.
     fn new(scenario: Scenario, rules: Vec<Rule>) -> Result<Self, RegionError> {
         let detector = &scenario.detector;
         let laws = NullLaws::new(detector.alternative, &scenario.samples)?;
@@ -156,7 +156,7 @@ mod tests {
     use crate::study::independence;
     use crate::study::tests::{read, rows};
 
-    /// The size of each boundary, summed cell by cell from a full enumeration of ranks.
+    /// Compares the size of each boundary with the sum of its cells in a full enumeration of ranks.
     #[test]
     fn sizes_are_those_of_an_enumeration() {
         let text = "question = \"?\"\nseed = 1\n[region]\nrules = [\"wilcoxon\", \"product\", \

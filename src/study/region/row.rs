@@ -5,14 +5,14 @@ use serde::{Deserialize, Serialize};
 /// One rule at one T: W ≤ lower or W ≥ upper decides H₁.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// As in a config.
+    /// The rule, as in a config.
     pub rule: String,
     /// P(ϑ | H₀), exact.
     pub size: f64,
     /// T.
     pub exceedances: usize,
-    /// Absent where no small W decides.
+    /// Absent if no small W decides H₁.
     pub lower: Option<u64>,
-    /// Absent where no large W decides.
+    /// Absent if no large W decides H₁.
     pub upper: Option<u64>,
 }

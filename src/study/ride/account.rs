@@ -1,47 +1,47 @@
-//! What a monitor said, held against the truth.
+//! Compares a monitor's reports with the truth.
 
 use crate::monitor::{Alarm, Direction, Event, Kind, State};
 use crate::signal::{Journey, Phase};
 
-/// What there was to see.
+/// The true motion.
 pub(super) struct Truth {
     pub journeys: Vec<Journey>,
     /// When the record ends, s.
     pub to: f64,
 }
 
-/// What came of a trial, or of several.
+/// The result of a trial, or of several.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Account {
     pub trips: Vec<Trip>,
-    /// Starts told while the cage stood, of a time when it stood.
+    /// Starts that the monitor reported while the cage stood, for a time when the cage stood.
     pub false_motions: u64,
     /// Jam alarms without a jam.
     pub false_alarms: u64,
-    /// For how long the cage stood and the monitor said so, s.
+    /// How long the cage stood while the monitor said `rest`, s.
     pub at_rest: f64,
-    /// Whether it said `rest` in the first trip.
+    /// Whether the monitor said `rest` in the first trip.
     pub misled: bool,
-    /// Whether it said `rest` when the rest after the first trip ended.
+    /// Whether the monitor said `rest` when the rest after the first trip ended.
     pub knew_soon: bool,
-    /// Whether it said so in the end.
+    /// Whether the monitor said `rest` at the end.
     pub knew: bool,
 }
 
-/// What was said of one trip; delays in s, infinite where nothing was.
+/// The monitor's reports on one trip. Delays are in s; a missing report has an infinite delay.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Trip {
-    /// Start, stop and direction.
+    /// Whether start, stop and direction are correct.
     pub is_found: bool,
-    /// From the start to when it was told.
+    /// Time from the start to its report.
     pub start_delay: f64,
-    /// From the stop.
+    /// Time from the stop to its report.
     pub stop_delay: f64,
-    /// From the jam to its alarm, where it jammed.
+    /// Time from the jam to its alarm, if the trip jammed.
     pub alarm_delay: Option<f64>,
 }
 
-/// A motion as the monitor told it: times in s, of the event and of its report.
+/// A motion as the monitor reported it. Each pair holds the times of the event and of its report, in s.
 struct Sighting {
     direction: Option<Direction>,
     start: (f64, f64),
@@ -83,7 +83,7 @@ impl Account {
         }
     }
 
-    /// Another part of the same trial.
+    /// Adds another part of the same trial.
     pub fn add(&mut self, other: Self) {
         self.trips.extend(other.trips);
         self.false_motions += other.false_motions;
@@ -122,14 +122,15 @@ impl Trip {
 }
 
 impl Journey {
-    /// Whether it jammed and an alarm is of that: told since, of the jam or of what came before.
+    /// Whether the trip jammed and the alarm belongs to that jam: it was reported after the jam, for a time
+    /// no later than the stop, within the tolerance.
     fn is_told_by(&self, alarm: &Event, tolerance: f64) -> bool {
         let told = |jam| jam <= alarm.reported && alarm.time <= self.stop + tolerance;
         self.jam().is_some_and(told)
     }
 }
 
-/// Motions from their starts to the next rest; one that ends in doubt has no stop.
+/// The reported motions, each from its start to the next rest. A motion that ends in doubt has no stop.
 fn sightings(events: &[Event]) -> Vec<Sighting> {
     let mut sightings: Vec<Sighting> = Vec::new();
     let mut moves = false;
@@ -164,7 +165,7 @@ fn sightings(events: &[Event]) -> Vec<Sighting> {
 }
 
 impl Truth {
-    /// From when to when the cage stood, s.
+    /// The start and end of each time for which the cage stood, s.
     fn rests(&self) -> impl Iterator<Item = (f64, f64)> {
         let stops = self.journeys.iter().map(|journey| journey.stop);
         let starts = self.journeys.iter().map(|journey| journey.start);
@@ -172,7 +173,7 @@ impl Truth {
     }
 }
 
-/// From when to when the monitor said `rest`, s.
+/// The start and end of each time for which the monitor said `rest`, s.
 struct Said(Vec<(f64, f64)>);
 
 impl Said {
@@ -196,7 +197,7 @@ impl Said {
         Self(said)
     }
 
-    /// For how long in a time, s.
+    /// How long the monitor said `rest` between `from` and `to`, s.
     fn rest_within(&self, from: f64, to: f64) -> f64 {
         let shared = |&(start, end): &(f64, f64)| (end.min(to) - start.max(from)).max(0.0);
         self.0.iter().map(shared).sum()

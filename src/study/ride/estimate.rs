@@ -1,4 +1,4 @@
-//! From what came of each trial to rates and quantiles with exact intervals.
+//! Rates and quantiles with exact intervals, from the sums of the trials.
 
 use super::measure::Measure;
 use super::sums::RideSums;
@@ -7,27 +7,27 @@ use crate::stats::poisson;
 use crate::stats::quantile::Quantile;
 use crate::stats::tally::Tally;
 
-/// One outcome: a count and what it says.
+/// One outcome: a count and the estimate that follows from it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Estimate {
     pub outcome: String,
-    /// How often it happened.
+    /// How often the event happened.
     pub count: u64,
-    /// Out of so many, or in so much time.
+    /// The number of cases, or the time, in which it could happen.
     pub exposure: f64,
-    /// Of the exposure.
+    /// Unit of the exposure.
     pub unit: &'static str,
     pub value: f64,
     pub low: f64,
     pub high: f64,
 }
 
-/// The quantiles told of delays.
+/// The quantiles of delays, by name.
 const QUANTILES: [(&str, f64); 3] = [("05", 0.05), ("50", 0.5), ("95", 0.95)];
 
 const HOUR: f64 = 3600.0;
 
-/// All outcomes that a measurement is about.
+/// All outcomes of a measure.
 pub(super) fn of(measure: Measure, sums: &RideSums, trials: u64, confidence: f64) -> Vec<Estimate> {
     let all = All {
         sums,
@@ -73,7 +73,7 @@ impl All<'_> {
         vec![self.false_motions(), self.hours_between()]
     }
 
-    /// The share of trials, with the interval of Clopper and Pearson.
+    /// The share of trials, with the Clopper–Pearson interval.
     fn share(&self, outcome: &str, hits: u64) -> Estimate {
         let trials = self.trials;
         let tally = Tally { hits, trials };
@@ -89,7 +89,7 @@ impl All<'_> {
         }
     }
 
-    /// Events per unit of exposure, with the interval of Garwood. Where there was no exposure, nothing is known.
+    /// Events per unit of exposure, with Garwood's interval. Without exposure the rate is unknown.
     fn rate(&self, outcome: &str, count: u64, exposure: f64, unit: &'static str) -> Estimate {
         let (low, high) = poisson::interval(count, self.confidence);
         let [value, low] = [count as f64, low].map(|number| match number {
@@ -128,7 +128,7 @@ impl All<'_> {
         self.rate("false_alarms", count, self.trials as f64, "trials")
     }
 
-    /// Quantiles of a delay, counting those that were told.
+    /// Quantiles of a delay. The count is the number of reported events.
     fn delays(&self, outcome: &str, delays: &Values) -> Vec<Estimate> {
         let ascending = delays.ascending();
         let told = delays.count(f64::is_finite);

@@ -1,5 +1,5 @@
-//! The keys of `[ride]`. Those of the ride and its sensor are the fields of [`RideKeys`]; those of the monitor are all
-//! of [`Settings`], by the last word of their path.
+//! The keys of `[ride]`. The keys of the ride and its sensor are the fields of [`RideKeys`]. The keys of the
+//! monitor are those of [`Settings`], by the last word of their path.
 
 use super::problem::RideProblem;
 use crate::config::{Conflict, Node, Refusal};
@@ -93,7 +93,7 @@ impl Default for RideKeys {
     }
 }
 
-/// Three ways to say one thing: how strong the noise is.
+/// The three keys for the strength of the noise, of which a point uses one.
 pub const STRENGTH: [&str; 3] = ["sigma", "density", "delta_over_sigma"];
 
 /// All keys that a curve may change and an axis may sweep.
@@ -102,7 +102,7 @@ pub fn all() -> impl Iterator<Item = &'static str> + Clone {
     own.chain(Settings::names())
 }
 
-/// Refuses the first key of a table that is no parameter and none of `more`.
+/// Refuses the first key of a table that is neither a parameter nor in `more`.
 pub fn check_known(table: &Node, more: &[&'static str]) -> Result<(), Conflict> {
     match table.unknown(more.iter().copied().chain(all())) {
         Some((span, among)) => Err(Conflict::at(&span, RideProblem::UnknownKey(among))),
@@ -110,7 +110,7 @@ pub fn check_known(table: &Node, more: &[&'static str]) -> Result<(), Conflict> 
     }
 }
 
-/// The keys with their values, of the ride and of the monitor.
+/// Reads the keys of the ride and of the monitor.
 pub fn read(values: &Node) -> Result<(RideKeys, Settings), Conflict> {
     let mut settings = Node::empty(values.span.clone());
     for (key, (_, node)) in values.table().into_iter().flatten() {
@@ -126,7 +126,7 @@ pub fn read(values: &Node) -> Result<(RideKeys, Settings), Conflict> {
 }
 
 fn refused(mut refusal: Refusal) -> Conflict {
-    // The monitor's keys stand here without their tables.
+    // Here the monitor's keys have no tables before them.
     let (_, key) = refusal.path.rsplit_once('.').unwrap_or(("", &refusal.path));
     refusal.path = key.to_owned();
     let span = refusal.span.clone();

@@ -1,4 +1,4 @@
-//! What is asked of rides.
+//! What a study measures on rides.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -28,17 +28,17 @@ impl fmt::Display for Measure {
 }
 
 impl Measure {
-    /// Whether it makes trips.
+    /// Whether the trial has trips.
     pub fn rides(self) -> bool {
         self != Self::Rest
     }
 
-    /// Whether it rests for a given time.
+    /// Whether the trial has a rest of a given length.
     pub fn rests(self) -> bool {
         matches!(self, Self::Rest | Self::Tradeoff)
     }
 
-    /// The keys that change nothing in it.
+    /// The keys that do not affect this measure.
     pub fn unused(self) -> &'static [&'static str] {
         match self {
             Self::Rides | Self::SwitchedOn => &["length", "jam_within"],

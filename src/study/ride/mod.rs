@@ -1,9 +1,9 @@
-//! Whole rides before the monitor: is every trip found, how late, how often does rest look like motion, does a jam
-//! alarm, and what becomes of a monitor that is switched on in motion?
+//! Shows whole rides to the monitor. Is every trip found, and how late? How often does rest look like
+//! motion? Does a jam raise an alarm? What does a monitor say that is switched on in motion?
 //!
-//! A trial is one ride, one rest, or both, simulated, watched, and held against the truth. Every point sees the
-//! same draws of a trial, so points that differ in strength or in the monitor's settings alone are compared on the
-//! same noise.
+//! A trial is one ride, one rest, or both. It is simulated, watched by the monitor, and compared with the
+//! truth. All points use the same draws in a trial, so points that differ only in strength or in the
+//! monitor's settings are compared on the same noise.
 //!
 //! | outcome | of | is |
 //! |---|---|---|
@@ -19,7 +19,7 @@
 //! | `misled` | trials | switched on in motion, the monitor said `rest` before the cage stood |
 //! | `knew_soon`, `knew` | trials | it said `rest` when the next trip began, and when the record ended |
 //!
-//! What was never told took infinitely long: a quantile beyond the share that was told is infinite.
+//! An event that was never reported has an infinite delay. A quantile above the reported share is infinite.
 
 mod account;
 mod estimate;
@@ -53,7 +53,7 @@ use sums::RideSums;
 use table::RideTable;
 use watch::Watch;
 
-/// A trial takes milliseconds.
+/// Trials in a block. A trial takes milliseconds.
 const BLOCK: u64 = 4;
 
 /// Rides along an axis.
@@ -64,7 +64,7 @@ pub(super) struct Rides {
 }
 
 impl Rides {
-    /// Every point with its curve and its value on the axis.
+    /// Each point with the index of its curve and its value on the axis.
     fn points(&self) -> impl Iterator<Item = (usize, f64, &RidePoint)> {
         let curves = self.table.curves.iter().enumerate();
         curves.flat_map(|(curve, of)| of.points.iter().map(move |(x, point)| (curve, *x, point)))
@@ -101,7 +101,7 @@ impl Study for Rides {
         Some(Box::new(self))
     }
 
-    /// All outcomes of every point, in the order of curves and values.
+    /// All outcomes of all points, in the order of curves and values.
     fn rows(&self, counts: &Counts) -> Vec<Row> {
         let Self { context, table, .. } = self;
         let shape = RideSums::shape(table);
@@ -117,7 +117,7 @@ impl Study for Rides {
         rows
     }
 
-    /// Every outcome by name: that of the outcome, of its curve and of its place on the axis.
+    /// Each outcome by name. The name joins those of the outcome, its curve and its place on the axis.
     fn quantities(&self, rows: &[Row]) -> Result<Vec<Quantity>, StudyError> {
         let quantity = |row: &Row| {
             let curve = self.table.curves[row.curve - 1].name();
@@ -164,7 +164,7 @@ impl Trials for &Rides {
         Ok(())
     }
 
-    /// Each point by itself.
+    /// Each point forms a group of its own.
     fn groups(&self, targets: &[usize]) -> Vec<Group<'_>> {
         let points: Vec<&RidePoint> = (*self).points().map(|(.., point)| point).collect();
         let group = |&at: &usize| {

@@ -10,32 +10,32 @@ use crate::signal::{
     Digitiser, Disturbance, Drive, Ending, Impulses, Pickup, Ride, RideError, Sensor, Trip,
 };
 
-/// All that a trial needs beside its draws.
+/// Everything that a trial needs besides its draws.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RidePoint {
-    /// What is asked of it.
+    /// What is measured.
     pub measure: Measure,
-    /// As the config has them.
+    /// The keys as in the config.
     pub keys: RideKeys,
-    /// Of the monitor.
+    /// Settings of the monitor.
     pub settings: Settings,
-    /// In the cage.
+    /// The sensor in the cage.
     pub pickup: Pickup,
-    /// Whether the monitor assumes that the record begins at rest, true or not.
+    /// Whether the monitor assumes, rightly or wrongly, that the record begins at rest.
     pub begins_at_rest: bool,
 }
 
-/// The deviation of the noise where the file says nothing, m/s²: that of a good phone.
+/// The default deviation of the noise, m/s²: that of a good phone.
 const SIGMA: f64 = 0.012;
 
-/// More trips than anyone needs in a ride.
+/// The most trips in a ride.
 const MOST_TRIPS: usize = 100;
 
 impl RidePoint {
-    /// A point of keys and settings that fit each other.
+    /// Makes a point from keys and settings that fit each other.
     ///
     /// # Errors
-    /// Where they do not.
+    /// If they do not fit.
     pub fn new(measure: Measure, keys: RideKeys, settings: Settings) -> Result<Self, RideProblem> {
         keys.check()?;
         let point = Self {
@@ -51,7 +51,7 @@ impl RidePoint {
         Ok(point)
     }
 
-    /// Every parameter; those that say one thing in several ways as what they say.
+    /// Every parameter. A value that several keys can express appears once, in one form.
     pub fn identity(&self) -> Identity {
         let keys = serde_json::to_value(&self.keys).expect("keys are plain data");
         let settings = serde_json::to_value(&self.settings).expect("settings are plain data");
@@ -77,7 +77,7 @@ impl RidePoint {
         Identity::new(said.into_iter().chain(parameters))
     }
 
-    /// Whatever is drawn, a trial can be run: the longest can.
+    /// Checks that any trial can run, whatever its draws: the longest trial can.
     fn check(&self) -> Result<(), RideProblem> {
         let in_ride = |path: &str| format!("ride.{}", path.rsplit('.').next().unwrap_or(path));
         (self.settings.at(self.keys.rate)).map_err(|error| error.called(in_ride))?;
@@ -95,18 +95,18 @@ impl RidePoint {
         Ok(())
     }
 
-    /// A rest that is watched for itself.
+    /// A rest without a ride.
     ///
     /// # Errors
-    /// Where it is too long to be held.
+    /// If the ride is too long to be held in memory.
     pub fn still(&self) -> Result<Ride, RideError> {
         Ride::still(self.keys.rate, self.keys.length.get())
     }
 
-    /// A ride; its rests and the moment of a jam are drawn by `uniform`, numbers in [0, 1].
+    /// A ride. `uniform` gives numbers in [0, 1], which set its rests and the moment of a jam.
     ///
     /// # Errors
-    /// Where it is too long to be held.
+    /// If the ride is too long to be held in memory.
     pub fn ride(&self, mut uniform: impl FnMut() -> f64) -> Result<Ride, RideError> {
         let [shortest, longest] = self.keys.rest;
         let rests = (0..=self.keys.trips).map(|_| shortest + (longest - shortest) * uniform());

@@ -8,7 +8,7 @@ use crate::study::kind::Context;
 use crate::whiten::Order;
 use serde::{Deserialize, Serialize};
 
-/// The columns: name, type, and the value from what a row is made of.
+/// Defines the columns: the name, type and value of each.
 macro_rules! columns {
     (
         $(#[$about:meta])*
@@ -31,7 +31,7 @@ macro_rules! columns {
 }
 
 columns! {
-    /// An outcome at a point, and the parameters of the point: all but `longest_motion` and `longest_slack`.
+    /// An outcome at a point, and the parameters of the point except `longest_motion` and `longest_slack`.
     Row(
         table: &RideTable,
         curve: usize,
@@ -45,16 +45,16 @@ columns! {
     label: String = table.curves[curve].label.clone();
     /// The key that is swept.
     axis: String = table.axis.clone();
-    /// Its value.
+    /// The value of the swept key.
     x: f64 = x;
     outcome: String = estimate.outcome;
-    /// How often it happened.
+    /// How often the event happened.
     count: u64 = estimate.count;
-    /// Out of so many, or in so much time.
+    /// The number of cases, or the time, in which it could happen.
     exposure: f64 = eight_digits(estimate.exposure);
-    /// Of the exposure.
+    /// Unit of the exposure.
     unit: String = estimate.unit.to_owned();
-    /// Its rate, or the quantile.
+    /// The rate of the event, or the quantile.
     estimate: f64 = eight_digits(estimate.value);
     low: f64 = eight_digits(estimate.low);
     high: f64 = eight_digits(estimate.high);
@@ -89,7 +89,7 @@ columns! {
     scale: usize = point.settings.samples.scale;
     gap: usize = point.settings.samples.gap;
     training: usize = point.settings.whitening.training;
-    /// None where it is chosen at every rest.
+    /// None if the monitor chooses the order at each rest.
     order: Option<usize> = fixed(point.settings.whitening.order);
     least_speed: f64 = point.settings.monitor.least_speed;
     least_acceleration: f64 = point.settings.monitor.least_acceleration;
@@ -99,7 +99,7 @@ columns! {
     motion_shows: bool = point.keys.motion_shows;
 }
 
-/// The order, where it is given.
+/// The order, if it is given.
 fn fixed(order: Order) -> Option<usize> {
     match order {
         Order::Fixed(order) => Some(order),

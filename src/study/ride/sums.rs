@@ -1,4 +1,4 @@
-//! What came of many trials, added up.
+//! The sums of many trials.
 
 use super::account::{Account, Trip};
 use super::measure::Measure;
@@ -8,34 +8,34 @@ use crate::counts::{Fixed, Shape, Sums, Values};
 use crate::rule::{OutOfRange, Rule};
 use std::ops::RangeInclusive;
 
-/// What came of the trials of a point.
+/// The sums of the trials of a point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct RideSums {
     /// Trials in which every trip was found.
     pub found: u64,
-    /// Those with a false motion.
+    /// Trials with a false motion.
     pub disturbed: u64,
-    /// Those with an alarm of their jam.
+    /// Trials with an alarm of their jam.
     pub alarmed: u64,
-    /// Those in which the monitor said `rest` in the first trip.
+    /// Trials in which the monitor said `rest` in the first trip.
     pub misled: u64,
-    /// Those in which it said so when the rest after the first trip ended.
+    /// Trials in which the monitor said `rest` when the rest after the first trip ended.
     pub knew_soon: u64,
-    /// Those in which it said so in the end.
+    /// Trials in which the monitor said `rest` at the end.
     pub knew: u64,
     pub false_motions: u64,
     pub false_alarms: u64,
-    /// For how long the cage stood and the monitor said so, s.
+    /// Total time for which the cage stood and the monitor said `rest`, s.
     pub at_rest: Fixed,
-    /// Of every trip, s.
+    /// Delay of the start of every trip, s.
     pub start_delays: Values,
     pub stop_delays: Values,
-    /// Of every jam, s.
+    /// Delay of the alarm of every jam, s.
     pub alarm_delays: Values,
 }
 
 impl RideSums {
-    /// One more trial.
+    /// Adds a trial.
     pub fn add(&mut self, account: &Account) {
         let alarmed = |trip: &Trip| trip.alarm_delay.is_some_and(f64::is_finite);
         self.found += u64::from(account.trips.iter().all(|trip| trip.is_found));
@@ -56,7 +56,8 @@ impl RideSums {
         }
     }
 
-    /// Six events, two counts without a limit, a time and three kinds of delays, of which each trip brings one.
+    /// Six events, two counts without a limit, a time, and three lists of delays. A trip adds at most one
+    /// delay to each list.
     pub fn shape(table: &RideTable) -> Shape {
         let points = table.curves.iter().flat_map(|curve| &curve.points);
         let trips = points.map(|(_, point)| point.keys.trips).max();
@@ -67,10 +68,10 @@ impl RideSums {
         }
     }
 
-    /// Whether so many trials of a point can come to this: what [`add`](Self::add) gives of any accounts.
+    /// Checks that [`add`](Self::add) can produce these sums from so many trials of a point.
     ///
     /// # Errors
-    /// Where not.
+    /// If no accounts give these sums.
     pub fn check(&self, point: &RidePoint, trials: u64) -> Result<(), OutOfRange> {
         for (name, got, bounds) in self.bounds(point, trials) {
             if !bounds.contains(&got) {
@@ -85,13 +86,13 @@ impl RideSums {
         if point.measure.rests() {
             rest += point.keys.length.get();
         }
-        // Each rest is the difference of two rounded times of day, of which a microsecond is more than the error.
+        // Each rest is the difference of two rounded times. Its rounding error is below a microsecond.
         let rests = (point.keys.trips + 2) as f64;
         let longest = trials as f64 * (rest * (1.0 + 1e-9) + 1e-6 * rests);
         Rule::Within(0.0, longest, "s").check("at_rest", &self.at_rest.value())
     }
 
-    /// Each number that the trials or another one bound, and its bounds.
+    /// Each number that is bounded by the trials or by another number, with its bounds.
     fn bounds(
         &self,
         point: &RidePoint,
@@ -103,7 +104,7 @@ impl RideSums {
             0
         };
         let all = trials.saturating_mul(trips);
-        // The last trip of each ride.
+        // The last trip of each ride jams.
         let jams = if point.measure == Measure::Jam {
             trials
         } else {
@@ -114,9 +115,9 @@ impl RideSums {
         let [start, stop, alarm] = delays.map(|delays| delays.count(f64::is_finite));
         let is_none = |delay: f64| delay.is_nan() || delay == f64::NEG_INFINITY;
         let none = delays.iter().map(|delays| delays.count(is_none)).max();
-        // A ride of which every trip is found has every start and stop told; without trips, all are found.
+        // A found ride has a finite delay for every start and stop. A ride without trips is always found.
         let told = start.min(stop).checked_div(trips);
-        // The rest after the first trip is the last where there is no second.
+        // Without a second trip, the rest after the first trip is the last rest.
         let soon = if trips < 2 {
             self.knew..=self.knew
         } else {
@@ -207,7 +208,7 @@ mod tests {
         read::<Rides>(&text).table.curves[0].points[0].1.clone()
     }
 
-    /// What a monitor might say, be it true or not, of a record that ends at `to`, s.
+    /// Events that a monitor might report, true or not, in a record that ends at `to`, s.
     fn events(said: &[(u8, f64, f64)], to: f64) -> Vec<Event> {
         let mut now = 0.0;
         let mut events = Vec::new();
@@ -255,8 +256,8 @@ mod tests {
     }
 
     proptest! {
-        /// Whatever a monitor says, its sums are accepted; and no longer when any of them is changed so that no
-        /// monitor could have come to it.
+        /// The sums of any monitor are accepted. They are refused once any of them is changed to a value that
+        /// no monitor can produce.
         #[test]
         fn what_can_be_counted(
             measure in proptest::sample::select(vec!["rides", "rest", "tradeoff", "jam", "switched_on"]),

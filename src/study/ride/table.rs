@@ -1,8 +1,8 @@
-//! `[ride]`: what is asked of rides, along which axis, for which curves.
+//! `[ride]`: what is measured on rides, along which axis, and for which curves.
 //!
-//! Accelerations are in m/s², times in s. What stands for the strength of the noise is one of three keys:
-//! `sigma`, the deviation of a sample; `density`, the one-sided root density of the noise in m/s²/√Hz, which is
-//! what a sensor has whatever it is sampled at, so that sigma = density √(rate/2); `delta_over_sigma`, the
+//! Accelerations are in m/s², times in s. One of three keys gives the strength of the noise. `sigma` is the
+//! deviation of a sample. `density` is the one-sided root density of the noise in m/s²/√Hz: it belongs to the
+//! sensor and does not depend on the sampling rate, so sigma = density √(rate/2). `delta_over_sigma` is the
 //! drive's acceleration in units of sigma. Vibration, θ, quantum and jolt are in units of sigma.
 
 use super::keys::{self, RideKeys, STRENGTH};
@@ -22,24 +22,24 @@ use std::ops::Range;
 /// Rides along an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RideTable {
-    /// What is asked of each trial.
+    /// What is measured in each trial.
     pub measure: Measure,
     /// The key that is swept.
     pub axis: String,
-    /// At least one.
+    /// The curves, at least one.
     pub curves: Vec<RideCurve>,
 }
 
 /// One curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RideCurve {
-    /// What tells it from the others.
+    /// The label that distinguishes it from other curves.
     pub label: String,
-    /// Each value of the axis and what it comes to here.
+    /// Each value of the axis and the point of this curve there.
     pub points: Vec<(f64, RidePoint)>,
 }
 
-/// What must be there; everything else is laid over.
+/// The fields that the table must have. Everything else overrides defaults.
 #[derive(Deserialize)]
 struct Required {
     measure: Measure,
@@ -51,7 +51,7 @@ impl RideTable {
     /// Reads the table.
     ///
     /// # Errors
-    /// Where a key is unknown or means nothing to the measure, or a point cannot be simulated.
+    /// If a key is unknown or does not affect the measure, or a point cannot be simulated.
     pub fn read(experiment: &Experiment) -> Result<Self, ConfigError> {
         let table = experiment.table();
         let required = table.only(|key| ["measure", "axis"].contains(&key));
@@ -99,7 +99,7 @@ fn refuse(measure: Measure, key: &str, place: &Range<usize>) -> Conflict {
     Conflict::at(place, RideProblem::Unused { key, measure })
 }
 
-/// Refuses the first key that means nothing to the measure.
+/// Refuses the first key that does not affect the measure.
 fn check_used(measure: Measure, values: &Node) -> Result<(), Conflict> {
     let mut entries = values.table().into_iter().flatten();
     match entries.find(|(key, _)| measure.unused().contains(&&key[..])) {
@@ -109,7 +109,7 @@ fn check_used(measure: Measure, values: &Node) -> Result<(), Conflict> {
 }
 
 impl RideCurve {
-    /// Its label as part of a quantity's name: letters and digits, `_` for anything between.
+    /// Its label as part of a quantity's name: letters and digits, with `_` for anything between.
     pub fn name(&self) -> String {
         name_of(&self.label)
     }
@@ -122,7 +122,7 @@ fn name_of(label: &str) -> String {
     words.join("_")
 }
 
-/// A value of the axis and its point.
+/// Reads a value of the axis and makes its point.
 fn point(
     measure: Measure,
     overlay: &Overlay,
@@ -145,7 +145,7 @@ fn point(
     Ok((number, point))
 }
 
-/// Where the value of a key stands, or that of a key that says the same in another way.
+/// The place of a key's value in the file, or of the value of a key that expresses the same in another way.
 fn place(values: &Node, key: &str) -> Option<Range<usize>> {
     let rivals = STRENGTH.iter().filter(|_| STRENGTH.contains(&key));
     let mut found = [&key]
@@ -155,7 +155,7 @@ fn place(values: &Node, key: &str) -> Option<Range<usize>> {
     found.next().map(|node| node.span.clone())
 }
 
-/// What the table may say, as a JSON Schema.
+/// The JSON Schema of the table.
 pub fn schema(generator: &mut SchemaGenerator) -> Value {
     let mut keys = properties::<RideKeys>(generator);
     for table in properties::<Settings>(generator).values() {

@@ -20,7 +20,7 @@ fn points(text: &str) -> Vec<RidePoint> {
     points.map(|(_, point)| point).collect()
 }
 
-/// A density is that of the noise at any rate, a ratio that of a sample; a curve's replaces the table's.
+/// A density holds at any sampling rate, a ratio for one sample. A curve's key replaces the table's.
 #[test]
 fn the_strength_of_the_noise() {
     let points = points(
@@ -34,7 +34,7 @@ fn the_strength_of_the_noise() {
     }
 }
 
-/// Up and down in turn, rests as drawn, the last trip jammed somewhere in its uniform motion.
+/// Trips go up and down in turn and rests are as drawn. The last trip jams in its uniform motion.
 #[test]
 fn rides_as_drawn() {
     let text = "measure = \"jam\"\ntrips = 3\nrest = [4, 6]\n[ride.axis]\nspeed = [1]\n";
@@ -67,7 +67,7 @@ fn labels_become_names() {
     assert_eq!(study(text).curves[0].name(), "σ_0_4_m_s²_100_hz");
 }
 
-/// Every setting of the monitor is a key here, by the last word of its path, for the table, a curve and an axis.
+/// Each setting of the monitor is a key of the table, a curve and an axis, by the last word of its path.
 #[test]
 fn the_monitor_has_all_its_settings() {
     let points = points(

@@ -1,4 +1,4 @@
-//! Hand-made events against hand-made truth, and the whole against threads.
+//! Tests of accounts on hand-made events, and of whole studies on several threads.
 
 use super::account::{Account, Truth};
 use super::estimate::of;
@@ -68,7 +68,7 @@ fn alarm(time: f64, reported: f64) -> Event {
     }
 }
 
-/// What a monitor says that makes no mistake.
+/// The reports of a monitor that makes no mistake.
 fn said() -> Vec<Event> {
     vec![
         rest(2.0, 5.0),
@@ -103,13 +103,15 @@ fn all_is_found_and_timed() {
     );
     assert_eq!((down.start_delay, down.alarm_delay), (1.0, Some(1.0)));
     assert_eq!((account.false_motions, account.false_alarms), (0, 0));
-    // 5 to 10 s, 21.5 to 30 s, 36 to 60 s: neither the moving cage called resting, nor the other way about.
+    // The shared times are 5 to 10 s, 21.5 to 30 s and 36 to 60 s. Only times when the cage stood and
+    // the monitor said `rest` count.
     assert!((account.at_rest - (5.0 + 8.5 + 24.0)).abs() < 1e-12);
     // From 10 to 11 s the cage moved and was still said to rest.
     assert!(account.misled && account.knew_soon && account.knew);
 }
 
-/// A trip is lost where its direction is wrong, its start told of too late a time, or its end in doubt.
+/// A trip is lost if its direction is wrong, its start is reported for too late a time, or its end is
+/// in doubt.
 #[test]
 fn what_is_not_found() {
     let with = |index: usize, event: Event| {
@@ -124,13 +126,14 @@ fn what_is_not_found() {
     let doubtful = with(3, change(19.9, 21.5, State::Unknown, None));
     assert!(!doubtful.is_found && doubtful.start_delay == 1.0);
     assert_eq!(doubtful.stop_delay, f64::INFINITY);
-    // A rest that follows doubt is no stop of the motion before it.
+    // A rest that follows doubt does not stop the motion before it.
     let mut events = said();
     events.insert(3, change(14.0, 15.0, State::Unknown, None));
     assert!(!account(&events).trips[0].is_found);
 }
 
-/// A start out of nothing is false; one that is only told of a wrong time is not. So it is with alarms.
+/// A start without a motion is false. A start that is only reported for a wrong time is not false.
+/// The same holds for alarms.
 #[test]
 fn what_is_false() {
     let among = |more: &[Event]| {
@@ -145,7 +148,8 @@ fn what_is_false() {
     assert_eq!(among(&[start(9.0, 10.5, Direction::Up)]).false_motions, 0);
     assert_eq!(among(&[start(8.0, 9.0, Direction::Up)]).false_motions, 1);
     assert_eq!(among(&[alarm(15.0, 16.0)]).false_alarms, 1);
-    // Of the jam, if of a wrong time; not before it, nor of what comes long after.
+    // An alarm for a wrong time still belongs to the jam. An alarm before the jam does not, nor does one
+    // for a time long after it.
     assert_eq!(among(&[alarm(34.0, 36.5)]).false_alarms, 0);
     assert_eq!(among(&[alarm(34.0, 34.5)]).false_alarms, 1);
     assert_eq!(among(&[alarm(45.0, 46.0)]).false_alarms, 1);
@@ -153,7 +157,7 @@ fn what_is_false() {
     assert!(!account(&[]).knew && !account(&[]).misled);
 }
 
-/// One of four trips is never told: the quantile beyond three quarters is infinite, that below is not.
+/// One of four trips is never reported. A quantile above three quarters is infinite, one below is not.
 #[test]
 fn what_is_never_told_takes_for_ever() {
     let mut silent = said();
@@ -209,8 +213,8 @@ fn quantities_by_name() {
     assert!((0.5..1.5).contains(&delay), "{delay}");
 }
 
-/// Where motion does show, a monitor that is told so knows rest once the cage stands; one that
-/// is told, wrongly, that the record begins at rest takes smooth motion for rest.
+/// If motion shows and the monitor assumes so, it recognises rest once the cage stands. A monitor that
+/// wrongly assumes that the record begins at rest takes smooth motion for rest.
 #[test]
 fn switched_on() {
     let (_, rows) = study(

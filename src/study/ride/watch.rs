@@ -1,4 +1,4 @@
-//! One trial: a ride and what a monitor said of it.
+//! One trial: a ride and the monitor's reports on it.
 
 use super::account::{Account, Truth};
 use super::measure::Measure;
@@ -16,7 +16,7 @@ pub(super) struct Watch<'a> {
     seed: u64,
 }
 
-/// What of a trial is simulated, each on draws of its own.
+/// The parts of a trial. Each part is simulated with its own draws.
 #[derive(Clone, Copy)]
 enum Part {
     Ride,
@@ -67,7 +67,7 @@ impl<'a> Watch<'a> {
         self.watch(&ride, trial, Part::Ride, from)
     }
 
-    /// From `from` on, s.
+    /// Watches a ride from the time `from` on, s.
     fn watch(&self, ride: &Ride, trial: u64, part: Part, from: f64) -> Account {
         let mut monitor = Monitor::new(self.design.clone(), self.knowledge(trial));
         let mut events: Vec<Event> = Vec::new();
@@ -93,7 +93,7 @@ impl<'a> Watch<'a> {
         })
     }
 
-    /// What the monitor knows beforehand, true or not.
+    /// What the monitor assumes beforehand, rightly or wrongly.
     fn knowledge(&self, trial: u64) -> Knowledge {
         let mut knowledge = Knowledge {
             reference: None,
@@ -110,7 +110,7 @@ impl<'a> Watch<'a> {
         knowledge
     }
 
-    /// A rest that is long enough to learn from, should a part of it be none to learn from.
+    /// A rest to learn from. It is longer than needed, because the monitor may be unable to use a part of it.
     fn lesson(&self) -> Ride {
         let settings = &self.design.settings;
         let blocks =

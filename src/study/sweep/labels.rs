@@ -1,7 +1,7 @@
-//! What a picture says about its curves: legend, axis, caption, all from the rows themselves.
+//! A picture's text about its curves: legend, axis and caption, all from the rows themselves.
 //!
-//! Every parameter is a [`Fact`] in the words of the table of parameters. What all points share stands in the
-//! caption, unless it is a default that goes without saying; what tells curves apart stands in the legend.
+//! Every parameter is a [`Fact`] in the words of the table of parameters. The caption states what all points
+//! share, except for usual defaults. The legend states how the curves differ.
 
 use crate::format::thousands;
 use crate::plot::literal;
@@ -40,8 +40,8 @@ fn facts(row: &Row) -> Vec<Fact> {
         .collect()
 }
 
-/// What more than two thirds of the rows say, fact by fact; all of them, where a curve has a name, which
-/// need not say in what it differs.
+/// The facts that more than two thirds of the rows share. If a curve has a name, all rows must share them,
+/// because a name need not say how its curve differs.
 pub(super) fn common_facts(rows: &[&Row]) -> Vec<Option<Fact>> {
     let is_named = rows.iter().any(|row| row.label.parse::<f64>().is_err());
     let table: Vec<Vec<Fact>> = rows.iter().map(|row| facts(row)).collect();
@@ -60,8 +60,8 @@ pub(super) fn common_facts(rows: &[&Row]) -> Vec<Option<Fact>> {
     (0..table.first().map_or(0, Vec::len)).map(common).collect()
 }
 
-/// A label that is more than a number speaks for itself; a number is followed by what the curve does
-/// not share with most others.
+/// The legend of a curve. A label that is not a number stays alone. A number is followed by the facts
+/// that the curve does not share with most others.
 pub(super) fn legend(rows: &[&Row], common: &[Option<Fact>], axis: &Parameter) -> String {
     let label = literal(&rows[0].label);
     if rows[0].label.parse::<f64>().is_err() {
@@ -83,7 +83,7 @@ pub(super) fn legend(rows: &[&Row], common: &[Option<Fact>], axis: &Parameter) -
     format!("{label}:  {}", parts.join(", "))
 }
 
-/// What most points share, and what the bands are, in the parts of a caption.
+/// The parts of a caption: what most points share, and what the bands show.
 pub(super) fn caption(
     rows: &[&Row],
     common: Vec<Option<Fact>>,
@@ -119,7 +119,7 @@ pub(super) fn is_held_against_alpha(rows: &[&Row]) -> bool {
         .all(|row| row.is_at_rest() && row.alpha() == rows[0].alpha())
 }
 
-/// The axis in words.
+/// The label of the axis.
 pub(super) fn axis_label(parameter: &Parameter, is_whitened: bool) -> &'static str {
     if is_whitened && parameter.name == "delta" {
         return WHITENED_DELTA;
@@ -127,5 +127,5 @@ pub(super) fn axis_label(parameter: &Parameter, is_whitened: bool) -> &'static s
     parameter.axis_label
 }
 
-/// Δ as it is after whitening.
+/// The label of Δ after whitening.
 pub(super) const WHITENED_DELTA: &str = "Δ(1 − β)/σ_ξ, the shift after whitening";

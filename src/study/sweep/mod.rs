@@ -25,7 +25,7 @@ use targets::{Compared, Subject};
 
 impl Study for Sweep {
     const NAME: &'static str = SWEEP;
-    /// Its curves may change any section.
+    /// The curves may change any section.
     const USES: &'static [&'static str] = &[];
     const COUNTS_TRIALS: bool = true;
     type Row = Row;
@@ -90,7 +90,7 @@ impl Study for Sweep {
         claim::comparisons(claims, &self.pairs, &tallies, &discordant)
     }
 
-    /// The numbers that claims of gains ask for.
+    /// The numbers that claims about gains need.
     fn quantities(&self, rows: &[Row]) -> Result<Vec<Quantity>, StudyError> {
         let evidence = Evidence {
             scope: self.scope(),

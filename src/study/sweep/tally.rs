@@ -1,5 +1,5 @@
-//! What the points of a family decide, counted; and for pairs of points, how often only the one of them decided
-//! for H₁.
+//! Counts the decisions of the points of a family. For a pair of points, it counts how often only one of
+//! them decided for H₁.
 
 use super::targets::Subject;
 use crate::chain::{Decision, Observation, View};
@@ -7,8 +7,8 @@ use crate::counts::Sums;
 use crate::detect::{Region, Statistics};
 use crate::schedule::Gather;
 
-/// The decision of every point, those that points share kept once: a curve has one, and a trial goes through
-/// all of its points.
+/// The decision of each point. Points that share a decision share one copy: a curve has one decision, and
+/// a trial goes through all points of the curve.
 #[derive(Clone, Debug)]
 pub(super) struct Decisions {
     distinct: Vec<Decision>,
@@ -30,24 +30,24 @@ impl Decisions {
     }
 }
 
-/// What some subjects of one family count. Decisions of [`WORD`] trials are gathered as bits of a word before they
-/// are counted, so that a pair of points is compared once a word and not once a trial.
+/// The counts of some subjects of one family. Decisions of [`WORD`] trials are gathered as bits of a word
+/// before they are counted, so that a pair of points is compared once per word and not once per trial.
 pub(super) struct Tallies<'a> {
     decisions: &'a Decisions,
     subjects: &'a [Subject],
-    /// What each point decided in the trials since the last count, the first in the lowest bit.
+    /// Each point's decisions in the trials since the last count. The first trial is the lowest bit.
     decided: Vec<u64>,
-    /// How many trials that are.
+    /// How many trials have been gathered.
     gathered: u32,
-    /// Of each subject.
+    /// The sums of each subject.
     pub sums: Vec<Sums>,
 }
 
-/// Trials that a word has bits for.
+/// The number of trials in a word, one bit each.
 const WORD: u32 = u64::BITS;
 
 impl<'a> Tallies<'a> {
-    /// Of subjects among which every point of the family is.
+    /// Tallies for subjects that include all points of the family.
     pub fn new(decisions: &'a Decisions, subjects: &'a [Subject]) -> Self {
         let sums = subjects.iter().map(|subject| subject.shape().empty().sums);
         Self {
@@ -59,7 +59,7 @@ impl<'a> Tallies<'a> {
         }
     }
 
-    /// Counts what has been gathered.
+    /// Counts the gathered decisions.
     fn count(&mut self) {
         let decided = |place: usize| self.decided[place];
         for (subject, sums) in self.subjects.iter().zip(&mut self.sums) {
@@ -142,8 +142,8 @@ mod tests {
     use crate::plan::Plan;
     use crate::study::{Study, Sweep};
 
-    /// A pair's discordant counts against the definition, by two runs of its own: the decisions of one point
-    /// and of the other, trial by trial.
+    /// Compares a pair's discordant counts with their definition. Two separate runs give the decisions of
+    /// the two points, trial by trial.
     #[test]
     fn discordant_trials_are_those_on_which_two_points_differ() {
         let text = "question = \"?\"\nseed = 3\ntrials = 3000\n[axis]\ndelta = [0.2, 0.5]\n\

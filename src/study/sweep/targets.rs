@@ -10,17 +10,17 @@ use crate::study::kind::TooMany;
 use std::collections::{BTreeMap, BTreeSet};
 use std::slice;
 
-/// A plan, and what its claims compare.
+/// A plan, and the pairs of points that its claims compare.
 pub struct Sweep {
-    /// What its author wrote.
+    /// The config as its author wrote it.
     pub config: SweepConfig,
     /// Its points.
     pub plan: Plan,
     /// Pairs of points that claims compare.
     pub pairs: Vec<Pair>,
-    /// Of each pair what it is compared by.
+    /// How each pair is compared.
     pub(super) compared: Vec<Compared>,
-    /// The counter of every point.
+    /// The counter of each point.
     pub(super) keys: Vec<Key>,
     /// Every counter once, in the order of the keys, and what it counts.
     pub(super) targets: Vec<Target>,
@@ -32,23 +32,23 @@ pub struct Sweep {
 pub(super) enum Subject {
     /// How often a point of the plan decides for H₁.
     Point(usize),
-    /// Of two points that share their noise, how often only the first, only the second does.
+    /// For two points that share their noise, how often only the first and only the second decides for H₁.
     Pair([usize; 2]),
 }
 
 /// How two points are compared.
 #[derive(Clone, Debug)]
 pub(super) enum Compared {
-    /// They are the same and never differ.
+    /// The two points are the same and never differ.
     Itself,
-    /// By the trials of the noise they share.
+    /// The points are compared trial by trial on the noise that they share.
     Paired(Key, [usize; 2]),
-    /// By their rates alone.
+    /// The points are compared by their rates alone.
     Apart,
 }
 
 impl Subject {
-    /// What its counter adds up.
+    /// The shape of its counter.
     pub fn shape(self) -> Shape {
         Shape::events(match self {
             Self::Point(_) => 1,
@@ -56,7 +56,7 @@ impl Subject {
         })
     }
 
-    /// The points it is of.
+    /// The points that it belongs to.
     pub fn points(&self) -> &[usize] {
         match self {
             Self::Point(point) => slice::from_ref(point),
@@ -64,7 +64,7 @@ impl Subject {
         }
     }
 
-    /// The same of points with other places.
+    /// The same subject, with its points at other places.
     pub fn map(self, place: impl Fn(usize) -> usize) -> Self {
         match self {
             Self::Point(point) => Self::Point(place(point)),
@@ -77,14 +77,14 @@ impl Sweep {
     /// Plans a config.
     ///
     /// # Errors
-    /// Where a parameter of a point is out of range, or no region or record can be made for it.
+    /// If a parameter of a point is out of range, or no region or record can be made for it.
     pub fn new(config: SweepConfig) -> Result<Self, ConfigError> {
         let plan = Plan::new(&config)?;
         let pairs = plan.pairs(&config);
         Ok(Self::comparing(config, plan, pairs))
     }
 
-    /// Of a plan, and these pairs of its points.
+    /// The sweep of a plan that compares these pairs of points.
     pub(super) fn comparing(config: SweepConfig, plan: Plan, pairs: Vec<Pair>) -> Self {
         let keys: Vec<Key> = identities(&plan)
             .map(|identity| identity.key(SWEEP, plan.seed, plan.common_random_numbers))
@@ -116,12 +116,12 @@ impl Sweep {
     }
 }
 
-/// An interval takes a millisecond.
+/// The most comparisons. Each interval takes a millisecond.
 const MOST_COMPARISONS: usize = 50_000;
-/// A panel takes 16 MB while it is drawn.
+/// The most panels. Each takes 16 MB while it is drawn.
 const MOST_PANELS: usize = 12;
 
-/// Refuses what would take hours or gigabytes, before anything is paid for.
+/// Refuses a sweep that would take hours or gigabytes, before any work starts.
 pub(super) fn check_sizes(config: &SweepConfig) -> Result<(), TooMany> {
     let comparisons = claim::number_of_pairs(&config.narrative.claims, &config.scope);
     let remedy = "make fewer claims, or of fewer curves";
@@ -147,7 +147,7 @@ impl Compared {
     }
 }
 
-/// Every parameter of every point, its place among the curves apart.
+/// Every parameter of each point, except its place among the curves.
 pub(super) fn identities(plan: &Plan) -> impl Iterator<Item = Identity> + '_ {
     plan.points.iter().map(|point| Identity {
         parameters: results::parameters(&point.scenario),

@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// A sweep, and how its points decide as far as that is known.
+/// A sweep, and how its points decide as far as this is known.
 pub(super) struct Sampling<'a> {
     sweep: &'a Sweep,
     decisions: Vec<Option<Decision>>,
@@ -22,7 +22,7 @@ impl Sweep {
     /// Runs all of its trials at once and keeps the counts in memory.
     ///
     /// # Errors
-    /// Where a pilot shows no decision.
+    /// If a pilot shows no decision.
     pub fn counts(&self, progress: &dyn Progress) -> Result<Counts, StudyError> {
         let sampling = Box::new(Sampling::new(self));
         run::whole(sampling, self.plan.schedule.trials, progress)
@@ -35,7 +35,7 @@ impl<'a> Sampling<'a> {
         Self { sweep, decisions }
     }
 
-    /// The points that some targets are of, in the order of the plan.
+    /// The points that some targets belong to, in the order of the plan.
     fn points(&self, targets: &[usize]) -> Vec<usize> {
         let each = targets
             .iter()
@@ -56,7 +56,7 @@ impl Trials for Sampling<'_> {
         self.sweep.plan.points.len()
     }
 
-    /// What both points of a pair detected is the same of either.
+    /// The number of trials that both points of a pair detected must be the same from either point.
     fn check(&self, counts: &Counts) -> Result<(), StudyError> {
         let Sweep {
             targets,
@@ -128,9 +128,10 @@ struct Contradiction {
     alone: [u64; 2],
 }
 
-/// Whether some trials can have been decided for H₁ at both points, as many as either of them has beside those that
-/// it alone decided so: exactly, where all are of the same trials. In what a point counted and the pair did not, any
-/// number may have been; and so in what the pair counted and the point did not.
+/// Whether the counts of a pair and of its points can agree. A point's detections, less those that it
+/// alone made, are the trials in which both points decided for H₁. If point and pair counted the same
+/// trials, both points must give the same number. Each trial that only the point or only the pair
+/// counted leaves this number uncertain by one.
 fn check_pair(pair: &Counter, points: [Option<&Counter>; 2]) -> Result<(), Contradiction> {
     let alone = [pair.sums.counts[0], pair.sums.counts[1]];
     let hits = points.map(|point| point.map(|point| point.sums.counts[0]));
@@ -154,11 +155,11 @@ fn check_pair(pair: &Counter, points: [Option<&Counter>; 2]) -> Result<(), Contr
 /// Some of the points, arranged by the noise they share.
 struct Job {
     schedule: Schedule,
-    /// None before the pilots.
+    /// `None` before the pilots have run.
     decisions: Option<Decisions>,
     /// The targets of each family.
     targets: Vec<Vec<usize>>,
-    /// What each of them counts, points by their places in the schedule.
+    /// What each target counts, with points by their places in the schedule.
     subjects: Vec<Vec<Subject>>,
 }
 
@@ -203,14 +204,14 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Whatever trials each of a pair and its points counted, what came of them is accepted; and what is further
-        /// from it than the trials that they do not share is not.
+        /// A pair and its points may count any trials, and their counts are accepted. Counts that differ from
+        /// these by more than the number of unshared trials are refused.
         #[test]
         fn a_pair_and_its_points(
             trials in proptest::collection::vec(any::<[bool; 5]>(), 1..40),
             shared in any::<bool>(),
         ) {
-            // Of each trial what the two points decide, and who counts it: they and their pair.
+            // Each trial holds what the two points decide, and whether the points and their pair count it.
             let count = |who: usize, shape: &Shape, events: &dyn Fn([bool; 2]) -> Vec<bool>| {
                 let mut counter = shape.empty();
                 for (trial, &[first, second, ref counted @ ..]) in (0..).zip(&trials) {

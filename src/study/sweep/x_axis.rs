@@ -5,10 +5,10 @@ use crate::plot::{Axis, is_long};
 use crate::results::Row;
 use crate::scenario::{Parameter, parameter};
 
-/// Where the rows of a sweep stand on its axis.
+/// The places of a sweep's rows on its axis.
 pub(super) struct XAxis {
     pub parameter: &'static Parameter,
-    /// What it is swept over, where these are numbers.
+    /// The swept values, if they are numbers.
     values: Vec<f64>,
     is_logarithmic: bool,
     /// The rules on a rule axis, in order.
@@ -48,9 +48,9 @@ impl XAxis {
         !self.rules.is_empty()
     }
 
-    /// Of the row at `index` among those of its curve. A curve with a row for each value of the axis
-    /// is placed by the values themselves, which a row need not repeat (a known filter has no
-    /// training); at rest equal points are written once, and the rows must do.
+    /// The place of the row at `index` among those of its curve. A curve with a row for each value of the
+    /// axis is placed by these values, because a row need not repeat them (a known filter has no training).
+    /// At rest equal points are written once, so such a curve is placed by its rows.
     pub fn place(&self, rows: &[&Row], index: usize) -> f64 {
         let row = rows[index];
         if self.is_named() {
@@ -79,7 +79,7 @@ impl XAxis {
         }
     }
 
-    /// The rules without their tables, tables numbered where there are several.
+    /// The rules without their tables. Tables are numbered if there are several.
     fn names(&self) -> Vec<String> {
         let is_table = |rule: &&String| rule.starts_with("table");
         let several = self.rules.iter().filter(is_table).count() > 1;

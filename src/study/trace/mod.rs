@@ -1,13 +1,13 @@
-//! One realisation of a ride, Figs 2–4 of [^1]: what the sensor writes down while the cage stands, gains
-//! speed, moves by itself, loses speed; and the same after whitening.
+//! One realisation of a ride, Figs 2–4 of [^1]: the sensor's record while the cage stands, accelerates,
+//! coasts and brakes, and the same record after whitening.
 //!
-//! r = x + Δ·shape + λ + v, eqs (4), (7): Δ acts in acceleration, −Δ in braking; impulses λ and the
-//! vibration v, white noise that [^1] does not have, act in motion. Every ride starts from S = 0.
+//! r = x + Δ·shape + λ + v, eqs (4), (7): Δ acts in acceleration, −Δ in braking. The impulses λ and the
+//! vibration v act in motion; v is white noise that [^1] does not have. Every ride starts from S = 0.
 //!
-//! # What becomes of impulses in (9)
-//! y_i = r_i − Σ a_p r_{i−p} with the sensor's true coefficients is ξ_i + Δ·step_i + λ_i − Σ a_p λ_{i−p},
-//! where step is the whitened shape, 1 − β once the filter's memory is full. (9) prints λ_i + Σ a_p λ_{i−p}.
-//! The quantities say how far y is from either.
+//! # Impulses in (9)
+//! With the sensor's true coefficients, y_i = r_i − Σ a_p r_{i−p} is
+//! ξ_i + Δ·step_i + λ_i − Σ a_p λ_{i−p}, where step is the whitened shape: 1 − β once the filter's
+//! memory is full. (9) prints λ_i + Σ a_p λ_{i−p}. The quantities give the distance of y from both.
 //!
 //! [^1]: see [`crate::signal`].
 
@@ -118,7 +118,7 @@ struct Ride<'a> {
 }
 
 impl<'a> Ride<'a> {
-    /// Draws one.
+    /// Draws a realisation.
     fn new(config: &'a Realisation) -> Self {
         let trace = &config.trace;
         let (innovations, coloured) = noise(config, trace.length());
@@ -142,7 +142,7 @@ impl<'a> Ride<'a> {
         }
     }
 
-    /// Every sample.
+    /// One row for each sample.
     fn rows(&self) -> Vec<Row> {
         let whitened = self.whitened();
         let mut names = vec![None; self.record.len()];
@@ -164,7 +164,7 @@ impl<'a> Ride<'a> {
     }
 
     /// How far (9) is from the whitened record, with a minus before the impulses' tail and with the plus
-    /// that it prints; only of a ride that is whitened and has nothing in it that (9) does not.
+    /// that it prints. The ride must be whitened and contain only the terms of (9).
     fn quantities(&self) -> Vec<Quantity> {
         let is_of_nine = self.config.scenario.digitiser.is_transparent()
             && self.trace.vibration == 0.0
@@ -199,7 +199,7 @@ impl<'a> Ride<'a> {
         in_motion.map(|(i, _)| residual(i)).fold(0.0, f64::max)
     }
 
-    /// The whitened record, from where the filter's memory is full.
+    /// The whitened record. It starts where the filter's memory is full.
     fn whitened(&self) -> Vec<Option<f64>> {
         let mut whitened = vec![None; self.record.len()];
         if !self.trace.whitened {
@@ -223,7 +223,7 @@ impl<'a> Ride<'a> {
         start.expect("the config has been checked")
     }
 
-    /// Where the filter is fitted.
+    /// The samples that the filter is fitted to.
     fn training(&self) -> std::ops::Range<usize> {
         let scenario = &self.config.scenario;
         let start = self.reference_start();
@@ -250,7 +250,7 @@ impl<'a> Ride<'a> {
     }
 }
 
-/// For each sample the part of the ride that it lies in, and how many samples of that have passed.
+/// For each sample, the part of the ride that it lies in and its index within that part.
 fn samples(trace: &Trace) -> impl Iterator<Item = (Part, usize)> + '_ {
     let parts = trace.parts.iter();
     parts.flat_map(|part| (0..part.length).map(move |since| (*part, since)))
@@ -346,8 +346,8 @@ mod tests {
         format!("{HEAD}[trace]\nwhitened = true\n{PHASES}\n{SECTIONS}")
     }
 
-    /// With a minus (9) is an identity, up to rounding of values below 100; with the plus it is off by
-    /// 2 |Σ a_p λ_{i−p}|, which is 2 · 1.5365 θ after a lone impulse at least.
+    /// With a minus, (9) is an identity up to rounding of values below 100. With the plus it is off by
+    /// 2 |Σ a_p λ_{i−p}|, which is at least 2 · 1.5365 θ after a lone impulse.
     #[test]
     fn nine_holds_with_a_minus() {
         let quantities = ride(&whitened(), |ride| ride.quantities());
@@ -358,7 +358,7 @@ mod tests {
         assert!(plus.value > 2.0 * 0.75 * 5.0, "{plus:?}");
     }
 
-    /// X ends where the acceleration starts, the rest follows from the sizes.
+    /// X ends where the acceleration starts. The other places follow from the sizes.
     #[test]
     fn samples_lie_where_they_should() {
         let rows = ride(&whitened(), |ride| ride.rows());
@@ -389,7 +389,7 @@ mod tests {
         assert!(rows.iter().any(|row| row.impulse == 5.0));
     }
 
-    /// The record is what the parts add up to, in the unit and steps of the sensor.
+    /// The record is the sum of the parts, in the unit and steps of the sensor.
     #[test]
     fn digitised_and_scaled() {
         let text = format!(

@@ -5,17 +5,17 @@ use serde::{Deserialize, Serialize};
 /// One sample. Values are in the trace's unit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// In seconds.
+    /// Time in seconds.
     pub time: f64,
     /// `rest`, `acceleration`, `inertial` or `braking`.
     pub phase: String,
-    /// What the sensor writes down.
+    /// The sensor's record.
     pub record: f64,
-    /// The same whitened, where it is.
+    /// The whitened record, if the trace is whitened.
     pub whitened: Option<f64>,
-    /// `training`, `reference`, `shift`, `scale`, or nothing.
+    /// `training`, `reference`, `shift` or `scale`; empty outside these.
     pub sample: Option<String>,
-    /// What is added to the noise for the acceleration.
+    /// The acceleration's contribution to the record.
     pub acceleration: f64,
     /// λ.
     pub impulse: f64,

@@ -65,7 +65,7 @@ enum PhaseTable {
     Braking(Size),
 }
 
-/// A ride that takes longer to draw than anyone waits.
+/// The longest ride. A longer one would take too long to draw.
 const LONGEST: usize = 1_000_000;
 
 fn one() -> f64 {
@@ -101,8 +101,8 @@ impl Trace {
         self.parts.iter().map(|part| part.length).sum()
     }
 
-    /// Where the first of X lies: X ends where the first acceleration starts. `None` where there is
-    /// no acceleration, or not enough of a record before it.
+    /// The first sample of X. X ends where the first acceleration starts. `None` if the ride has no
+    /// acceleration, or if the record before it is too short.
     pub fn reference_start(&self, samples: &Samples) -> Option<usize> {
         self.acceleration_start()?.checked_sub(samples.reference())
     }
@@ -113,7 +113,7 @@ impl Trace {
         Some(self.parts[..first].iter().map(|part| part.length).sum())
     }
 
-    /// Whether its values fit each other.
+    /// Checks that the values fit each other.
     pub fn check(&self) -> Result<(), Conflict> {
         let lengths = self.parts.iter().map(|part| part.length);
         let length = lengths.fold(0usize, usize::saturating_add);
@@ -131,7 +131,7 @@ impl Trace {
         Ok(())
     }
 
-    /// Lays over the sections that the acceleration lasts as long as its shortest phase.
+    /// Overrides the sections: the acceleration lasts as long as its shortest phase.
     pub fn lay_over(&self, sections: &mut Node, table: &Range<usize>) {
         let accelerated = self.parts.iter().filter(|part| part.phase.sign() != 0.0);
         let shortest = accelerated.map(|part| part.length as i64).min();
@@ -145,7 +145,7 @@ impl Trace {
         );
     }
 
-    /// Training, X, Y₁ and Y₂ of what is whitened must lie inside the ride.
+    /// Training, X, Y₁ and Y₂ of a whitened trace must lie inside the ride.
     pub fn check_fit(&self, scenario: &Scenario) -> Result<(), Conflict> {
         if !self.whitened {
             return Ok(());
