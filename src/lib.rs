@@ -105,6 +105,7 @@ pub mod counts;
 pub mod detect;
 pub mod detection;
 pub mod experiment;
+pub mod explain;
 pub mod fields;
 pub mod figure;
 pub mod files;

@@ -15,6 +15,8 @@ const FLOORS: &[&[&str]] = &[
     &["values"],
     // The world, and what config, claims and pictures say, each without the others.
     &["signal", "whiten", "detect", "config", "claim", "plot"],
+    // What a record may hold.
+    &["explain"],
     // Estimators; what a point simulates.
     &["monitor", "scenario", "report"],
     &["chain", "detection", "experiment"],

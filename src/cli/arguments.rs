@@ -66,7 +66,7 @@ impl Arguments {
             Command::Replay(command) => command.run(),
             Command::Keys(command) => command.run(),
             Command::Simulate(command) => command.run(),
-            Command::Detect(command) => command.run(self.quiet),
+            Command::Detect(command) => command.run(),
             Command::Monitor(command) => command.run(),
             Command::Completions(command) => command.run(Self::command()),
             Command::Man(command) => command.run(Self::command()),

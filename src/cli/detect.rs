@@ -1,17 +1,16 @@
 //! `liftsim detect RECORDING`: rest, rides and what decided them, in a recording.
 
 use super::found;
-use super::monitor_options::{MonitorArguments, Setup, check_strength};
+use super::monitor_options::{Beginning, MonitorArguments, check_strength};
 use super::output::{Output, Ready, apart};
-use super::progress;
 use super::reading::ReadingArguments;
 use super::{CommandResult, Failure, print, warn};
+use anyhow::anyhow;
 use clap::Args;
-use indicatif::ProgressBar;
 use liftsim::detection::{DetectReport, Detection};
 use liftsim::figure::{self, FigureError};
-use liftsim::monitor::{Design, Knowledge, SavedState};
-use liftsim::signal::recording::{Reading, Recording, Sample};
+use liftsim::monitor::SavedState;
+use liftsim::signal::recording::{Reading, Recording};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -47,11 +46,17 @@ pub struct Detect {
     /// Replace files that exist.
     #[arg(long)]
     force: bool,
+    /// How the recording begins, where you know it: it decides what is undecided otherwise.
+    #[arg(long, value_name = "STATE", value_enum)]
+    begins: Option<Beginning>,
     #[command(flatten)]
     options: MonitorArguments,
     #[command(flatten)]
     reading: ReadingArguments,
 }
+
+const NO_REST: &str =
+    "too little rest to learn a state from (record a few seconds of rest before or after the ride)";
 
 /// The files for the results.
 struct Outputs {
@@ -62,19 +67,32 @@ struct Outputs {
 
 impl Detect {
     /// Runs the command.
-    pub fn run(self, quiet: bool) -> CommandResult {
+    pub fn run(self) -> CommandResult {
         let outputs = self.outputs()?;
         let setup = self.options.setup()?;
         let recording = self.open(&setup.config.reading)?;
-        let passes = if setup.saved.is_some() { 1 } else { 3 };
-        let bar = progress::passes(passes * recording.facts().samples, !quiet);
-        let (saved, design) = self.learn(setup, &recording, &bar)?;
-        let first = first_sample(&recording)?;
-        let samples = recording.samples().map_err(Failure::input)?;
-        let samples = progress::seen(samples, &bar);
-        let detection = Detection::of(&design, saved.knowledge_of(&first), samples);
-        bar.finish_and_clear();
-        let detection = detection.map_err(Failure::input)?;
+        let samples: Result<Vec<_>, _> = recording.samples().map_err(Failure::input)?.collect();
+        let samples = samples.map_err(Failure::input)?;
+        let (settings, rate) = match &setup.saved {
+            Some(saved) => (saved.settings.clone(), saved.rate),
+            None => (setup.config.settings, recording.rate()),
+        };
+        let design = settings.at(rate);
+        let design = design.map_err(|error| self.refused(error.into()))?;
+        let reference = setup.saved.and_then(|saved| saved.knowledge.reference);
+        let begins_at_rest = self.begins.and_then(Beginning::is_rest);
+        let detection = Detection::of(&design, &samples, reference, begins_at_rest);
+        let saved = SavedState {
+            first_sample: samples
+                .first()
+                .map(|first| (first.time, first.acceleration)),
+            knowledge: detection.knowledge.clone(),
+            settings,
+            rate,
+        };
+        if saved.knowledge.reference.is_none() && self.save_state.is_some() {
+            return Err(self.refused(anyhow!(NO_REST)));
+        }
         for warning in detection.warnings(recording.rate()) {
             warn(warning);
         }
@@ -116,32 +134,6 @@ impl Detect {
         Ok(recording)
     }
 
-    /// The saved state, or what is learnt from the recording, and the design of the monitor.
-    fn learn(
-        &self,
-        setup: Setup,
-        recording: &Recording,
-        bar: &ProgressBar,
-    ) -> Result<(SavedState, Design), Failure> {
-        if let Some(saved) = setup.saved {
-            let design = saved.design().map_err(Failure::input)?;
-            return Ok((saved, design));
-        }
-        let (settings, rate) = (setup.config.settings, recording.rate());
-        let design = settings.at(rate);
-        let design = design.map_err(|error| self.refused(error.into()))?;
-        let pass = || Ok(progress::seen(recording.samples()?, bar));
-        let learnt = Knowledge::from_record(&design, pass).map_err(Failure::input)?;
-        let first = first_sample(recording)?;
-        let saved = SavedState {
-            knowledge: learnt.map_err(|error| self.refused(error.into()))?,
-            settings,
-            rate,
-            first_sample: Some((first.time, first.acceleration)),
-        };
-        Ok((saved, design))
-    }
-
     /// All files or none.
     fn write(
         &self,
@@ -180,10 +172,4 @@ impl Detect {
     fn refused(&self, error: anyhow::Error) -> Failure {
         Failure::Input(error.context(self.recording.display().to_string()))
     }
-}
-
-fn first_sample(recording: &Recording) -> Result<Sample, Failure> {
-    let mut samples = recording.samples().map_err(Failure::input)?;
-    let first = samples.next().expect("a recording has samples");
-    first.map_err(Failure::input)
 }

@@ -1,27 +1,31 @@
 //! The result of `detect` as text.
 
 use super::table;
-use liftsim::detection::{AtRest, DetectReport, Detection, Trip};
-use liftsim::monitor::{Kind, Reference};
+use liftsim::detection::{AtRest, Brief, DetectReport, Detection, Event, Trip, Undecided, What};
+use liftsim::monitor::{Direction, Reference};
 use serde_json::Value;
 
 /// Below this p-value the filter counts as leaving colour.
 const COLOURED: f64 = 0.01;
 
 /// The columns shown of every trip.
-const TRIP: [&str; 8] = [
+const TRIP: [&str; 9] = [
     "ride",
     "direction",
     "start",
     "inertial",
     "braking",
+    "levelling",
     "stop",
     "speed",
     "ended",
 ];
 
 /// The columns shown of its start and of its stop, without that prefix.
-const DECISION: [&str; 5] = ["reported", "rank_sum", "exceedances", "lower", "upper"];
+const DECISION: [&str; 4] = ["rank_sum", "exceedances", "lower", "upper"];
+
+/// The most times in a line.
+const MOST_TIMES: usize = 8;
 
 /// The whole text.
 pub fn text(report: &DetectReport, detection: &Detection) -> String {
@@ -29,6 +33,8 @@ pub fn text(report: &DetectReport, detection: &Detection) -> String {
         recording(report),
         rest(detection),
         trips(report),
+        undecided(report.undecided),
+        events(report.events),
         decisions(report.rides),
     ]
     .concat()
@@ -67,9 +73,6 @@ fn rest(detection: &Detection) -> String {
         design.settings.detector.alpha,
         at_rest(&detection.at_rest)
     );
-    if !knowledge.begins_at_rest {
-        text += "the recording may begin in motion: the state is unknown at first\n\n";
-    }
     text
 }
 
@@ -102,27 +105,94 @@ fn at_rest(at_rest: &AtRest) -> String {
 
 fn trips(report: &DetectReport) -> String {
     if report.rides.is_empty() {
-        return "no rides\n".to_owned();
+        return if report.undecided.is_empty() && report.events.is_empty() {
+            "no rides: the record stays at its level\n".to_owned()
+        } else {
+            "no rides that are decided\n".to_owned()
+        };
     }
     let rows: Vec<_> = (report.rides.iter())
         .map(|trip| TRIP.map(|name| cell(&trip.column(name))).to_vec())
         .collect();
-    table(&TRIP, &rows) + "times in s of the recording's clock, speed in m/s\n" + &alarms(report)
+    let ends = report.rides.iter().map(other_ends).collect::<String>();
+    table(&TRIP, &rows) + "times in s of the recording's clock, speed in m/s\n" + &ends
 }
 
-fn alarms(report: &DetectReport) -> String {
-    let events = report.events.iter();
-    events
-        .filter_map(|event| match event.kind {
-            Kind::Alarm(alarm) => Some(format!(
-                "\nALARM: {} at {:.2} s, reported at {:.2} s\n",
-                alarm.name(),
-                event.time,
-                event.reported
-            )),
-            Kind::Change { .. } => None,
-        })
-        .collect()
+fn other_ends(trip: &Trip) -> String {
+    let end = |name: &str, time: Option<f64>| {
+        let of = |time| {
+            format!(
+                "ride {}: the {name} may be at {time:.2} s as well\n",
+                trip.ride
+            )
+        };
+        time.map(of).unwrap_or_default()
+    };
+    end("start", trip.or_start) + &end("stop", trip.or_stop)
+}
+
+fn undecided(stretches: &[Undecided]) -> String {
+    let told = |it: &Undecided| {
+        format!(
+            "\nundecided, {:.1} to {:.1} s: either {}, or {} (log odds {:.1})\n",
+            it.from,
+            it.to,
+            briefly(&it.either),
+            briefly(&it.or),
+            it.log_odds
+        )
+    };
+    stretches.iter().map(told).collect()
+}
+
+fn briefly(trips: &[Brief]) -> String {
+    let end = |time: Option<f64>| time.map_or("?".to_owned(), |time| format!("{time:.1}"));
+    let told = trips.iter().map(|trip| {
+        let direction = match trip.direction {
+            Direction::Up => "up",
+            Direction::Down => "down",
+        };
+        format!("{direction} {}-{} s", end(trip.start), end(trip.stop))
+    });
+    let told: Vec<String> = told.collect();
+    if told.is_empty() {
+        "no ride".to_owned()
+    } else {
+        told.join(" and ")
+    }
+}
+
+/// A line for every kind of event.
+fn events(events: &[Event]) -> String {
+    let kinds = [
+        (What::Shock, "shocks"),
+        (What::Swing, "swings to and fro"),
+        (What::Push, "changes of speed that belong to no ride"),
+        (What::SlowMotion, "slow motions"),
+    ];
+    let line = |(what, name): (What, &str)| {
+        let times = events.iter().filter(|event| event.what == what);
+        let times: Vec<String> = times.map(|event| format!("{:.1}", event.from)).collect();
+        let more = times.len().saturating_sub(MOST_TIMES);
+        let shown = times
+            .iter()
+            .take(MOST_TIMES)
+            .cloned()
+            .collect::<Vec<_>>()
+            .join(", ");
+        let more = if more > 0 {
+            format!(" and {more} more")
+        } else {
+            String::new()
+        };
+        (!times.is_empty()).then(|| format!("\n{name} at {shown}{more} s"))
+    };
+    let lines: String = kinds.into_iter().filter_map(line).collect();
+    if lines.is_empty() {
+        lines
+    } else {
+        lines + "\n"
+    }
 }
 
 fn decisions(trips: &[Trip]) -> String {

@@ -1,9 +1,9 @@
 //! `liftsim monitor`: watches a lift, sample by sample, from standard input.
 
-use super::monitor_options::{MonitorArguments, Setup, check_strength};
+use super::monitor_options::{Beginning, MonitorArguments, Setup, check_strength};
 use super::{CommandResult, Failure, print_to, warn};
 use anyhow::{Context, anyhow};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use liftsim::monitor::{Event, Knowledge, Monitor, SavedState};
 use liftsim::signal::recording::{LineError, LineReader, LineReading, Sample};
 use std::io::{self, BufReader};
@@ -45,14 +45,6 @@ pub struct MonitorCommand {
     keep_going: bool,
     #[command(flatten)]
     options: MonitorArguments,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-enum Beginning {
-    /// It stands.
-    Rest,
-    /// It may be moving.
-    Unknown,
 }
 
 /// Readings from which a rate is measured.

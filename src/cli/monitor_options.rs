@@ -2,9 +2,10 @@
 
 use super::Failure;
 use anyhow::anyhow;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use liftsim::detection::MonitorOptions;
-use liftsim::monitor::{MOST_ORDER, STRONGEST, SavedState, Settings};
+use liftsim::explain::STRONGEST;
+use liftsim::monitor::{MOST_ORDER, SavedState, Settings};
 use liftsim::whiten::Order;
 use serde::Serialize;
 use std::fmt::Display;
@@ -42,6 +43,28 @@ struct SettingFlags {
     #[arg(long, value_name = "V", conflicts_with = "state")]
     #[arg(help = help("The speed of the slowest motion, m/s", |usual| usual.monitor.least_speed))]
     least_speed: Option<f64>,
+}
+
+/// How a record begins.
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub enum Beginning {
+    /// The cage stands.
+    Rest,
+    /// It moves.
+    Motion,
+    /// It may do either.
+    Unknown,
+}
+
+impl Beginning {
+    /// Whether it stands, if that is known.
+    pub fn is_rest(self) -> Option<bool> {
+        match self {
+            Self::Rest => Some(true),
+            Self::Motion => Some(false),
+            Self::Unknown => None,
+        }
+    }
 }
 
 /// How the recording is read and the monitor set up.

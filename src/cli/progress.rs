@@ -238,21 +238,3 @@ fn target(is_shown: bool) -> ProgressDrawTarget {
         ProgressDrawTarget::hidden()
     }
 }
-
-/// A bar for passes over a recording of so many samples in all; [`seen`] moves it.
-pub fn passes(samples: u64, is_shown: bool) -> ProgressBar {
-    let style = style("reading {bar:32} {percent:>3} %, {eta} left");
-    ProgressBar::with_draw_target(Some(samples), target(is_shown)).with_style(style)
-}
-
-/// The same items, counted on a bar.
-pub fn seen<T>(items: impl Iterator<Item = T>, bar: &ProgressBar) -> impl Iterator<Item = T> {
-    const EVERY: u64 = 1 << 16;
-    let mut count = 0;
-    items.inspect(move |_| {
-        count += 1;
-        if count % EVERY == 0 {
-            bar.inc(EVERY);
-        }
-    })
-}

@@ -44,8 +44,8 @@ mod tests {
         let columns = columns().join(",");
         assert_eq!(
             columns,
-            "ride,direction,start,inertial,braking,stop,speed,ended,start_reported,start_rank_sum,\
-             start_exceedances,start_lower,start_upper,stop_reported,stop_rank_sum,stop_exceedances,\
+            "ride,direction,start,inertial,braking,levelling,stop,speed,ended,or_start,or_stop,\
+             start_rank_sum,start_exceedances,start_lower,start_upper,stop_rank_sum,stop_exceedances,\
              stop_lower,stop_upper"
         );
     }

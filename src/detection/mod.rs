@@ -1,78 +1,88 @@
-//! Detection in a whole recording: a loop over [`Monitor::step`] that collects the events into trips.
+//! Detection in a whole recording: its trips, what decided each, and what the record leaves open.
 //!
-//! Before the loop, the reference of rest may be learnt from the whole recording
-//! ([`Knowledge::from_record`]). A monitor with the same knowledge and samples reports the same events.
+//! The record is explained as a whole ([`Explanation`]), so that every moment is seen from both sides. The
+//! explanation says where the cage rests; there the whitening filter and X are learnt, and the decision of [^1] is
+//! made at each start and stop.
+//!
+//! [^1]: see [`crate::signal`].
 
-mod at_rest;
 mod columns;
+mod decisions;
 mod options;
 mod report;
+mod rests;
 mod trace;
 mod trip;
 
-pub use at_rest::AtRest;
 pub use columns::columns;
+pub use decisions::AtRest;
 pub use options::{MonitorOptions, RecordingTable};
 pub use report::{DetectReport, Recorded, Warning};
 pub use trace::{Column, Trace};
-pub use trip::{End, Trip};
+pub use trip::{Brief, End, Event, Trip, Undecided, What};
 
-use crate::monitor::{Design, Event, Knowledge, Monitor};
+use crate::explain::{Cut, Explanation, Prior};
+use crate::monitor::{Design, Knowledge, Reference};
 use crate::signal::recording::Sample;
+use decisions::Decisions;
+use rests::Rests;
 
 /// The result of a detection.
 #[derive(Clone, Debug)]
 pub struct Detection {
     /// The settings at the rate of the recording.
     pub design: Design,
-    /// The knowledge at the start.
+    /// What was learnt for a monitor; without a reference where there is too little rest.
     pub knowledge: Knowledge,
-    /// All events, in the order reported.
-    pub events: Vec<Event>,
-    /// The motions.
+    /// The trips that are decided.
     pub trips: Vec<Trip>,
+    /// The stretches that are not.
+    pub undecided: Vec<Undecided>,
+    /// Everything else that moved the sensor.
+    pub events: Vec<Event>,
     /// The false alarms at rest.
     pub at_rest: AtRest,
-    /// Whether the sensor seems to be behind a high-pass filter.
-    pub is_high_passed: bool,
+    /// The time constant of the sensor's high-pass filter, s, if the record was restored.
+    pub high_pass: Option<f64>,
     /// The thinned record, for a picture.
     pub trace: Trace,
 }
 
 impl Detection {
-    /// Runs a monitor over `samples`.
-    ///
-    /// # Errors
-    /// If reading a sample fails.
-    pub fn of<E>(
+    /// Explains `samples`. Decisions are made with `reference`, or else with the one learnt from the record.
+    pub fn of(
         design: &Design,
-        knowledge: Knowledge,
-        samples: impl Iterator<Item = Result<Sample, E>>,
-    ) -> Result<Self, E> {
-        let mut monitor = Monitor::new(design.clone(), knowledge.clone());
-        let mut found = Self {
-            design: design.clone(),
-            knowledge,
-            events: Vec::new(),
-            trips: Vec::new(),
-            at_rest: AtRest::default(),
-            is_high_passed: false,
-            trace: Trace::default(),
+        samples: &[Sample],
+        reference: Option<Reference>,
+        begins_at_rest: Option<bool>,
+    ) -> Self {
+        let limits = &design.settings.monitor;
+        let prior = Prior {
+            least_speed: limits.least_speed,
+            most_acceleration: limits.most_acceleration,
+            longest_motion: limits.longest_motion,
+            begins_at_rest,
+            ..Prior::default()
         };
-        for sample in samples {
-            let sample = sample?;
-            for event in monitor.step(sample, None) {
-                found.at_rest.event(event);
-                trip::take(&mut found.trips, event);
-                found.events.push(*event);
-            }
-            if let Some(block) = monitor.newest() {
-                found.at_rest.block(block, monitor.state());
-                found.trace.block(block);
-            }
+        let cut = Cut::new(samples, design.samples.decimation(), design.block);
+        let explanation = Explanation::of(&cut, &prior);
+        let rests = Rests::of(&explanation);
+        let reference = reference.or_else(|| rests.learn(&explanation, design));
+        let decisions = Decisions::new(design, &explanation, reference.as_ref());
+        let (trips, undecided) = trip::told(&explanation, &decisions);
+        Self {
+            at_rest: decisions.at_rest(&rests),
+            knowledge: Knowledge {
+                begins_at_rest: rests.begins(),
+                motion_shows: decisions.motion_shows(&trips),
+                reference: reference.clone(),
+            },
+            events: trip::events(&explanation, &prior),
+            high_pass: explanation.high_pass,
+            trace: Trace::of(&explanation.levelled.cut, decisions.whitened()),
+            design: design.clone(),
+            trips,
+            undecided,
         }
-        found.at_rest.end();
-        found.is_high_passed = monitor.is_high_passed();
-        Ok(found)
     }
 }

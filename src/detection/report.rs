@@ -2,8 +2,8 @@
 
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
-use super::{AtRest, Detection, End, Trip, columns};
-use crate::monitor::{Event, Knowledge, Settings};
+use super::{AtRest, Detection, Event, Trip, Undecided, What, columns};
+use crate::monitor::{Knowledge, Settings};
 use crate::signal::recording::Recording;
 use serde::Serialize;
 use serde_json::Value;
@@ -19,6 +19,9 @@ pub struct DetectReport<'a> {
     pub knowledge: &'a Knowledge,
     pub at_rest: &'a AtRest,
     pub rides: &'a [Trip],
+    /// Stretches with two explanations that are close.
+    pub undecided: &'a [Undecided],
+    /// What moved the sensor and is no ride.
     pub events: &'a [Event],
 }
 
@@ -45,17 +48,18 @@ pub struct Recorded {
     pub jitter: f64,
     pub quantum: Option<f64>,
     pub has_gravity: bool,
-    pub high_passed: bool,
+    /// The time constant of its high-pass filter, s, if it has one: the record was restored.
+    pub high_pass: Option<f64>,
 }
 
 /// A reason to distrust the trips.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Warning {
     #[error(
-        "this looks like a sensor behind a high-pass filter: pulses of acceleration decay and overshoot, so \
-         speeds and stops cannot be trusted (record the raw accelerometer, with g)"
+        "the sensor is behind a high-pass filter with a time constant of about {0} s: the record was restored, \
+         so speeds are rough (record the raw accelerometer, with g)"
     )]
-    HighPassed,
+    HighPass(f64),
     #[error(
         "the state was learnt at {learnt:.1} Hz, this recording has {got:.1} Hz (use --resample {learnt:.1})"
     )]
@@ -65,8 +69,27 @@ pub enum Warning {
          with --scale)"
     )]
     Level(f64),
-    #[error("{0} rides were lost from sight: no stop was found that fits their start")]
-    Lost(usize),
+    #[error(
+        "too little rest to learn from: the decisions were not made (record a few seconds of rest before or \
+         after the ride)"
+    )]
+    NoRest,
+    #[error(
+        "a motion of {speed:.2} m/s from {from:.1} to {to:.1} s is slower than a ride, {least} m/s \
+         (use --lift slow)"
+    )]
+    Slow {
+        speed: f64,
+        from: f64,
+        to: f64,
+        least: f64,
+    },
+    #[error("from {from:.1} to {to:.1} s the record does not decide between two readings{remedy}")]
+    Undecided {
+        from: f64,
+        to: f64,
+        remedy: &'static str,
+    },
 }
 
 impl<'a> DetectReport<'a> {
@@ -97,13 +120,14 @@ impl<'a> DetectReport<'a> {
                 jitter: facts.jitter,
                 quantum: facts.quantum,
                 has_gravity: facts.has_gravity,
-                high_passed: detection.is_high_passed,
+                high_pass: detection.high_pass,
             },
             settings: &detection.design.settings,
             block: detection.design.block,
             knowledge: &detection.knowledge,
             at_rest: &detection.at_rest,
             rides: &detection.trips,
+            undecided: &detection.undecided,
             events: &detection.events,
         }
     }
@@ -141,18 +165,33 @@ impl Detection {
     pub fn warnings(&self, rate: f64) -> Vec<Warning> {
         let learnt = self.design.rate;
         let level = self.knowledge.reference.as_ref().map(|rest| rest.level);
-        let lost = self.trips.iter().filter(|trip| trip.ended == End::Lost);
-        let lost = lost.count();
+        let slow = self
+            .events
+            .iter()
+            .filter(|event| event.what == What::SlowMotion);
+        let slow = slow.map(|event| Warning::Slow {
+            speed: event.speed.abs(),
+            from: event.from,
+            to: event.to,
+            least: self.design.settings.monitor.least_speed,
+        });
+        let undecided = self.undecided.iter().map(|it| Warning::Undecided {
+            from: it.from,
+            to: it.to,
+            remedy: it.remedy(),
+        });
         [
-            self.is_high_passed.then_some(Warning::HighPassed),
+            self.high_pass.map(Warning::HighPass),
             ((rate / learnt - 1.0).abs() > 0.05).then_some(Warning::Rate { learnt, got: rate }),
             level
                 .filter(|level| !is_level_of_rest(*level))
                 .map(Warning::Level),
-            (lost > 0).then_some(Warning::Lost(lost)),
+            level.is_none().then_some(Warning::NoRest),
         ]
         .into_iter()
         .flatten()
+        .chain(slow)
+        .chain(undecided)
         .collect()
     }
 }

@@ -1,17 +1,10 @@
-//! A recording thinned for a picture, in constant memory: the lowest and the highest block in each of a few
-//! thousand columns of time.
+//! A recording thinned for a picture: the lowest and the highest block in each of a few thousand columns of time.
 
-use crate::monitor::Observation;
+use crate::explain::Cut;
 
 /// The record and the whitened record, thinned.
 #[derive(Clone, Debug)]
-pub struct Trace {
-    columns: Vec<Column>,
-    /// Blocks in a column.
-    blocks: usize,
-    /// Blocks in the last one.
-    filled: usize,
-}
+pub struct Trace(Vec<Column>);
 
 /// A column of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,56 +20,28 @@ pub struct Column {
 /// More columns than a picture resolves.
 const MOST_COLUMNS: usize = 8192;
 
-impl Default for Trace {
-    fn default() -> Self {
-        Self {
-            columns: Vec::new(),
-            blocks: 1,
-            filled: 0,
-        }
-    }
-}
-
 impl Trace {
     /// The columns in order of time.
     pub fn columns(&self) -> &[Column] {
-        &self.columns
+        &self.0
     }
 
-    pub(super) fn block(&mut self, block: &Observation) {
-        let column = Column {
-            times: block.times,
-            record: (block.mean, block.mean),
-            whitened: (block.whitened, block.whitened),
+    pub(super) fn of(cut: &Cut, whitened: &[f64]) -> Self {
+        let wide = cut.blocks.len().div_ceil(MOST_COLUMNS).max(1);
+        let span = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+                (low.min(value), high.max(value))
+            })
         };
-        match self.columns.last_mut() {
-            Some(last) if self.filled < self.blocks => *last = last.joined(&column),
-            _ => {
-                self.thin();
-                self.columns.push(column);
-                self.filled = 0;
-            }
-        }
-        self.filled += 1;
-    }
-
-    /// Makes room by joining columns in pairs.
-    fn thin(&mut self) {
-        if self.columns.len() == MOST_COLUMNS {
-            let pairs = self.columns.chunks_exact(2);
-            self.columns = pairs.map(|pair| pair[0].joined(&pair[1])).collect();
-            self.blocks *= 2;
-        }
-    }
-}
-
-impl Column {
-    fn joined(&self, later: &Self) -> Self {
-        let span = |a: (f64, f64), b: (f64, f64)| (a.0.min(b.0), a.1.max(b.1));
-        Self {
-            times: (self.times.0, later.times.1),
-            record: span(self.record, later.record),
-            whitened: span(self.whitened, later.whitened),
-        }
+        let columns = cut.blocks.chunks(wide).zip(whitened.chunks(wide));
+        Self(
+            columns
+                .map(|(blocks, whitened)| Column {
+                    times: (blocks[0].from, blocks[blocks.len() - 1].to),
+                    record: span(&mut blocks.iter().map(|block| block.mean)),
+                    whitened: span(&mut whitened.iter().copied()),
+                })
+                .collect(),
+        )
     }
 }

@@ -1,9 +1,9 @@
 //! A recording and what was found in it: the record, below it the same whitened; states shaded and named; X, Y₁
-//! and Y₂ of each decision, and when it was made.
+//! and Y₂ of each decision.
 
 use super::error::FigureError;
-use crate::detection::{Column, Detection};
-use crate::monitor::{Decision, Kind, State};
+use crate::detection::{Column, Detection, Trip};
+use crate::monitor::Decision;
 use crate::plot::{
     Axis, Colour, Entry, Key, Mark, Place, Plot, Style, add_phases, ends, literal, phase_colour,
     phase_words,
@@ -34,13 +34,9 @@ pub fn plot(detection: &Detection, name: &str) -> Result<Plot, FigureError> {
     plot.add(1, Mark::Level(0.0, &[]));
     plot.add(0, values(columns, |column| column.record));
     plot.add(1, values(columns, |column| column.whitened));
-    for event in &detection.events {
-        if let Kind::Change {
-            decision: Some(decision),
-            ..
-        } = event.kind
-        {
-            add_decision(&mut plot, &decision, event.reported);
+    for trip in &detection.trips {
+        for decision in trip.start_decision.iter().chain(&trip.stop_decision) {
+            add_decision(&mut plot, decision);
         }
     }
     plot.add_to_all(&Mark::Axes);
@@ -51,21 +47,38 @@ pub fn plot(detection: &Detection, name: &str) -> Result<Plot, FigureError> {
 
 /// From when to when each state lasted, s, and its name.
 fn states(detection: &Detection, from: f64, to: f64) -> Vec<((f64, f64), &'static str)> {
-    let mut states = vec![((from, to), "unknown")];
-    for event in &detection.events {
-        if let Kind::Change { state, .. } = event.kind {
-            if let Some(last) = states.last_mut() {
-                last.0.1 = event.time;
-            }
-            let name = match state {
-                State::Unknown => "unknown",
-                State::Known(phase) => phase.name(),
-            };
-            states.push(((event.time, to), name));
+    let mut changes: Vec<(f64, &'static str)> = vec![(from, "rest")];
+    for trip in &detection.trips {
+        changes.extend(phases(trip));
+        if trip.start.is_none() {
+            changes[0].1 = "unknown";
         }
     }
-    states.retain(|((from, to), _)| from < to);
-    states
+    for it in &detection.undecided {
+        changes.retain(|(time, _)| !(it.from..it.to).contains(time));
+        changes.extend([(it.from, "unknown"), (it.to, "rest")]);
+    }
+    changes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let ends = changes.iter().skip(1).map(|(time, _)| *time).chain([to]);
+    let spans = changes
+        .iter()
+        .zip(ends)
+        .map(|((from, name), to)| ((*from, to), *name));
+    spans.filter(|((from, to), _)| from < to).collect()
+}
+
+/// When the phases of a trip begin, as far as the record shows.
+fn phases(trip: &Trip) -> impl Iterator<Item = (f64, &'static str)> {
+    let phases = [
+        (trip.start, "acceleration"),
+        (trip.inertial, "inertial"),
+        (trip.braking, "braking"),
+        (trip.levelling, "levelling"),
+        (trip.stop, "rest"),
+    ];
+    phases
+        .into_iter()
+        .filter_map(|(time, name)| time.map(|time| (time, name)))
 }
 
 /// A scale for the times at which the state was known: a sensor that is picked up would flatten everything
@@ -99,8 +112,8 @@ fn values(columns: &[Column], value: fn(&Column) -> (f64, f64)) -> Mark {
     Mark::Dense(points.collect(), Style::of(0))
 }
 
-/// A bar for each of X, Y₁ and Y₂, and a dashed line where the decision was made.
-fn add_decision(plot: &mut Plot, decision: &Decision, reported: f64) {
+/// A bar for each of X, Y₁ and Y₂.
+fn add_decision(plot: &mut Plot, decision: &Decision) {
     let samples = [
         decision.reference,
         Some(decision.shift),
@@ -112,7 +125,6 @@ fn add_decision(plot: &mut Plot, decision: &Decision, reported: f64) {
             plot.add(1, Mark::Bar(span, below, sample_colour(index)));
         }
     }
-    plot.add(1, Mark::Limit(reported));
 }
 
 fn sample_colour(index: usize) -> Colour {
@@ -125,7 +137,6 @@ fn entries() -> [Entry; 8] {
         |text: &str, colour: Colour, key: Key| Entry::new(text, Style::of(0).coloured(colour), key);
     let shade = |name: &str| entry(phase_words(name), phase_colour(name), Key::Shade);
     let sample = |index: usize, name: &str| entry(name, sample_colour(index), Key::Line);
-    let decision = Style::of(0).coloured(Colour::BLACK).dashed(&[2.0, 2.0]);
     [
         shade("acceleration"),
         sample(0, "X"),
@@ -134,7 +145,7 @@ fn entries() -> [Entry; 8] {
         shade("braking"),
         sample(2, "Y_2"),
         shade("unknown"),
-        Entry::new("decision made", decision, Key::Line),
+        shade("levelling"),
     ]
 }
 

@@ -5,6 +5,7 @@
 //! Y₂ the motion before it.
 
 use super::design::Design;
+use super::event::{Decision, Span};
 use super::history::History;
 use super::pulse::Pulse;
 use super::reference::Reference;
@@ -15,7 +16,7 @@ use std::ops::Range;
 
 /// W, T and the decision.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Verdict {
+pub(crate) struct Verdict {
     pub statistics: Statistics,
     /// Whether (W, T) lies in ϑ.
     pub moves: bool,
@@ -33,7 +34,7 @@ pub(super) struct Windows {
 
 /// Makes decisions, with random keys for ties.
 #[derive(Clone, Debug)]
-pub(super) struct Decider {
+pub(crate) struct Decider {
     ties: Stream,
     keys: Vec<u64>,
 }
@@ -73,6 +74,29 @@ impl Windows {
     }
 }
 
+impl Verdict {
+    /// With its threshold, and the times of its samples.
+    pub fn decision(
+        &self,
+        design: &Design,
+        reference: Option<Span>,
+        [shift, scale]: [Span; 2],
+    ) -> Decision {
+        let exceedances = self.statistics.exceedances;
+        let (lower, upper) = design.region.critical_values()[exceedances];
+        Decision {
+            rank_sum: self.statistics.rank_sum,
+            exceedances,
+            lower,
+            upper,
+            alpha: design.settings.detector.alpha,
+            reference,
+            shift,
+            scale,
+        }
+    }
+}
+
 impl Decider {
     pub fn new(design: &Design) -> Self {
         let samples = &design.samples;
@@ -84,7 +108,7 @@ impl Decider {
     }
 
     /// The decision at these windows; `None` if a block is not in the history.
-    pub fn decide(
+    pub(super) fn decide(
         &mut self,
         design: &Design,
         reference: &Reference,
@@ -99,16 +123,21 @@ impl Decider {
             shift: history.whitened(windows.shift.clone())?,
             scale: history.whitened(windows.scale.clone())?,
         };
+        Some(self.verdict(design, &pooled, history.end()))
+    }
+
+    /// The decision on three samples; `number` chooses the keys of ties.
+    pub fn verdict(&mut self, design: &Design, pooled: &Pooled, number: u64) -> Verdict {
         let (ties, keys) = (&self.ties, &mut self.keys);
         let statistics = pooled.statistics(|| {
-            let mut generator = ties.at(history.end());
+            let mut generator = ties.at(number);
             keys.fill_with(|| generator.next_u64());
             keys
         });
         let samples = &design.samples;
         let others = samples.reference() + samples.scale();
         let twice_mean = (samples.shift() * (samples.shift() + others + 1)) as u64;
-        Some(Verdict {
+        Verdict {
             statistics,
             moves: design.region.contains(statistics),
             sign: match (2 * statistics.rank_sum).cmp(&twice_mean) {
@@ -116,6 +145,6 @@ impl Decider {
                 std::cmp::Ordering::Equal => 0.0,
                 std::cmp::Ordering::Greater => 1.0,
             },
-        })
+        }
     }
 }

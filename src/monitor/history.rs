@@ -1,7 +1,7 @@
 //! The latest blocks, measured and whitened: as many as a decision or the training needs.
 
-use super::blocks::Block;
 use super::reference::Reference;
+use crate::explain::Block;
 use crate::whiten;
 use std::ops::Range;
 

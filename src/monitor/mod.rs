@@ -34,12 +34,10 @@
 //!
 //! [^1]: see [`crate::signal`].
 
-mod blocks;
 mod decide;
 mod design;
 mod event;
 mod history;
-mod learn;
 mod lift_state;
 mod pulse;
 mod reference;
@@ -49,21 +47,21 @@ mod step_input;
 #[cfg(test)]
 mod tests;
 
-pub use blocks::STRONGEST;
 pub use design::Design;
 pub use event::{Alarm, Decision, Direction, Event, Kind, Span, State};
-pub use learn::NoRest;
 pub use reference::Reference;
 pub use saved_state::{SavedState, SavedStateError};
 pub use settings::{Level, Limits, MOST_ORDER, Settings, SettingsError, Sizes, Whitening};
 
+use crate::explain::{Block, Blocks};
 use crate::signal::recording::Sample;
-use blocks::{Block, Blocks};
-use decide::{Decider, Windows};
+use decide::Windows;
+pub(crate) use decide::{Decider, Verdict};
 use history::History;
 use lift_state::LiftState;
 use pulse::{Cusum, is_level};
 use serde::{Deserialize, Serialize};
+pub(crate) use settings::LEAST_TRAINING;
 use step_input::StepInput;
 
 /// Knowledge of a cage before its record begins.

@@ -40,7 +40,7 @@ impl Reference {
 
     /// Learns from all stretches of rest in a record. X is taken at even distances from all of them, so that it
     /// represents the whole rest; the filter is fitted to the same blocks.
-    pub(super) fn from_stretches(stretches: &[Vec<f64>], design: &Design) -> Self {
+    pub(crate) fn from_stretches(stretches: &[Vec<f64>], design: &Design) -> Self {
         let blocks: usize = stretches.iter().map(Vec::len).sum();
         let level = stretches.iter().flatten().sum::<f64>() / blocks as f64;
         let centre = |stretch: &Vec<f64>| stretch.iter().map(|mean| mean - level).collect();

@@ -1,6 +1,7 @@
 //! The saved state of a monitor, as written by `detect --save-state`.
 
-use super::{Design, Knowledge, MOST_ORDER, STRONGEST, Settings, SettingsError};
+use super::{Design, Knowledge, MOST_ORDER, Settings, SettingsError};
+use crate::explain::STRONGEST;
 use crate::signal::recording::Sample;
 use serde::{Deserialize, Serialize};
 use std::fs::File;

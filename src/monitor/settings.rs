@@ -15,7 +15,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The fewest blocks that a filter is fitted to; they still allow a choice among a few orders.
-pub(super) const LEAST_TRAINING: usize = 24;
+pub(crate) const LEAST_TRAINING: usize = 24;
 
 /// The longest block, s: a lift gains speed in about a second.
 pub(super) const LONGEST_BLOCK: f64 = 0.5;

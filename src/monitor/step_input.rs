@@ -1,12 +1,12 @@
 //! Inputs of one state transition: the newest block's decision, the pulses, and the blocks before.
 
-use super::blocks::Block;
 use super::decide::{Decider, Verdict, Windows};
 use super::design::Design;
 use super::event::Decision;
 use super::history::History;
 use super::pulse::{Cusum, Pulse};
 use super::reference::Reference;
+use crate::explain::Block;
 use std::ops::Range;
 
 /// The largest share of the speed that the pulses of a real ride leave at its end.
@@ -134,19 +134,9 @@ impl StepInput<'_> {
 
     fn decision(&self, windows: &Windows, verdict: &Verdict) -> Decision {
         let span = |blocks: &Range<u64>| (self.starts(blocks.start), self.ends(blocks.end));
-        let reference = windows.reference.as_ref();
-        let exceedances = verdict.statistics.exceedances;
-        let (lower, upper) = self.design.region.critical_values()[exceedances];
-        Decision {
-            rank_sum: verdict.statistics.rank_sum,
-            exceedances,
-            lower,
-            upper,
-            alpha: self.design.settings.detector.alpha,
-            reference: reference.map(span).or(self.reference.span),
-            shift: span(&windows.shift),
-            scale: span(&windows.scale),
-        }
+        let reference = windows.reference.as_ref().map(span).or(self.reference.span);
+        let samples = [span(&windows.shift), span(&windows.scale)];
+        verdict.decision(self.design, reference, samples)
     }
 
     fn decide(&mut self, windows: &Windows) -> Option<Verdict> {

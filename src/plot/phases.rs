@@ -10,6 +10,7 @@ pub fn phase_colour(name: &str) -> Colour {
         "acceleration" => Colour::new(253, 236, 214),
         "inertial" => Colour::new(226, 240, 250),
         "braking" => Colour::new(247, 228, 240),
+        "levelling" => Colour::new(226, 243, 226),
         "unknown" => Colour::new(232, 232, 232),
         _ => Colour::WHITE,
     }

@@ -15,7 +15,7 @@ const LONGEST_GAP: (f64, f64) = (0.5, 3.0);
 
 /// A complete block.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Block {
+pub struct Block {
     /// Time of its first sample, s.
     pub from: f64,
     /// Time of its last sample, s.
@@ -28,7 +28,7 @@ pub(super) struct Block {
 
 /// The current, incomplete block.
 #[derive(Clone, Debug)]
-pub(super) struct Blocks {
+pub struct Blocks {
     length: u32,
     /// Nominal length of a block, s.
     nominal: f64,
@@ -89,4 +89,62 @@ impl Blocks {
     pub fn clear(&mut self) {
         *self = Self::new(self.length as usize, self.nominal);
     }
+}
+
+/// A record as blocks.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cut {
+    /// All blocks.
+    pub blocks: Vec<Block>,
+    /// Nominal length of a block, s.
+    pub seconds: f64,
+    /// The ends of the stretches without holes, as places in the blocks.
+    pub ends: Vec<usize>,
+}
+
+impl Cut {
+    /// Cuts samples into blocks of `length` samples, which take `seconds`.
+    pub fn new(samples: &[Sample], length: usize, seconds: f64) -> Self {
+        let mut blocks = Vec::with_capacity(samples.len() / length);
+        let mut ends = Vec::new();
+        let mut current = Blocks::new(length, seconds);
+        for sample in samples {
+            if current.is_gap(sample.time) {
+                ends.push(blocks.len());
+                current.clear();
+            }
+            blocks.extend(current.step(*sample));
+        }
+        ends.push(blocks.len());
+        ends.dedup();
+        ends.retain(|end| *end > 0);
+        Self {
+            blocks,
+            seconds,
+            ends,
+        }
+    }
+
+    /// The means of windows of about this length, s.
+    pub fn window_means(&self, seconds: f64) -> Vec<f64> {
+        let windows = self.blocks.chunks(self.blocks_in(seconds));
+        let mean = |window: &[Block]| {
+            window.iter().map(|block| block.mean).sum::<f64>() / window.len() as f64
+        };
+        windows.map(mean).collect()
+    }
+
+    /// The blocks in a time, at least one.
+    pub fn blocks_in(&self, seconds: f64) -> usize {
+        ((seconds / self.seconds).round() as usize).max(1)
+    }
+}
+
+/// The median; 0 of nothing.
+pub fn median(mut values: Vec<f64>) -> f64 {
+    if values.is_empty() {
+        return 0.0;
+    }
+    let middle = values.len() / 2;
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }

@@ -1,0 +1,84 @@
+//! Where the cage rests, undisturbed and beyond doubt.
+
+use crate::explain::{Explanation, Trip};
+use crate::monitor::{Design, LEAST_TRAINING, Reference};
+use std::ops::Range;
+
+/// Left out at either end of a motion or a disturbance, s.
+const MARGIN: f64 = 0.3;
+
+/// The blocks at rest.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Rests(Vec<Range<usize>>);
+
+impl Rests {
+    pub fn of(explanation: &Explanation) -> Self {
+        let cut = &explanation.levelled.cut;
+        let mut is_rest = vec![true; cut.blocks.len()];
+        let margin = cut.blocks_in(MARGIN);
+        let mut clear = |blocks: Range<usize>| {
+            let from = blocks.start.saturating_sub(margin);
+            let to = (blocks.end + margin).min(is_rest.len());
+            is_rest[from..to].fill(false);
+        };
+        let doubted = explanation.doubts.iter().flat_map(|doubt| &doubt.instead);
+        for trip in explanation.reading.trips.iter().chain(doubted) {
+            clear(blocks_of(explanation, trip));
+        }
+        for pulses in &explanation.reading.others {
+            let pulses = &explanation.pulses[pulses.clone()];
+            clear(pulses[0].blocks.start..pulses[pulses.len() - 1].blocks.end);
+        }
+        let mut rests: Vec<Range<usize>> = Vec::new();
+        for block in (0..is_rest.len()).filter(|block| is_rest[*block]) {
+            match rests.last_mut() {
+                Some(last) if last.end == block && !cut.ends.contains(&block) => last.end += 1,
+                _ => rests.push(block..block + 1),
+            }
+        }
+        Self(rests)
+    }
+
+    /// Whether the record begins at rest.
+    pub fn begins(&self) -> bool {
+        self.0.first().is_some_and(|first| first.start == 0)
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = Range<usize>> {
+        self.0.iter().cloned()
+    }
+
+    /// The filter and X, if there is enough rest.
+    pub fn learn(&self, explanation: &Explanation, design: &Design) -> Option<Reference> {
+        let long = |rest: &&Range<usize>| rest.len() > crate::monitor::MOST_ORDER + 2;
+        let stretches = self.0.iter().filter(long).map(|rest| {
+            let blocks = &explanation.levelled.cut.blocks[rest.clone()];
+            blocks.iter().map(|block| block.mean).collect()
+        });
+        let stretches: Vec<Vec<f64>> = stretches.collect();
+        let count: usize = stretches.iter().map(Vec::len).sum();
+        let is_enough = count >= LEAST_TRAINING + design.samples.reference();
+        is_enough.then(|| Reference::from_stretches(&stretches, design))
+    }
+}
+
+/// The blocks of a trip, to the edges of the record or of a hole where it is open.
+pub(super) fn blocks_of(explanation: &Explanation, trip: &Trip) -> Range<usize> {
+    let cut = &explanation.levelled.cut;
+    let first = explanation.pulses[trip.pulses.start].blocks.start;
+    let last = explanation.pulses[trip.pulses.end - 1].blocks.end;
+    let stretch = cut.ends.partition_point(|end| *end <= first);
+    let begin = if stretch > 0 {
+        cut.ends[stretch - 1]
+    } else {
+        0
+    };
+    let end = cut.ends.iter().copied().find(|end| *end >= last);
+    let from = if trip.start.is_some() { first } else { begin };
+    let to = if trip.stop.is_some() {
+        last
+    } else {
+        end.unwrap_or(last)
+    };
+    from..to
+}

@@ -1,0 +1,139 @@
+//! What each part of an explanation costs.
+//!
+//! Costs are in nats: a difference of 3 is a factor of 20 in plausibility. The terms with a deviation are half
+//! squares of a normal error. The others are prior judgements about lifts, in one place, to be read and doubted.
+
+use super::pulse::Pulse;
+
+/// What is known of lifts beforehand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prior {
+    /// The slowest trip, m/s.
+    pub least_speed: f64,
+    /// An acceleration that no lift has, m/s².
+    pub most_acceleration: f64,
+    /// The longest motion, s.
+    pub longest_motion: f64,
+    /// Share of the top speed that the sensor leaves at a stop.
+    pub gain_error: f64,
+    /// Whether the record begins at rest, if that is known.
+    pub begins_at_rest: Option<bool>,
+}
+
+impl Default for Prior {
+    fn default() -> Self {
+        Self {
+            least_speed: 0.2,
+            most_acceleration: 2.5,
+            longest_motion: 900.0,
+            gain_error: 0.03,
+            begins_at_rest: None,
+        }
+    }
+}
+
+/// A trip that is complete in the record.
+pub const TRIP: f64 = 1.0;
+
+/// A motion that began before the record, or goes on after it.
+pub const OPEN: f64 = 3.0;
+
+/// A start or a stop within a hole of the record.
+pub const IN_HOLE: f64 = 1.5;
+
+/// A motion that goes on across a hole.
+pub const ACROSS_HOLE: f64 = 0.3;
+
+/// What is all but impossible.
+pub const ABSURD: f64 = 30.0;
+
+/// A shock as a change of speed: a jam.
+pub const VIOLENT: f64 = 4.0;
+
+/// A change of speed that leaves the cage at another speed and not at rest: a stage of braking.
+pub const STAGE: f64 = 0.5;
+
+/// A change of speed too small for a stage.
+pub const RIPPLE: f64 = 0.1;
+
+/// A change of speed that is half of a swing.
+pub const HALF: f64 = 1.0;
+
+/// The cage creeps to the landing: once, and for every second.
+pub const CREEP: f64 = 1.0;
+pub const CREEP_SECOND: f64 = 0.4;
+pub const MOST_CREEP: f64 = 4.0;
+
+/// The cage goes through zero speed and on the other way without a stop.
+pub const TURN: f64 = 12.0;
+
+/// The most a closing speed costs.
+const MOST_CLOSING: f64 = 20.0;
+
+/// What rounding leaves of the speed at a stop, m/s.
+const ROUNDING: f64 = 0.015;
+
+/// No trip is shorter than this: m, s.
+const LEAST_DISTANCE: f64 = 0.5;
+const LEAST_DURATION: f64 = 1.5;
+
+/// Faster lifts hardly exist, m/s.
+const FASTEST: f64 = 12.0;
+
+/// Coming to rest with this speed left.
+pub fn closing(speed: f64, tolerance: f64) -> f64 {
+    ((speed / tolerance).powi(2) / 2.0).min(MOST_CLOSING)
+}
+
+/// A second stage of acceleration, `gap` seconds after the first.
+pub fn acceleration_stage(gap: f64) -> f64 {
+    match gap {
+        ..1.0 => 0.5,
+        ..3.0 => 2.0,
+        _ => 4.5,
+    }
+}
+
+impl Prior {
+    /// The standard deviation of a sum of changes of speed, m/s.
+    pub fn tolerance(&self, top: f64, variance: f64) -> f64 {
+        ((self.gain_error * top).powi(2) + ROUNDING * ROUNDING + variance).sqrt()
+    }
+
+    /// A pulse that changes no speed: something else shook the sensor.
+    pub fn ignored(&self, pulse: &Pulse) -> f64 {
+        let ratio = pulse.change.abs() / self.least_speed;
+        let cost = if ratio < 1.0 {
+            0.1 + 2.9 * ratio * ratio
+        } else {
+            (3.0 + 5.5 * (ratio - 1.0)).min(14.0)
+        };
+        if self.is_violent(pulse) {
+            0.5 + cost / 4.0
+        } else {
+            cost
+        }
+    }
+
+    /// Pulses in a row that together leave this speed: a jump, a swing of the rope, a push.
+    pub fn disturbance(&self, speed: f64) -> f64 {
+        1.5 + 3.0 * (speed / self.least_speed).powi(2)
+    }
+
+    /// Whether it is stronger than any acceleration of a lift.
+    pub fn is_violent(&self, pulse: &Pulse) -> bool {
+        pulse.peak > self.most_acceleration
+    }
+
+    /// A motion that is too slow, too short or too fast for a trip.
+    pub fn implausible(&self, top: f64, distance: f64, seconds: f64) -> f64 {
+        let slow = if top < self.least_speed { ABSURD } else { 0.0 };
+        let short = if distance.abs() < LEAST_DISTANCE {
+            8.0
+        } else {
+            0.0
+        };
+        let brief = if seconds < LEAST_DURATION { 8.0 } else { 0.0 };
+        slow + short + brief + (top - FASTEST).clamp(0.0, ABSURD)
+    }
+}

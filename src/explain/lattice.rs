@@ -1,0 +1,351 @@
+//! All explanations of a record's pulses as paths through a lattice, and the cheapest of them.
+//!
+//! Between pulses the cage rests or moves. A node is a rest between two pulses, or a motion up or down at the edge
+//! of a hole; the beginning and the end of the record are holes. An edge is a trip from rest to rest, a motion from
+//! or to a hole, or pulses that are something else. Costs add along a path, so the cheapest explanation, and the
+//! cheapest with the cage at rest or in motion at any time, follow from one sum forwards and one backwards.
+
+use super::cost::{self, Prior};
+use super::pulse::Pulse;
+use super::trips::{Motion, Stretch};
+use std::ops::Range;
+
+/// An edge dearer than no motion by this much cannot matter.
+const HOPELESS: f64 = 8.0;
+
+/// A hole shorter than this can hardly hide a start, s.
+const SHORT_HOLE: f64 = 1.0;
+
+/// What an edge says of its pulses.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Part {
+    /// They are no motion of the cage.
+    Other(Range<usize>),
+    /// They are a motion, which may be open at either end.
+    Motion(Motion),
+    /// The cage moves past all of them.
+    Through(Range<usize>),
+    /// A hole: whether the motion goes on across it.
+    Hole {
+        /// Whether it moves on both sides.
+        moves_on: bool,
+    },
+}
+
+#[derive(Clone, Debug)]
+struct Edge {
+    from: usize,
+    to: usize,
+    cost: f64,
+    part: Part,
+}
+
+/// A stretch between holes.
+#[derive(Clone, Debug)]
+struct Section {
+    pulses: Range<usize>,
+    /// The node of motion up that enters it; the next is motion down, then the rests, then two nodes of exit.
+    first_node: usize,
+}
+
+impl Section {
+    fn entry(&self, is_up: bool) -> usize {
+        self.first_node + usize::from(!is_up)
+    }
+
+    fn rest(&self, gap: usize) -> usize {
+        self.first_node + 2 + gap
+    }
+
+    fn exit(&self, is_up: bool) -> usize {
+        self.rest(self.pulses.len()) + 1 + usize::from(!is_up)
+    }
+}
+
+/// The explanations of pulses.
+#[derive(Clone, Debug)]
+pub struct Lattice {
+    edges: Vec<Edge>,
+    sections: Vec<Section>,
+    forwards: Vec<f64>,
+    backwards: Vec<f64>,
+    /// The last edge of the cheapest way to a node, and the first of the cheapest from it.
+    behind: Vec<Option<usize>>,
+    ahead: Vec<Option<usize>>,
+    /// The cheapest path with motion in a gap: its cost and edge.
+    moving: Vec<(f64, Option<usize>)>,
+}
+
+impl Lattice {
+    /// `stretches` without holes: how many pulses there are up to the end of each, its beginning and its end, s.
+    pub fn new(prior: &Prior, pulses: &[Pulse], stretches: &[(usize, f64, f64)]) -> Self {
+        let mut sections: Vec<Section> = Vec::new();
+        let mut next = (0, 1);
+        for &(end, ..) in stretches {
+            let pulses = next.0..end;
+            let first_node = next.1;
+            next = (end, first_node + pulses.len() + 5);
+            sections.push(Section { pulses, first_node });
+        }
+        let mut lattice = Self {
+            edges: Vec::new(),
+            forwards: vec![f64::INFINITY; next.1 + 1],
+            backwards: vec![f64::INFINITY; next.1 + 1],
+            behind: vec![None; next.1 + 1],
+            ahead: vec![None; next.1 + 1],
+            moving: vec![(f64::INFINITY, None); pulses.len() + sections.len()],
+            sections,
+        };
+        for index in 0..lattice.sections.len() {
+            let section = lattice.sections[index].clone();
+            let (_, begin, end) = stretches[index];
+            let stretch = Stretch::new(prior, &pulses[section.pulses.clone()], (begin, end));
+            lattice.explain(&section, &stretch);
+        }
+        let holes = stretches.windows(2).map(|pair| pair[1].1 - pair[0].2);
+        lattice.join(prior, &holes.collect::<Vec<_>>());
+        lattice.solve();
+        lattice
+    }
+
+    fn edge(&mut self, from: usize, to: usize, cost: f64, part: Part) {
+        self.edges.push(Edge {
+            from,
+            to,
+            cost,
+            part,
+        });
+    }
+
+    /// The edges within a stretch.
+    fn explain(&mut self, section: &Section, stretch: &Stretch) {
+        let offset = section.pulses.start;
+        let shift = |range: Range<usize>| range.start + offset..range.end + offset;
+        let mut idle = vec![0.0];
+        for pulse in 0..section.pulses.len() {
+            let ignored = stretch.ignored(pulse);
+            idle.push(idle[pulse] + ignored);
+            let (from, to) = (section.rest(pulse), section.rest(pulse + 1));
+            self.edge(from, to, ignored, Part::Other(shift(pulse..pulse + 1)));
+            for &(after, cost) in stretch.disturbances(pulse) {
+                self.edge(
+                    from,
+                    section.rest(after),
+                    cost,
+                    Part::Other(shift(pulse..after)),
+                );
+            }
+        }
+        let mut add = |motion: Motion, is_open: bool, is_reversed: bool| {
+            let pulses = motion.pulses.clone();
+            if motion.cost > idle[pulses.end] - idle[pulses.start] + HOPELESS {
+                return;
+            }
+            let is_up = motion.top > 0.0;
+            let (from, to) = match (is_open, is_reversed) {
+                (false, _) => (section.rest(pulses.start), section.rest(pulses.end)),
+                (true, false) => (section.rest(pulses.start), section.exit(is_up)),
+                (true, true) => (section.entry(is_up), section.rest(pulses.end)),
+            };
+            let part = Motion {
+                pulses: shift(pulses),
+                changes: motion.changes.iter().map(|pulse| pulse + offset).collect(),
+                is_open: (is_open && is_reversed, is_open && !is_reversed),
+                ..motion
+            };
+            self.edge(from, to, part.cost, Part::Motion(part));
+        };
+        let reversed = stretch.reversed();
+        for first in 0..section.pulses.len() {
+            stretch.motions(first, &mut |motion, is_open| add(motion, is_open, false));
+            reversed.motions(first, &mut |motion, is_open| {
+                if is_open {
+                    add(motion, true, true);
+                }
+            });
+        }
+        let past: f64 = (0..section.pulses.len())
+            .map(|pulse| stretch.ignored(pulse).min(2.0))
+            .sum();
+        for is_up in [true, false] {
+            let part = Part::Through(section.pulses.clone());
+            self.edge(section.entry(is_up), section.exit(is_up), past, part);
+        }
+    }
+
+    /// The edges across holes, and at the ends of the record.
+    fn join(&mut self, prior: &Prior, holes: &[f64]) {
+        let (first, last) = (
+            self.sections[0].clone(),
+            self.sections[self.sections.len() - 1].clone(),
+        );
+        let end = self.forwards.len() - 1;
+        let rest = |is_known: Option<bool>| {
+            if is_known == Some(false) {
+                cost::ABSURD
+            } else {
+                0.0
+            }
+        };
+        let motion = match prior.begins_at_rest {
+            Some(true) => cost::ABSURD,
+            Some(false) => 0.0,
+            None => cost::OPEN,
+        };
+        let stand = Part::Hole { moves_on: false };
+        self.edge(0, first.rest(0), rest(prior.begins_at_rest), stand.clone());
+        self.edge(last.rest(last.pulses.len()), end, 0.0, stand.clone());
+        for is_up in [true, false] {
+            self.edge(0, first.entry(is_up), motion, stand.clone());
+            self.edge(last.exit(is_up), end, cost::OPEN, stand.clone());
+        }
+        for (index, &seconds) in holes.iter().enumerate() {
+            let (before, after) = (
+                self.sections[index].clone(),
+                self.sections[index + 1].clone(),
+            );
+            let change = if seconds < SHORT_HOLE {
+                2.0 * cost::IN_HOLE
+            } else {
+                cost::IN_HOLE
+            };
+            let stands = before.rest(before.pulses.len());
+            self.edge(stands, after.rest(0), 0.0, stand.clone());
+            for is_up in [true, false] {
+                let moves_on = Part::Hole { moves_on: true };
+                self.edge(
+                    before.exit(is_up),
+                    after.entry(is_up),
+                    cost::ACROSS_HOLE,
+                    moves_on,
+                );
+                self.edge(
+                    before.exit(is_up),
+                    after.entry(!is_up),
+                    2.0 * change,
+                    stand.clone(),
+                );
+                self.edge(stands, after.entry(is_up), change, stand.clone());
+                self.edge(before.exit(is_up), after.rest(0), change, stand.clone());
+            }
+        }
+    }
+
+    fn solve(&mut self) {
+        let mut order: Vec<usize> = (0..self.edges.len()).collect();
+        order.sort_by_key(|edge| self.edges[*edge].from);
+        self.forwards[0] = 0.0;
+        for &index in &order {
+            let Edge { from, to, cost, .. } = self.edges[index];
+            let total = self.forwards[from] + cost;
+            if total < self.forwards[to] {
+                (self.forwards[to], self.behind[to]) = (total, Some(index));
+            }
+        }
+        let end = self.backwards.len() - 1;
+        self.backwards[end] = 0.0;
+        for &index in order.iter().rev() {
+            let Edge { from, to, cost, .. } = self.edges[index];
+            let total = self.backwards[to] + cost;
+            if total < self.backwards[from] {
+                (self.backwards[from], self.ahead[from]) = (total, Some(index));
+            }
+        }
+        for index in 0..self.edges.len() {
+            let edge = &self.edges[index];
+            let total = self.forwards[edge.from] + edge.cost + self.backwards[edge.to];
+            for gap in self.gaps_in_motion(edge) {
+                if total < self.moving[gap].0 {
+                    self.moving[gap] = (total, Some(index));
+                }
+            }
+        }
+    }
+
+    /// The gaps in which the cage moves along an edge.
+    fn gaps_in_motion(&self, edge: &Edge) -> Range<usize> {
+        let (Part::Motion(Motion { pulses, .. }) | Part::Through(pulses)) = &edge.part else {
+            return 0..0;
+        };
+        let section = self
+            .sections
+            .partition_point(|section| section.first_node <= edge.from)
+            - 1;
+        let it = &self.sections[section];
+        let is_open = (edge.from < it.rest(0), edge.to > it.rest(it.pulses.len()));
+        let first = pulses.start + section + usize::from(!is_open.0);
+        first..pulses.end + section + usize::from(is_open.1)
+    }
+
+    /// The cost of the cheapest explanation.
+    pub fn cost(&self) -> f64 {
+        self.backwards[0]
+    }
+
+    /// How much dearer than the cheapest explanation the cheapest is with the cage at rest, and with it moving, in
+    /// each gap between pulses. A hole parts a gap in two.
+    pub fn margins(&self) -> Vec<(f64, f64)> {
+        let rests = self
+            .sections
+            .iter()
+            .flat_map(|section| (0..=section.pulses.len()).map(|gap| section.rest(gap)));
+        rests
+            .zip(&self.moving)
+            .map(|(node, moving)| {
+                let rest = self.forwards[node] + self.backwards[node];
+                (rest - self.cost(), moving.0 - self.cost())
+            })
+            .collect()
+    }
+
+    /// The parts of the cheapest explanation.
+    pub fn best(&self) -> Vec<&Part> {
+        self.onwards(0)
+    }
+
+    /// Of the cheapest one with the cage at rest in this gap.
+    pub fn best_at_rest(&self, gap: usize) -> Vec<&Part> {
+        let mut section = 0;
+        let mut first = 0;
+        while gap > first + self.sections[section].pulses.len() {
+            first += self.sections[section].pulses.len() + 1;
+            section += 1;
+        }
+        self.through(self.sections[section].rest(gap - first), None)
+    }
+
+    /// Of the cheapest one with the cage moving in this gap.
+    pub fn best_in_motion(&self, gap: usize) -> Vec<&Part> {
+        match self.moving[gap].1 {
+            Some(index) => self.through(self.edges[index].from, Some(index)),
+            None => Vec::new(),
+        }
+    }
+
+    fn through(&self, node: usize, by: Option<usize>) -> Vec<&Part> {
+        let mut parts = Vec::new();
+        let mut place = node;
+        while let Some(index) = self.behind[place] {
+            parts.push(&self.edges[index].part);
+            place = self.edges[index].from;
+        }
+        parts.reverse();
+        let mut next = node;
+        if let Some(index) = by {
+            parts.push(&self.edges[index].part);
+            next = self.edges[index].to;
+        }
+        parts.extend(self.onwards(next));
+        parts
+    }
+
+    fn onwards(&self, node: usize) -> Vec<&Part> {
+        let mut parts = Vec::new();
+        let mut place = node;
+        while let Some(index) = self.ahead[place] {
+            parts.push(&self.edges[index].part);
+            place = self.edges[index].to;
+        }
+        parts
+    }
+}

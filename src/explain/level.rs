@@ -1,0 +1,137 @@
+//! The level of a record: what the sensor reads without acceleration, at every block.
+//!
+//! Rest and uniform motion read the same, so the level is what most of a record agrees with. It drifts slowly and
+//! may step where the sensor is moved. The record is cut into windows of half a second, and the level is the path
+//! b through their means m that minimises
+//!
+//! Σ min(1, ((mₖ − bₖ)/w)²) + 4 · (steps of the grid) + 40 · (jumps),
+//!
+//! found by dynamic programming on a grid of 0.01 m/s². A window far from the level costs 1 however far it is, so
+//! that a pulse of acceleration does not draw the level to itself. The path may go one step of the grid in three
+//! seconds, twice the drift of 0.1 m/s² a minute; anything lasting more than twenty seconds is a jump.
+
+use super::blocks::{Cut, median};
+
+/// Length of a window, s.
+const WINDOW: f64 = 0.5;
+
+/// Windows between two steps of the path.
+const GROUP: usize = 6;
+
+/// The step of the grid, m/s², and the most points in it.
+const STEP: f64 = 0.01;
+const MOST_POINTS: f64 = 600.0;
+
+/// The costs of a step of the grid and of a jump, in windows off the level.
+const STEP_COST: f64 = 4.0;
+const JUMP_COST: f64 = 40.0;
+
+/// Windows on either side whose median refines the path.
+const REACH: usize = 30;
+
+/// The level of a record.
+#[derive(Clone, Debug, Default)]
+pub struct Level {
+    /// m/s², one value for each block.
+    pub at: Vec<f64>,
+    /// w: windows nearer than this to the path agree with it, m/s².
+    pub width: f64,
+    /// The cost of the path, in windows off the level.
+    pub cost: f64,
+}
+
+impl Level {
+    /// The level of a record.
+    pub fn of(record: &Cut) -> Self {
+        let means = record.window_means(WINDOW);
+        let per_window = record.blocks_in(WINDOW) as f64;
+        let differences = means.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+        let width = (4.0 * median(differences.collect())).clamp(0.03, 0.3);
+        let (path, cost) = path(&means, width);
+        let fine: Vec<f64> = (0..means.len())
+            .map(|window| refined(&means, &path, width, window))
+            .collect();
+        Self {
+            at: (0..record.blocks.len())
+                .map(|block| between(&fine, (block as f64 + 0.5) / per_window - 0.5))
+                .collect(),
+            width,
+            cost,
+        }
+    }
+}
+
+/// The cheapest path, one value for each group of windows, and its cost.
+fn path(means: &[f64], width: f64) -> (Vec<f64>, f64) {
+    let least = means.iter().copied().fold(f64::INFINITY, f64::min);
+    let greatest = means.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let step = STEP.max((greatest - least) / MOST_POINTS);
+    let points = ((greatest - least) / step).ceil() as usize + 1;
+    let value = |point: usize| least + point as f64 * step;
+    let mut costs = vec![0.0; points];
+    let mut origins: Vec<Vec<u16>> = Vec::new();
+    for group in means.chunks(GROUP) {
+        let cheapest = cheapest(&costs);
+        let origin: Vec<u16> = (0..points)
+            .map(|point| {
+                let near = point.saturating_sub(1)..=(point + 1).min(points - 1);
+                let candidates = near.chain([cheapest]);
+                let cost = |from: &usize| costs[*from] + move_cost(*from, point);
+                candidates
+                    .min_by(|a, b| cost(a).total_cmp(&cost(b)))
+                    .unwrap_or(point) as u16
+            })
+            .collect();
+        costs = (0..points)
+            .map(|point| {
+                let from = usize::from(origin[point]);
+                let off = |mean: &f64| ((mean - value(point)) / width).powi(2).min(1.0);
+                costs[from] + move_cost(from, point) + group.iter().map(off).sum::<f64>()
+            })
+            .collect();
+        origins.push(origin);
+    }
+    let mut point = cheapest(&costs);
+    let cost = costs[point];
+    let mut path = vec![0.0; origins.len()];
+    for (place, origin) in path.iter_mut().zip(&origins).rev() {
+        *place = value(point);
+        point = usize::from(origin[point]);
+    }
+    (path, cost)
+}
+
+fn cheapest(costs: &[f64]) -> usize {
+    (0..costs.len())
+        .min_by(|a, b| costs[*a].total_cmp(&costs[*b]))
+        .unwrap_or(0)
+}
+
+fn move_cost(from: usize, to: usize) -> f64 {
+    match from.abs_diff(to) {
+        0 => 0.0,
+        1 => STEP_COST,
+        _ => JUMP_COST,
+    }
+}
+
+/// The median of the windows around that agree with the path.
+fn refined(means: &[f64], path: &[f64], width: f64, window: usize) -> f64 {
+    let here = path[window / GROUP];
+    let around = window.saturating_sub(REACH)..(window + REACH + 1).min(means.len());
+    let near = around.filter(|other| {
+        let there = path[other / GROUP];
+        (means[*other] - there).abs() < width && (there - here).abs() < width
+    });
+    let near: Vec<f64> = near.map(|other| means[other]).collect();
+    if near.is_empty() { here } else { median(near) }
+}
+
+/// The value at a place between windows, held constant beyond the ends.
+fn between(values: &[f64], place: f64) -> f64 {
+    let place = place.clamp(0.0, values.len() as f64 - 1.0);
+    let before = place as usize;
+    let after = (before + 1).min(values.len() - 1);
+    let share = place - before as f64;
+    values[before] * (1.0 - share) + values[after] * share
+}

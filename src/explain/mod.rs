@@ -1,0 +1,213 @@
+//! What a record of acceleration may hold: its pulses, explained by trips of a lift.
+//!
+//! # The model
+//! A cage rests or moves, and an accelerometer cannot tell which: both read the same [`Level`]. What it shows are
+//! [`Pulse`]s of acceleration. A trip is a few pulses whose changes of speed sum to zero; so an explanation is a
+//! choice of which pulses belong to which trip, and which are something else. Every choice has a cost (`cost`), and
+//! the [`Lattice`] finds the cheapest explanation of the whole record, and how much dearer the cheapest is that says
+//! otherwise about any moment. Where the two are close the record does not decide, and both are reported.
+//!
+//! A record may begin or end in motion, and have holes; the sensor may drift; a phone that removes gravity by a
+//! high-pass filter is explained with and without one (`restore`).
+
+mod blocks;
+mod cost;
+mod lattice;
+mod level;
+mod pulse;
+mod reading;
+mod restore;
+mod trips;
+
+pub use blocks::{Block, Blocks, Cut, STRONGEST};
+pub use cost::Prior;
+pub use lattice::{Lattice, Part};
+pub use level::Level;
+pub use pulse::{Levelled, Pulse};
+pub use reading::{Reading, Record, Trip};
+pub use trips::Motion;
+
+/// A high-pass filter must explain a record better by this much.
+const HIGH_PASS: f64 = 2.0;
+
+/// What a window off the level costs when filters are compared.
+const OFF_LEVEL: f64 = 0.5;
+
+/// The error of a restored record's speeds, as a share.
+const RESTORED_ERROR: f64 = 0.08;
+
+/// Slow motions down to this share of the least speed are looked for, to warn of them.
+const SLOW: f64 = 0.3;
+
+/// A difference in cost below this decides nothing.
+const DECIDED: f64 = 2.0;
+
+/// A record explained.
+#[derive(Clone, Debug)]
+pub struct Explanation {
+    /// The record and its level, restored if it was high-passed.
+    pub levelled: Levelled,
+    /// The time constant of the filter, s.
+    pub high_pass: Option<f64>,
+    /// All pulses.
+    pub pulses: Vec<Pulse>,
+    /// The cheapest explanation.
+    pub reading: Reading,
+    /// Where another is nearly as cheap.
+    pub doubts: Vec<Doubt>,
+    /// What would be trips if they were faster.
+    pub slow: Vec<Trip>,
+}
+
+/// A stretch on which two explanations are close.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Doubt {
+    /// s
+    pub from: f64,
+    /// s
+    pub to: f64,
+    /// The trips of the cheapest explanation there.
+    pub trips: Vec<Trip>,
+    /// Those of the other.
+    pub instead: Vec<Trip>,
+    /// How much dearer the other is, nats.
+    pub margin: f64,
+}
+
+impl Explanation {
+    /// Explains a record.
+    pub fn of(record: &Cut, prior: &Prior) -> Self {
+        let plain = Explained::of(record.clone(), prior);
+        let mut best = (plain.cost(), None, plain);
+        let restored_prior = Prior {
+            gain_error: RESTORED_ERROR,
+            ..*prior
+        };
+        for time_constant in restore::TIME_CONSTANTS {
+            for offset in restore::offsets(record) {
+                let restored = restore::restored(record, time_constant, offset);
+                let explained = Explained::of(restored, &restored_prior);
+                let cost = explained.cost() + HIGH_PASS;
+                let has_trips = || !explained.reading(prior).trips.is_empty();
+                if cost < best.0 && has_trips() {
+                    best = (cost, Some(time_constant), explained);
+                }
+            }
+        }
+        let (_, high_pass, explained) = best;
+        explained.finish(high_pass, prior)
+    }
+}
+
+/// A record explained under one assumption about its filter.
+struct Explained {
+    levelled: Levelled,
+    pulses: Vec<Pulse>,
+    /// As the lattice takes them.
+    stretches: Vec<(usize, f64, f64)>,
+    lattice: Lattice,
+}
+
+impl Explained {
+    fn of(cut: Cut, prior: &Prior) -> Self {
+        let level = Level::of(&cut);
+        let levelled = Levelled { cut, level };
+        let pulses = levelled.pulses(prior.most_acceleration);
+        let blocks = &levelled.cut.blocks;
+        let mut from = 0;
+        let stretches = levelled.cut.ends.iter().map(|&end| {
+            let before = pulses.partition_point(|pulse| pulse.blocks.start < end);
+            let stretch = (before, blocks[from].from, blocks[end - 1].to);
+            from = end;
+            stretch
+        });
+        let stretches: Vec<_> = stretches.collect();
+        Self {
+            lattice: Lattice::new(prior, &pulses, &stretches),
+            levelled,
+            pulses,
+            stretches,
+        }
+    }
+
+    fn cost(&self) -> f64 {
+        self.lattice.cost() + OFF_LEVEL * self.levelled.level.cost
+    }
+
+    fn record(&self, prior: &Prior) -> Record<'_> {
+        Record {
+            levelled: &self.levelled,
+            pulses: &self.pulses,
+            violent: prior.most_acceleration,
+        }
+    }
+
+    fn reading(&self, prior: &Prior) -> Reading {
+        Reading::of(&self.record(prior), &self.lattice.best())
+    }
+
+    /// The trips below the least speed.
+    fn slow(&self, prior: &Prior) -> Vec<Trip> {
+        let slower = Prior {
+            least_speed: SLOW * prior.least_speed,
+            ..*prior
+        };
+        let lattice = Lattice::new(&slower, &self.pulses, &self.stretches);
+        let mut trips = Reading::of(&self.record(prior), &lattice.best()).trips;
+        trips.retain(|trip| trip.speed < prior.least_speed && trip.start.is_some());
+        trips
+    }
+
+    fn finish(self, high_pass: Option<f64>, prior: &Prior) -> Explanation {
+        let reading = self.reading(prior);
+        Explanation {
+            doubts: doubts(&self.record(prior), &self.lattice, &reading),
+            slow: self.slow(prior),
+            high_pass,
+            reading,
+            pulses: self.pulses,
+            levelled: self.levelled,
+        }
+    }
+}
+
+/// The nearly as cheap explanations that have other trips.
+fn doubts(record: &Record, lattice: &Lattice, best: &Reading) -> Vec<Doubt> {
+    let mut doubts: Vec<Doubt> = Vec::new();
+    for (gap, (rest, motion)) in lattice.margins().into_iter().enumerate() {
+        let margin = rest.max(motion);
+        if margin > DECIDED {
+            continue;
+        }
+        let parts = if rest > motion {
+            lattice.best_at_rest(gap)
+        } else {
+            lattice.best_in_motion(gap)
+        };
+        let other = Reading::of(record, &parts);
+        let differ = |these: &Reading, those: &Reading| {
+            let missing = these
+                .trips
+                .iter()
+                .filter(|trip| !those.trips.contains(trip));
+            missing.cloned().collect::<Vec<_>>()
+        };
+        let (trips, instead) = (differ(best, &other), differ(&other, best));
+        let pulses = trips.iter().chain(&instead).map(|trip| trip.pulses.clone());
+        let Some(place) = pulses.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)) else {
+            continue;
+        };
+        let doubt = Doubt {
+            from: record.pulses[place.start].from,
+            to: record.pulses[place.end - 1].to,
+            trips,
+            instead,
+            margin,
+        };
+        let is_known = |known: &Doubt| known.trips == doubt.trips && known.instead == doubt.instead;
+        if !doubts.iter().any(is_known) {
+            doubts.push(doubt);
+        }
+    }
+    doubts
+}

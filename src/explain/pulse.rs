@@ -1,0 +1,199 @@
+//! Pulses of acceleration: stretches in which the record leaves its level and changes the speed.
+
+use super::blocks::{Cut, median};
+use super::level::Level;
+use std::ops::Range;
+
+/// The record is smoothed over this time before it is cut into pulses, s.
+const SMOOTHING: f64 = 0.3;
+
+/// How far a pulse reaches beyond the point where it falls into the noise, s.
+const FOOT: f64 = 0.3;
+
+/// The smallest change of speed, m/s, and in deviations of what noise adds up to.
+const LEAST_CHANGE: f64 = 0.015;
+const LEAST_DEVIATIONS: f64 = 5.0;
+
+/// Uncertainty of the level, m/s².
+const LEVEL_ERROR: f64 = 0.004;
+
+/// A pulse of acceleration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pulse {
+    /// Its blocks.
+    pub blocks: Range<usize>,
+    /// s
+    pub from: f64,
+    /// s
+    pub to: f64,
+    /// Change of speed, m/s, up positive.
+    pub change: f64,
+    /// Its standard deviation, m/s.
+    pub deviation: f64,
+    /// The largest distance of a block from the level, m/s².
+    pub peak: f64,
+}
+
+/// The noise of a record around its level.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Noise {
+    /// Of the smoothed record, m/s².
+    pub smoothed: f64,
+    /// What a second adds to the speed, m/s.
+    pub walk: f64,
+}
+
+/// A record with its level: what pulses are cut from.
+#[derive(Clone, Debug)]
+pub struct Levelled {
+    /// The record.
+    pub cut: Cut,
+    /// Its level.
+    pub level: Level,
+}
+
+impl Levelled {
+    /// Distance of a block from the level, m/s².
+    fn off(&self, block: usize) -> f64 {
+        self.cut.blocks[block].mean - self.level.at[block]
+    }
+
+    /// Change of speed over blocks, m/s.
+    pub fn change(&self, blocks: Range<usize>) -> f64 {
+        blocks
+            .map(|block| self.off(block) * self.cut.blocks[block].seconds)
+            .sum()
+    }
+
+    fn smoothed(&self) -> Vec<f64> {
+        let half = (SMOOTHING / 2.0 / self.cut.seconds).round() as usize;
+        let mut smoothed = Vec::with_capacity(self.cut.blocks.len());
+        let mut from = 0;
+        for &to in &self.cut.ends {
+            smoothed.extend((from..to).map(|block| {
+                let around = block.saturating_sub(half).max(from)..(block + half + 1).min(to);
+                let length = around.len() as f64;
+                around.map(|other| self.off(other)).sum::<f64>() / length
+            }));
+            from = to;
+        }
+        smoothed
+    }
+
+    /// The noise where the record is at its level.
+    pub fn noise(&self, smoothed: &[f64]) -> Noise {
+        let near = |values: Vec<f64>| {
+            let near = values
+                .into_iter()
+                .map(f64::abs)
+                .filter(|value| *value < self.level.width);
+            1.4826 * median(near.collect())
+        };
+        let second = self.cut.blocks_in(1.0);
+        let seconds = (0..self.cut.blocks.len() / second)
+            .map(|index| self.change(index * second..(index + 1) * second))
+            .collect();
+        Noise {
+            smoothed: near(smoothed.to_vec()),
+            walk: near(seconds),
+        }
+    }
+
+    /// All pulses, in order; `violent` is the acceleration beyond which one is a shock, m/s².
+    pub fn pulses(&self, violent: f64) -> Vec<Pulse> {
+        let smoothed = self.smoothed();
+        let noise = self.noise(&smoothed);
+        let least = (2.0 * noise.smoothed).clamp(0.02, 0.15);
+        let mut pulses: Vec<Pulse> = Vec::new();
+        let mut from = 0;
+        for &to in &self.cut.ends {
+            let (mut block, mut taken) = (from, from);
+            while block < to {
+                let sign = smoothed[block].signum();
+                let length = smoothed[block..to]
+                    .iter()
+                    .take_while(|s| **s * sign > least)
+                    .count();
+                if length > 0 {
+                    let core = block..block + length;
+                    let pulse = self.pulse(self.with_feet(core, &smoothed, taken..to), noise.walk);
+                    taken = pulse.blocks.end;
+                    let least = LEAST_CHANGE.max(LEAST_DEVIATIONS * pulse.deviation);
+                    if pulse.change.abs() > least || pulse.peak > violent {
+                        pulses.push(pulse);
+                    }
+                }
+                block += length.max(1);
+            }
+            from = to;
+        }
+        self.joined(pulses, violent, noise.walk)
+    }
+
+    /// A pulse with the blocks on either side that still have its sign.
+    fn with_feet(
+        &self,
+        core: Range<usize>,
+        smoothed: &[f64],
+        within: Range<usize>,
+    ) -> Range<usize> {
+        let reach = (FOOT / self.cut.seconds).round() as usize;
+        let sign = smoothed[core.start].signum();
+        let is_part = |block: &usize| smoothed[*block] * sign > 0.0;
+        let before = (within.start..core.start)
+            .rev()
+            .take(reach)
+            .take_while(is_part)
+            .count();
+        let after = (core.end..within.end)
+            .take(reach)
+            .take_while(is_part)
+            .count();
+        core.start - before..core.end + after
+    }
+
+    fn pulse(&self, blocks: Range<usize>, walk: f64) -> Pulse {
+        let (from, to) = (
+            self.cut.blocks[blocks.start].from,
+            self.cut.blocks[blocks.end - 1].to,
+        );
+        let seconds = to - from;
+        let peak = blocks
+            .clone()
+            .map(|block| self.off(block).abs())
+            .fold(0.0, f64::max);
+        Pulse {
+            change: self.change(blocks.clone()),
+            deviation: (walk * walk * seconds + (LEVEL_ERROR * seconds).powi(2)).sqrt(),
+            blocks,
+            from,
+            to,
+            peak,
+        }
+    }
+
+    /// A shock and the pulses that touch it are one: what counts is the speed they leave.
+    fn joined(&self, pulses: Vec<Pulse>, violent: f64, walk: f64) -> Vec<Pulse> {
+        let mut joined: Vec<Pulse> = Vec::new();
+        for pulse in pulses {
+            match joined.last_mut() {
+                Some(last)
+                    if last.peak.max(pulse.peak) > violent
+                        && pulse.from - last.to < SMOOTHING
+                        && !self
+                            .cut
+                            .ends
+                            .iter()
+                            .any(|hole| (last.blocks.end..=pulse.blocks.start).contains(hole)) =>
+                {
+                    *last = self.pulse(
+                        last.blocks.start..pulse.blocks.end.max(last.blocks.end),
+                        walk,
+                    );
+                }
+                _ => joined.push(pulse),
+            }
+        }
+        joined
+    }
+}

@@ -1,0 +1,167 @@
+//! One explanation of a record as trips: when each starts, levels and stops.
+
+use super::lattice::Part;
+use super::pulse::{Levelled, Pulse};
+use super::trips::Motion;
+use std::ops::Range;
+
+/// The speed at which a motion counts as begun, m/s.
+const MOVING: f64 = 0.01;
+
+/// Trips and everything else, in order of time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reading {
+    /// The trips.
+    pub trips: Vec<Trip>,
+    /// Pulses that are no motion: the first to the last of each event.
+    pub others: Vec<Range<usize>>,
+}
+
+/// A trip, as far as the record shows it. Times in s; what lies outside the record or in a hole is missing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trip {
+    /// Whether it goes up.
+    pub is_up: bool,
+    /// When the cage begins to move.
+    pub start: Option<f64>,
+    /// When it has reached its speed.
+    pub inertial: Option<f64>,
+    /// When it begins to brake.
+    pub braking: Option<f64>,
+    /// When it has braked to the speed at which it creeps to the landing, if it does.
+    pub levelling: Option<f64>,
+    /// When it stands.
+    pub stop: Option<f64>,
+    /// The highest speed, m/s.
+    pub speed: f64,
+    /// The speed that the changes leave at its end, m/s, up positive.
+    pub closing: f64,
+    /// Whether a shock ends it.
+    pub is_jam: bool,
+    /// The pulses from the first to the last.
+    pub pulses: Range<usize>,
+    /// Those that change its speed.
+    pub changes: Vec<usize>,
+}
+
+/// A record with its pulses.
+pub struct Record<'a> {
+    /// Blocks and level.
+    pub levelled: &'a Levelled,
+    /// All pulses.
+    pub pulses: &'a [Pulse],
+    /// The acceleration of a shock, m/s².
+    pub violent: f64,
+}
+
+impl Reading {
+    /// Puts the parts of an explanation together.
+    pub fn of(record: &Record, parts: &[&Part]) -> Self {
+        let mut reading = Self::default();
+        let mut is_joined = false;
+        let mut is_open = true;
+        for part in parts {
+            match part {
+                Part::Other(pulses) => reading.others.push(pulses.clone()),
+                Part::Hole { moves_on } => {
+                    (is_joined, is_open) = (*moves_on, true);
+                    continue;
+                }
+                Part::Through(_) => {}
+                Part::Motion(motion) => {
+                    let trip = record.trip(motion);
+                    match reading.trips.last_mut() {
+                        Some(last) if is_joined && is_open => last.join(trip),
+                        _ => reading.trips.push(trip),
+                    }
+                }
+            }
+            is_joined = false;
+            is_open = false;
+        }
+        reading
+    }
+}
+
+impl Trip {
+    /// Adds what follows a hole.
+    fn join(&mut self, later: Self) {
+        self.speed = self.speed.max(later.speed);
+        self.braking = later.braking;
+        self.levelling = later.levelling;
+        self.stop = later.stop;
+        self.closing = 0.0;
+        self.is_jam = later.is_jam;
+        self.pulses.end = later.pulses.end;
+        self.changes.extend(later.changes);
+    }
+}
+
+/// The share of the highest speed at which a motion counts as uniform; below it, it levels.
+const FAST: f64 = 0.6;
+
+impl Record<'_> {
+    fn trip(&self, motion: &Motion) -> Trip {
+        let speeds = self.speeds(motion);
+        // speeds[i] is the speed before change i.
+        let top = speeds.iter().map(|speed| speed.abs()).fold(0.0, f64::max);
+        let is_fast = |speed: &f64| speed.abs() >= FAST * top;
+        let fast = speeds.iter().position(is_fast).unwrap_or(0);
+        let after = |place: usize| speeds.iter().skip(place).position(|speed| !is_fast(speed));
+        let slow = after(fast).map(|count| fast + count);
+        let change = |place: usize| &self.pulses[motion.changes[place]];
+        let (first, last) = (change(0), change(motion.changes.len() - 1));
+        let levels = slow.filter(|place| motion.is_open.1 || *place < motion.changes.len());
+        Trip {
+            is_up: motion.top > 0.0,
+            start: (!motion.is_open.0).then(|| self.leaves_zero(first)),
+            inertial: fast.checked_sub(1).map(|place| change(place).to),
+            braking: slow.map(|place| change(place - 1).from),
+            levelling: levels.map(|place| change(place - 1).to),
+            stop: (!motion.is_open.1).then(|| self.reaches_zero(last)),
+            speed: top,
+            closing: motion.speed,
+            is_jam: !motion.is_open.1 && last.peak > self.violent,
+            pulses: motion.pulses.clone(),
+            changes: motion.changes.clone(),
+        }
+    }
+
+    /// The speeds before each change, and after the last, m/s.
+    fn speeds(&self, motion: &Motion) -> Vec<f64> {
+        let mut speed = if motion.is_open.0 { motion.speed } else { 0.0 };
+        let mut speeds = vec![speed];
+        speeds.extend(motion.changes.iter().map(|pulse| {
+            speed += self.pulses[*pulse].change;
+            speed
+        }));
+        speeds
+    }
+
+    /// When a pulse begins to move the cage.
+    fn leaves_zero(&self, pulse: &Pulse) -> f64 {
+        let block = self.first_moving(pulse, pulse.blocks.clone());
+        self.levelled.cut.blocks[block].from
+    }
+
+    /// When a pulse has brought it to rest.
+    fn reaches_zero(&self, pulse: &Pulse) -> f64 {
+        let block = self.first_moving(pulse, pulse.blocks.clone().rev());
+        self.levelled.cut.blocks[block].to
+    }
+
+    /// The block at which the change of speed exceeds what noise and the level's error may add up to.
+    fn first_moving(&self, pulse: &Pulse, blocks: impl Iterator<Item = usize>) -> usize {
+        let (mut speed, mut seconds, mut last) = (0.0f64, 0.0, pulse.blocks.start);
+        for block in blocks {
+            last = block;
+            speed += self.levelled.change(block..block + 1);
+            seconds += self.levelled.cut.blocks[block].seconds;
+            let noise = 2.0 * pulse.deviation * seconds / (pulse.to - pulse.from);
+            if speed.abs() > MOVING + noise {
+                break;
+            }
+        }
+        last
+    }
+}
