@@ -15,8 +15,8 @@ const FLOORS: &[&[&str]] = &[
     &["values"],
     // The world, and what config, claims and pictures say, each without the others.
     &["signal", "whiten", "detect", "config", "claim", "plot"],
-    // Estimators; what a point simulates.
-    &["monitor", "scenario", "report"],
+    // Lifts, estimators; what a point simulates.
+    &["lift", "monitor", "scenario", "report"],
     &["chain", "detection", "experiment"],
     // Trials, planned and drawn.
     &["schedule", "figure"],

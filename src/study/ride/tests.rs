@@ -5,8 +5,9 @@ use super::estimate::of;
 use super::measure::Measure;
 use super::sums::RideSums;
 use super::{Rides, Row};
+use crate::lift::Journey;
 use crate::monitor::{Alarm, Direction, Event, Kind, State};
-use crate::signal::{Journey, Phase};
+use crate::signal::Phase;
 use crate::study::kind::Study;
 use crate::study::tests::{read, rows};
 

@@ -6,7 +6,7 @@
 //! to speeds exactly, even if a jam is short compared with the period.
 //!
 //! ```
-//! use liftsim::signal::{Drive, Ending, Pickup, Ride, Trip};
+//! use liftsim::lift::{Drive, Ending, Pickup, Ride, Trip};
 //!
 //! let trip = Trip { distance: -12.0, drive: Drive::slow(), ending: Ending::Commanded };
 //! let ride = Ride::new(100.0, vec![5.0, 5.0], vec![trip])?;
@@ -14,7 +14,7 @@
 //! let simulated = ride.simulate(&pickup, 2014, 0);
 //! assert_eq!(simulated.record.len(), ride.samples());
 //! assert_eq!(simulated.journeys[0].direction, -1);
-//! # Ok::<(), liftsim::signal::RideError>(())
+//! # Ok::<(), liftsim::lift::RideError>(())
 //! ```
 
 mod drive;
@@ -31,7 +31,7 @@ pub use pickup::{Pickup, PickupError};
 pub use simulate::Simulated;
 pub use trip::{Course, Ending, Trip, TripError};
 
-use super::Phase;
+use crate::signal::Phase;
 
 /// Rests and trips in turn, sampled at a rate.
 #[derive(Clone, Debug, PartialEq)]
