@@ -20,6 +20,7 @@
 mod drive;
 mod export;
 mod pickup;
+mod record;
 mod simulate;
 #[cfg(test)]
 mod tests;
@@ -28,6 +29,7 @@ mod trip;
 pub use drive::Drive;
 pub use export::{ExportLayout, write_phyphox, write_truth};
 pub use pickup::{Pickup, PickupError};
+pub use record::{Class, Record};
 pub use simulate::Simulated;
 pub use trip::{Course, Ending, Trip, TripError};
 
@@ -64,6 +66,8 @@ pub struct Journey {
     pub uniform: f64,
     /// Start of the braking or the jam, s.
     pub braking: f64,
+    /// Start of the levelling, where the braking ends in one, s.
+    pub levelling: Option<f64>,
     /// Time at which the cage stands again, s.
     pub stop: f64,
     /// 1 up, −1 down.
@@ -255,6 +259,7 @@ impl Ride {
                     start,
                     uniform: start + uniform,
                     braking: start + braking,
+                    levelling: None,
                     stop: start + course.duration(),
                     direction: course.direction(),
                     distance: course.distance(),

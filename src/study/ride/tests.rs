@@ -17,6 +17,7 @@ fn truth() -> Truth {
         start: 10.0,
         uniform: 12.0,
         braking: 18.0,
+        levelling: None,
         stop: 20.0,
         direction: 1,
         distance: 8.0,
