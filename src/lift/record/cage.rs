@@ -1,29 +1,12 @@
 //! What the cage does and what is done to it, in order of time.
 
 use super::class::{Class, Ranges};
+use super::disturbance::{disturbance, footfalls, handling};
 use super::draws::Draws;
-use super::pulse::{Pulse, Shape, jump};
+use super::lift::{FLOOR, Lift};
+use super::pulse::{Pulse, Shape};
 use crate::lift::Journey;
-use crate::lift::drive::{Drive, Start};
-use crate::signal::recording::GRAVITY;
-use libm::{ceil, cos};
-use std::f64::consts::PI;
-
-/// The height of a floor, m.
-const FLOOR: f64 = 3.0;
-
-/// A lift in its building.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Lift {
-    pub drive: Drive,
-    braking: Drive,
-    /// Speed, m/s, and time, s, of the levelling.
-    levelling: (f64, f64),
-    /// The limits of its last stop.
-    stop: Drive,
-    /// The highest floor.
-    floors: usize,
-}
+use crate::lift::drive::Drive;
 
 /// The motion of a cage, from time 0 on.
 pub(super) struct Cage {
@@ -42,38 +25,6 @@ pub(super) struct Cage {
     pub drum: Vec<(f64, f64)>,
     /// From when to when it turns although the cage stands, s.
     pub slack: Vec<(f64, f64)>,
-}
-
-impl Lift {
-    fn draw(class: Class, ranges: &Ranges, draws: &mut Draws) -> Self {
-        let drive = Drive {
-            speed: draws.decades(ranges.speed),
-            acceleration: draws.within(ranges.acceleration),
-            jerk: draws.within(ranges.jerk),
-        };
-        let braking = Drive {
-            acceleration: drive.acceleration * draws.within(ranges.braking),
-            ..drive
-        };
-        let most = ceil((12.0 * drive.speed).max(2.0)) as usize;
-        Self {
-            drive,
-            braking,
-            levelling: (
-                draws.within(ranges.levelling),
-                draws.within(ranges.levelling_time),
-            ),
-            stop: Drive {
-                acceleration: draws.within([0.2, 0.6]),
-                jerk: draws.within([1.0, 4.0]),
-                ..drive
-            },
-            floors: match class {
-                Class::Express => most,
-                _ => draws.whole([1, most]),
-            },
-        }
-    }
 }
 
 impl Cage {
@@ -113,7 +64,10 @@ impl Cage {
             cage.handle(draws);
         }
         cage.disturb(draws);
-        cage.walk(ranges, draws);
+        let steps = draws.within(ranges.footfalls).max(1e-3);
+        for &rest in &cage.rests {
+            cage.disturbances.extend(footfalls(steps, rest, draws));
+        }
         cage
     }
 
@@ -182,93 +136,40 @@ impl Cage {
         self.rest(draws.within([2.0, 5.0]));
     }
 
-    /// Somebody handles the sensor: swings and tilts.
+    /// Somebody handles the sensor.
     fn handle(&mut self, draws: &mut Draws) {
         let until = self.now + draws.within([1.0, 4.0]);
-        let mut tilt = self.now;
-        while tilt < until {
-            let seconds = draws.within([0.3, 1.0]).min(until - tilt);
-            let offset = draws.within([-1.0, 0.3]);
-            (self.disturbances).push(Pulse::new(tilt, Shape::Level { offset, seconds }));
-            tilt += seconds;
-        }
-        while self.now < until {
-            let seconds = draws.within([0.1, 0.5]).min(until - self.now);
-            let peak = draws.sign() * draws.within([2.0, 8.0]);
-            (self.disturbances).push(Pulse::new(self.now, Shape::Sine { peak, seconds }));
-            self.now += seconds * draws.within([1.0, 1.5]);
-        }
-        self.now = self.now.max(until);
+        (self.disturbances).extend(handling(self.now, until, draws));
+        self.now = until;
     }
 
-    /// What the class is named after, where it is something that happens.
-    fn disturb(&mut self, draws: &mut Draws) {
-        let anywhere = [6.0, self.now];
-        match self.class {
-            Class::LevelShift | Class::LevelStep => {
-                let from = draws.within(anywhere);
-                self.add(self.class, from, draws);
-            }
-            Class::Shocks => {
-                for _ in 0..draws.whole([1, 3]) {
-                    let from = draws.within(anywhere);
-                    self.add(self.class, from, draws);
-                }
-            }
-            Class::Jumps | Class::Boarding => {
-                for _ in 0..draws.whole([1, 3]) {
-                    let (from, to) = self.rests[draws.whole([0, self.rests.len() - 1])];
-                    let from = draws.within([from, (to - 1.0).max(from)]).max(6.0);
-                    self.add(self.class, from, draws);
-                }
-            }
-            Class::Tilt => {
-                let Journey { start, stop, .. } =
-                    self.journeys[draws.whole([0, self.journeys.len() - 1])];
-                let from = draws.within([start, stop]);
-                self.add(self.class, from, draws);
-            }
-            Class::Relevelling => self.relevel(draws),
-            _ => {}
-        }
-    }
-
-    /// One disturbance of a class.
     fn add(&mut self, class: Class, from: f64, draws: &mut Draws) {
-        let mut push = |shape| self.disturbances.push(Pulse::new(from, shape));
-        match class {
-            Class::LevelShift => push(Shape::Level {
-                offset: draws.sign() * draws.within([0.02, 0.1]),
-                seconds: draws.within([3.0, 15.0]),
-            }),
-            Class::LevelStep => push(Shape::Level {
-                offset: draws.sign() * draws.within([0.02, 0.1]),
-                seconds: f64::INFINITY,
-            }),
-            Class::Shocks => push(Shape::HalfSine {
-                peak: draws.sign() * draws.decades([2.0, 20.0]),
-                seconds: draws.within([0.01, 0.08]),
-            }),
-            Class::Boarding => push(Shape::Bounce {
-                depth: draws.sign() * draws.within([0.005, 0.03]),
-                frequency: draws.within([0.5, 1.5]),
-                damping: draws.within([0.03, 0.15]),
-            }),
-            Class::Tilt => {
-                let angle = draws.within([2.0, 6.0]) * PI / 180.0;
-                push(Shape::Level {
-                    offset: -GRAVITY * (1.0 - cos(angle)),
-                    seconds: f64::INFINITY,
-                });
-                push(Shape::Sine {
-                    peak: draws.sign() * draws.within([0.3, 2.0]),
-                    seconds: draws.within([0.2, 0.5]),
-                });
-            }
-            Class::Jumps => {
-                (self.disturbances).extend(jump(from, 0.3, draws.decades([0.05, 1.0])));
-            }
-            _ => {}
+        self.disturbances.extend(disturbance(class, from, draws));
+    }
+
+    /// What the class is named after, where it is something that happens to a cage.
+    fn disturb(&mut self, draws: &mut Draws) {
+        let class = self.class;
+        let times = match class {
+            Class::LevelShift | Class::LevelStep | Class::Tilt => 1,
+            Class::Shocks | Class::Jumps | Class::Boarding => draws.whole([1, 3]),
+            Class::Relevelling => return self.relevel(draws),
+            _ => 0,
+        };
+        for _ in 0..times {
+            // The monitor may learn rest from the first seconds.
+            let from = match class {
+                Class::Jumps | Class::Boarding => {
+                    let (from, to) = self.rests[draws.whole([0, self.rests.len() - 1])];
+                    draws.within([from, (to - 1.0).max(from)]).max(6.0)
+                }
+                Class::Tilt => {
+                    let trip = self.journeys[draws.whole([0, self.journeys.len() - 1])];
+                    draws.within([trip.start, trip.stop])
+                }
+                _ => draws.within([6.0, self.now]),
+            };
+            self.add(class, from, draws);
         }
     }
 
@@ -285,97 +186,13 @@ impl Cage {
             let start = draws.within([from + 1.0, to - 2.5]);
             let until = start + draws.within([0.02, 0.05]) / SPEED;
             let sign = draws.sign();
-            let shape = |sign| Shape::SpeedChange { change, sign };
-            self.motion.push(Pulse::new(start, shape(sign)));
-            self.motion.push(Pulse::new(until, shape(-sign)));
+            let pulse = |from, sign| Pulse {
+                from,
+                shape: Shape::SpeedChange { change, sign },
+            };
+            self.motion
+                .extend([pulse(start, sign), pulse(until, -sign)]);
             self.drum.push((start, until + change.duration));
         }
     }
-
-    /// People walk about at rest.
-    fn walk(&mut self, ranges: &Ranges, draws: &mut Draws) {
-        let footfalls = draws.within(ranges.footfalls).max(1e-3);
-        for &(from, to) in &self.rests {
-            let mut now = from + draws.gap(footfalls);
-            while now < to {
-                let shape = Shape::Sine {
-                    peak: draws.sign() * draws.decades([0.03, 0.4]),
-                    seconds: draws.within([0.06, 0.2]),
-                };
-                self.disturbances.push(Pulse::new(now, shape));
-                now += draws.gap(footfalls);
-            }
-        }
-    }
-}
-
-impl Lift {
-    /// A trip over about `way` metres, up positive; a jam after a share of the uniform motion.
-    fn trip(&self, start: f64, way: f64, jam: Option<f64>, motion: &mut Vec<Pulse>) -> Journey {
-        let Self {
-            drive,
-            braking,
-            stop,
-            ..
-        } = self;
-        let sign = way.signum();
-        let slower = if drive.acceleration < braking.acceleration {
-            drive
-        } else {
-            braking
-        };
-        let speed = slower.start(way.abs()).speed;
-        let slow = self.levelling.0.min(speed / 2.0);
-        let up = drive.start_to(speed);
-        let (down, slow, levels) = match jam {
-            Some(_) => (jammed(speed), 0.0, 0.0),
-            None => (braking.start_to(speed - slow), slow, self.levelling.1),
-        };
-        let last = stop.start_to(slow);
-        // Each change of speed is symmetric, so its mean speed is that between its ends.
-        let mut distance =
-            (up.duration * speed + down.duration * (speed + slow) + last.duration * slow) / 2.0
-                + slow * levels;
-        let uniform = ((way.abs() - distance) / speed).max(0.0) * jam.unwrap_or(1.0);
-        distance += uniform * speed;
-        let begins = start + up.duration;
-        let brakes = begins + uniform;
-        let braked = brakes + down.duration;
-        let is_levelled = slow > 0.0;
-        let mut change = |from, change, sign| {
-            motion.push(Pulse::new(from, Shape::SpeedChange { change, sign }));
-        };
-        change(start, up, sign);
-        change(brakes, down, -sign);
-        if is_levelled {
-            change(braked + levels, last, -sign);
-        }
-        Journey {
-            start,
-            uniform: begins,
-            braking: brakes,
-            levelling: is_levelled.then_some(braked),
-            stop: braked
-                + if is_levelled {
-                    levels + last.duration
-                } else {
-                    0.0
-                },
-            direction: sign as i8,
-            distance: sign * distance,
-            speed,
-            jammed: jam.is_some(),
-        }
-    }
-}
-
-/// From a speed to a stand within 0.1 s.
-fn jammed(speed: f64) -> Start {
-    const WITHIN: f64 = 0.1;
-    let drive = Drive {
-        speed,
-        acceleration: 2.0 * speed / WITHIN,
-        jerk: 4.0 * speed / (WITHIN * WITHIN),
-    };
-    drive.start_to(speed)
 }

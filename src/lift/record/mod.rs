@@ -15,7 +15,9 @@
 
 mod cage;
 mod class;
+mod disturbance;
 mod draws;
+mod lift;
 mod pulse;
 mod sensor;
 #[cfg(test)]

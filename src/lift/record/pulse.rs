@@ -4,7 +4,6 @@
 //! period: samples add up exactly, however short the pulse.
 
 use crate::lift::drive::Start;
-use crate::signal::recording::GRAVITY;
 use libm::{cos, exp, sin};
 use std::f64::consts::PI;
 
@@ -50,10 +49,6 @@ pub(super) enum Shape {
 const SWING_LEFT: f64 = 20.0;
 
 impl Pulse {
-    pub fn new(from: f64, shape: Shape) -> Self {
-        Self { from, shape }
-    }
-
     /// The speed that it has added by a time, m/s.
     pub fn speed_at(&self, time: f64) -> f64 {
         self.shape
@@ -113,26 +108,4 @@ impl Shape {
             }
         }
     }
-}
-
-/// A person jumps: pushes off, flies, lands. The cage feels a share of it, the ratio of the masses. Its net speed
-/// is zero.
-pub(super) fn jump(from: f64, flight: f64, share: f64) -> [Pulse; 3] {
-    const PUSH: f64 = 0.25;
-    const LANDING: f64 = 0.15;
-    let g = share * GRAVITY;
-    // Push and landing each carry half of the flight's impulse: peak · 2t/π = gT/2.
-    let half_sine = |seconds: f64| Shape::HalfSine {
-        peak: g * flight * PI / (4.0 * seconds),
-        seconds,
-    };
-    let flying = Shape::Level {
-        offset: -g,
-        seconds: flight,
-    };
-    [
-        Pulse::new(from, half_sine(PUSH)),
-        Pulse::new(from + PUSH, flying),
-        Pulse::new(from + PUSH + flight, half_sine(LANDING)),
-    ]
 }
