@@ -17,8 +17,8 @@ const FLOORS: &[&[&str]] = &[
     &["signal", "whiten", "detect", "config", "claim", "plot"],
     // What a record may hold.
     &["explain"],
-    // Estimators; what a point simulates.
-    &["monitor", "scenario", "report"],
+    // Lifts, estimators; what a point simulates.
+    &["lift", "monitor", "scenario", "report"],
     &["chain", "detection", "experiment"],
     // Trials, planned and drawn.
     &["schedule", "figure"],

@@ -6,12 +6,10 @@
 //! run.
 
 use liftsim::detection::{Detection, End, Trip};
+use liftsim::lift::{Drive, Ending, Journey, Pickup, Ride as Simulation, Trip as SimulatedTrip};
 use liftsim::monitor::{Direction, Event, Knowledge, Monitor, Settings, State};
 use liftsim::signal::recording::{Reading, Recording, Sample};
-use liftsim::signal::{
-    Digitiser, Drive, Ending, Journey, Law, Noise, Pickup, Ride as Simulation, Sensor,
-    Trip as SimulatedTrip,
-};
+use liftsim::signal::{Digitiser, Law, Noise, Sensor};
 use liftsim::whiten::Order;
 use std::path::{Path, PathBuf};
 use std::{env, fs};

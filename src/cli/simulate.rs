@@ -5,10 +5,9 @@ use super::{CommandResult, Failure, print};
 use anyhow::{Context, anyhow};
 use clap::Args;
 use liftsim::config;
+use liftsim::lift::{Drive, Ending, ExportLayout, Pickup, Ride, Trip, write_phyphox, write_truth};
+use liftsim::signal::Digitiser;
 use liftsim::signal::recording::GRAVITY;
-use liftsim::signal::{
-    Digitiser, Drive, Ending, ExportLayout, Pickup, Ride, Trip, write_phyphox, write_truth,
-};
 use liftsim::study::reference;
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -1,7 +1,7 @@
 //! The record of an accelerometer in a cage: r = x + Δ + λ, eqs (1)–(8) of [^1].
 //!
-//! The unit is σ_ξ, the standard deviation of the white noise that drives the sensor. Only a [`Ride`] and a
-//! [`recording`] are in m/s² and s; a ride's [`Pickup`] gives σ_ξ in m/s².
+//! The unit is σ_ξ, the standard deviation of the white noise that drives the sensor. Only a
+//! [`recording`] is in m/s² and s.
 //!
 //! [^1]: M. A. Raifeld, "Distinguishing the motion/stop states of a lift from accelerometer
 //! signals", Avtometriya (in Russian), received 25 November 2013.
@@ -15,7 +15,6 @@ mod motion;
 mod noise;
 mod phase;
 pub mod recording;
-mod ride;
 mod sensor;
 
 pub(crate) use autoregression::step_down;
@@ -25,8 +24,4 @@ pub use impulses::{During, ImpulseMemory, Impulses};
 pub use motion::{DeltaAt, Motion, MotionError, Profile};
 pub use noise::{Law, LawError, Noise};
 pub use phase::Phase;
-pub use ride::{
-    Course, Drive, Ending, ExportLayout, Journey, Pickup, PickupError, Ride, RideError, Simulated,
-    Stretch, Trip, TripError, write_phyphox, write_truth,
-};
 pub use sensor::{Choice as SensorChoice, Sensor, SensorError, Transfer};

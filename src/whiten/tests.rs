@@ -1,6 +1,7 @@
 //! Helpers shared by the tests of this module.
 
-use crate::signal::{Pickup, Ride, Sensor};
+use crate::lift::{Pickup, Ride};
+use crate::signal::Sensor;
 
 /// White noise of unit variance, coloured by a sensor with these coefficients.
 pub(super) fn record(ar: &[f64], samples: usize, seed: u64, index: u64) -> Vec<f64> {

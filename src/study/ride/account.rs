@@ -1,7 +1,8 @@
 //! Compares a monitor's reports with the truth.
 
+use crate::lift::Journey;
 use crate::monitor::{Alarm, Direction, Event, Kind, State};
-use crate::signal::{Journey, Phase};
+use crate::signal::Phase;
 
 /// The true motion.
 pub(super) struct Truth {

@@ -3,12 +3,11 @@
 use super::keys::{RideKeys, STRENGTH};
 use super::measure::Measure;
 use super::problem::RideProblem;
+use crate::lift::{Drive, Ending, Pickup, Ride, RideError, Trip};
 use crate::monitor::Settings;
 use crate::rule::{OutOfRange, Rule};
 use crate::run::Identity;
-use crate::signal::{
-    Digitiser, Disturbance, Drive, Ending, Impulses, Pickup, Ride, RideError, Sensor, Trip,
-};
+use crate::signal::{Digitiser, Disturbance, Impulses, Sensor};
 
 /// Everything that a trial needs besides its draws.
 #[derive(Clone, Debug, PartialEq)]

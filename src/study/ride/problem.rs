@@ -2,9 +2,10 @@
 
 use super::measure::Measure;
 use crate::config::Refusal;
+use crate::lift::{PickupError, RideError, TripError};
 use crate::monitor::SettingsError;
 use crate::rule::OutOfRange;
-use crate::signal::{PickupError, RideError, SensorError, TripError};
+use crate::signal::SensorError;
 
 /// Why rides were refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

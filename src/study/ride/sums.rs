@@ -238,7 +238,7 @@ mod tests {
     }
 
     fn account(point: &RidePoint, said: &[(u8, f64, f64)]) -> Account {
-        let of = |ride: crate::signal::Ride| {
+        let of = |ride: crate::lift::Ride| {
             let truth = Truth {
                 journeys: ride.journeys(),
                 to: ride.duration(),

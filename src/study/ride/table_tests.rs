@@ -3,7 +3,7 @@
 use super::Rides;
 use super::point::RidePoint;
 use super::table::{RideCurve, RideTable};
-use crate::signal::Ending;
+use crate::lift::Ending;
 use crate::study::tests::read;
 use crate::whiten::Order;
 

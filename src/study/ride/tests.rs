@@ -5,8 +5,9 @@ use super::estimate::of;
 use super::measure::Measure;
 use super::sums::RideSums;
 use super::{Rides, Row};
+use crate::lift::Journey;
 use crate::monitor::{Alarm, Direction, Event, Kind, State};
-use crate::signal::{Journey, Phase};
+use crate::signal::Phase;
 use crate::study::kind::Study;
 use crate::study::tests::{read, rows};
 
@@ -16,6 +17,7 @@ fn truth() -> Truth {
         start: 10.0,
         uniform: 12.0,
         braking: 18.0,
+        levelling: None,
         stop: 20.0,
         direction: 1,
         distance: 8.0,

@@ -3,9 +3,9 @@
 use super::account::{Account, Truth};
 use super::measure::Measure;
 use super::point::RidePoint;
+use crate::lift::Ride;
 use crate::monitor::{Design, Event, Knowledge, Monitor};
 use crate::rng::Stream;
-use crate::signal::Ride;
 use crate::signal::recording::Sample;
 use rand::Rng;
 

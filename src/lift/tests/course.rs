@@ -1,8 +1,9 @@
 //! The motion of a trip.
 
 use super::{LIFT, drive, trip};
+use crate::lift::{Course, Drive, Ending, Trip};
 use crate::rng::Stream;
-use crate::signal::{Course, Drive, Ending, Phase, Trip};
+use crate::signal::Phase;
 use rand::RngExt;
 
 /// Trips of every shape: with and without full speed, full acceleration, uniform motion, jams; and drawn

@@ -6,7 +6,7 @@
 //! to speeds exactly, even if a jam is short compared with the period.
 //!
 //! ```
-//! use liftsim::signal::{Drive, Ending, Pickup, Ride, Trip};
+//! use liftsim::lift::{Drive, Ending, Pickup, Ride, Trip};
 //!
 //! let trip = Trip { distance: -12.0, drive: Drive::slow(), ending: Ending::Commanded };
 //! let ride = Ride::new(100.0, vec![5.0, 5.0], vec![trip])?;
@@ -14,12 +14,13 @@
 //! let simulated = ride.simulate(&pickup, 2014, 0);
 //! assert_eq!(simulated.record.len(), ride.samples());
 //! assert_eq!(simulated.journeys[0].direction, -1);
-//! # Ok::<(), liftsim::signal::RideError>(())
+//! # Ok::<(), liftsim::lift::RideError>(())
 //! ```
 
 mod drive;
 mod export;
 mod pickup;
+mod record;
 mod simulate;
 #[cfg(test)]
 mod tests;
@@ -28,10 +29,11 @@ mod trip;
 pub use drive::Drive;
 pub use export::{ExportLayout, write_phyphox, write_truth};
 pub use pickup::{Pickup, PickupError};
+pub use record::{Class, Record};
 pub use simulate::Simulated;
 pub use trip::{Course, Ending, Trip, TripError};
 
-use super::Phase;
+use crate::signal::Phase;
 
 /// Rests and trips in turn, sampled at a rate.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,6 +66,8 @@ pub struct Journey {
     pub uniform: f64,
     /// Start of the braking or the jam, s.
     pub braking: f64,
+    /// Start of the levelling, where the braking ends in one, s.
+    pub levelling: Option<f64>,
     /// Time at which the cage stands again, s.
     pub stop: f64,
     /// 1 up, −1 down.
@@ -255,6 +259,7 @@ impl Ride {
                     start,
                     uniform: start + uniform,
                     braking: start + braking,
+                    levelling: None,
                     stop: start + course.duration(),
                     direction: course.direction(),
                     distance: course.distance(),

@@ -58,7 +58,8 @@ impl Drive {
         self.start_to(self.speed.min(self.speed_without_uniform_motion(distance)))
     }
 
-    fn start_to(&self, speed: f64) -> Start {
+    /// A change of speed from a constant speed to one that differs by `speed`.
+    pub(super) fn start_to(&self, speed: f64) -> Start {
         let Self {
             acceleration, jerk, ..
         } = *self;

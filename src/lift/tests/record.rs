@@ -1,9 +1,8 @@
 //! The record of the sensor.
 
 use super::{LIFT, trip, two_trips};
-use crate::signal::{
-    Digitiser, Disturbance, During, Ending, Impulses, Law, Noise, Phase, Pickup, Ride, Sensor,
-};
+use crate::lift::{Ending, Pickup, Ride};
+use crate::signal::{Digitiser, Disturbance, During, Impulses, Law, Noise, Phase, Sensor};
 use crate::stats::binomial;
 
 /// With negligible noise the samples add up to the speed at their edges at every moment, and their double sum

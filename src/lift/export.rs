@@ -84,7 +84,7 @@ pub fn write_truth(out: &mut impl Write, ride: &Ride) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::{Drive, Ending, Trip};
+    use crate::lift::{Drive, Ending, Trip};
 
     #[test]
     fn phyphox_layout() {
