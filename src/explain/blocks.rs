@@ -134,6 +134,12 @@ impl Cut {
         windows.map(mean).collect()
     }
 
+    /// The deviation of a block if their noise were white, m/s²: from second differences, which a ramp leaves alone.
+    pub fn scatter(&self) -> f64 {
+        let bends = self.blocks.windows(3).map(|it| (it[0].mean - 2.0 * it[1].mean + it[2].mean).abs());
+        1.4826 * median(bends.collect()) / 6f64.sqrt()
+    }
+
     /// The blocks in a time, at least one.
     pub fn blocks_in(&self, seconds: f64) -> usize {
         ((seconds / self.seconds).round() as usize).max(1)

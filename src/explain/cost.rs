@@ -61,7 +61,7 @@ pub const HALF: f64 = 1.0;
 
 /// The cage creeps to the landing: once, and for every second.
 pub const CREEP: f64 = 1.0;
-pub const CREEP_SECOND: f64 = 0.4;
+pub const CREEP_SECOND: f64 = 0.2;
 pub const MOST_CREEP: f64 = 4.0;
 
 /// The cage goes through zero speed and on the other way without a stop.
@@ -75,6 +75,8 @@ const ROUNDING: f64 = 0.015;
 
 /// No trip is shorter than this: m, s.
 const LEAST_DISTANCE: f64 = 0.5;
+/// Floors are hardly nearer to each other, m.
+const SHORT_DISTANCE: f64 = 2.0;
 const LEAST_DURATION: f64 = 1.5;
 
 /// Faster lifts hardly exist, m/s.
@@ -90,7 +92,7 @@ pub fn acceleration_stage(gap: f64) -> f64 {
     match gap {
         ..1.0 => 0.5,
         ..3.0 => 2.0,
-        _ => 4.5,
+        _ => 6.0,
     }
 }
 
@@ -104,9 +106,9 @@ impl Prior {
     pub fn ignored(&self, pulse: &Pulse) -> f64 {
         let ratio = pulse.change.abs() / self.least_speed;
         let cost = if ratio < 1.0 {
-            0.1 + 2.9 * ratio * ratio
+            0.2 + 3.8 * ratio * ratio
         } else {
-            (3.0 + 5.5 * (ratio - 1.0)).min(14.0)
+            (4.0 + 5.0 * (ratio - 1.0)).min(14.0)
         };
         if self.is_violent(pulse) {
             0.5 + cost / 4.0

@@ -41,13 +41,15 @@ pub struct Level {
 }
 
 impl Level {
-    /// The level of a record.
-    pub fn of(record: &Cut) -> Self {
+    /// The level of a record. A `pull` of 1 makes a window cost 1 more for every 0.1 m/s² that the level is from the
+    /// mean of the record, which it equals where the record begins and ends at one speed.
+    pub fn of(record: &Cut, pull: f64) -> Self {
         let means = record.window_means(WINDOW);
         let per_window = record.blocks_in(WINDOW) as f64;
         let differences = means.windows(2).map(|pair| (pair[1] - pair[0]).abs());
-        let width = (4.0 * median(differences.collect())).clamp(0.03, 0.3);
-        let (path, cost) = path(&means, width);
+        let white = 20.0 * record.scatter() / per_window.sqrt();
+        let width = (4.0 * median(differences.collect())).min(white).clamp(0.03, 0.3);
+        let (path, cost) = path(&means, width, pull);
         let fine: Vec<f64> = (0..means.len())
             .map(|window| refined(&means, &path, width, window))
             .collect();
@@ -62,7 +64,8 @@ impl Level {
 }
 
 /// The cheapest path, one value for each group of windows, and its cost.
-fn path(means: &[f64], width: f64) -> (Vec<f64>, f64) {
+fn path(means: &[f64], width: f64, pull: f64) -> (Vec<f64>, f64) {
+    let mean = means.iter().sum::<f64>() / means.len() as f64;
     let least = means.iter().copied().fold(f64::INFINITY, f64::min);
     let greatest = means.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let step = STEP.max((greatest - least) / MOST_POINTS);
@@ -85,7 +88,8 @@ fn path(means: &[f64], width: f64) -> (Vec<f64>, f64) {
         costs = (0..points)
             .map(|point| {
                 let from = usize::from(origin[point]);
-                let off = |mean: &f64| ((mean - value(point)) / width).powi(2).min(1.0);
+                let far = pull * (value(point) - mean).abs() / 0.1;
+                let off = |mean: &f64| far + ((mean - value(point)) / width).powi(2).min(1.0);
                 costs[from] + move_cost(from, point) + group.iter().map(off).sum::<f64>()
             })
             .collect();

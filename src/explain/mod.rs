@@ -28,7 +28,10 @@ pub use reading::{Reading, Record, Trip};
 pub use trips::Motion;
 
 /// A high-pass filter must explain a record better by this much.
-const HIGH_PASS: f64 = 2.0;
+const HIGH_PASS: f64 = 4.0;
+
+/// What a high-pass filter leaves of a constant, m/s²: a record farther from zero has none.
+const NO_LEVEL: f64 = 0.1;
 
 /// What a window off the level costs when filters are compared.
 const OFF_LEVEL: f64 = 0.5;
@@ -77,25 +80,32 @@ pub struct Doubt {
 impl Explanation {
     /// Explains a record.
     pub fn of(record: &Cut, prior: &Prior) -> Self {
-        let plain = Explained::of(record.clone(), prior);
-        let mut best = (plain.cost(), None, plain);
+        let mut best = (f64::INFINITY, None, None);
+        for pull in [0.0, 1.0] {
+            let plain = Explained::of(record.clone(), prior, pull);
+            if plain.cost() < best.0 {
+                best = (plain.cost(), None, Some(plain));
+            }
+        }
         let restored_prior = Prior {
             gain_error: RESTORED_ERROR,
             ..*prior
         };
-        for time_constant in restore::TIME_CONSTANTS {
-            for offset in restore::offsets(record) {
+        let offsets = restore::offsets(record);
+        let offsets = offsets.into_iter().filter(|offset| offset.abs() < NO_LEVEL);
+        for offset in offsets {
+            for time_constant in restore::TIME_CONSTANTS {
                 let restored = restore::restored(record, time_constant, offset);
-                let explained = Explained::of(restored, &restored_prior);
+                let explained = Explained::of(restored, &restored_prior, 0.0);
                 let cost = explained.cost() + HIGH_PASS;
                 let has_trips = || !explained.reading(prior).trips.is_empty();
                 if cost < best.0 && has_trips() {
-                    best = (cost, Some(time_constant), explained);
+                    best = (cost, Some(time_constant), Some(explained));
                 }
             }
         }
         let (_, high_pass, explained) = best;
-        explained.finish(high_pass, prior)
+        explained.expect("a cost is finite").finish(high_pass, prior)
     }
 }
 
@@ -109,8 +119,8 @@ struct Explained {
 }
 
 impl Explained {
-    fn of(cut: Cut, prior: &Prior) -> Self {
-        let level = Level::of(&cut);
+    fn of(cut: Cut, prior: &Prior, pull: f64) -> Self {
+        let level = Level::of(&cut, pull);
         let levelled = Levelled { cut, level };
         let pulses = levelled.pulses(prior.most_acceleration);
         let blocks = &levelled.cut.blocks;

@@ -14,6 +14,9 @@ const FOOT: f64 = 0.3;
 const LEAST_CHANGE: f64 = 0.015;
 const LEAST_DEVIATIONS: f64 = 5.0;
 
+/// What colour adds to the walk of white noise, at most as a factor.
+const MOST_COLOUR: f64 = 5.0;
+
 /// Uncertainty of the level, m/s².
 const LEVEL_ERROR: f64 = 0.004;
 
@@ -95,7 +98,7 @@ impl Levelled {
             .collect();
         Noise {
             smoothed: near(smoothed.to_vec()),
-            walk: near(seconds),
+            walk: near(seconds).min(MOST_COLOUR * self.cut.scatter() * self.cut.seconds.sqrt()),
         }
     }
 
@@ -116,7 +119,7 @@ impl Levelled {
                     .count();
                 if length > 0 {
                     let core = block..block + length;
-                    let pulse = self.pulse(self.with_feet(core, &smoothed, taken..to), noise.walk);
+                    let pulse = self.pulse(self.with_feet(core, &smoothed, taken..to, least), noise.walk);
                     taken = pulse.blocks.end;
                     let least = LEAST_CHANGE.max(LEAST_DEVIATIONS * pulse.deviation);
                     if pulse.change.abs() > least || pulse.peak > violent {
@@ -136,10 +139,11 @@ impl Levelled {
         core: Range<usize>,
         smoothed: &[f64],
         within: Range<usize>,
+        least: f64,
     ) -> Range<usize> {
         let reach = (FOOT / self.cut.seconds).round() as usize;
         let sign = smoothed[core.start].signum();
-        let is_part = |block: &usize| smoothed[*block] * sign > 0.0;
+        let is_part = |block: &usize| (0.0..=least).contains(&(smoothed[*block] * sign));
         let before = (within.start..core.start)
             .rev()
             .take(reach)

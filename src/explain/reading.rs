@@ -114,11 +114,13 @@ impl Record<'_> {
         let levels = slow.filter(|place| motion.is_open.1 || *place < motion.changes.len());
         Trip {
             is_up: motion.top > 0.0,
-            start: (!motion.is_open.0).then(|| self.leaves_zero(first)),
+            start: (!motion.is_open.0 && !self.touches_hole(first.blocks.start))
+                .then(|| self.leaves_zero(first)),
             inertial: fast.checked_sub(1).map(|place| change(place).to),
             braking: slow.map(|place| change(place - 1).from),
             levelling: levels.map(|place| change(place - 1).to),
-            stop: (!motion.is_open.1).then(|| self.reaches_zero(last)),
+            stop: (!motion.is_open.1 && !self.touches_hole(last.blocks.end))
+                .then(|| self.reaches_zero(last)),
             speed: top,
             closing: motion.speed,
             is_jam: !motion.is_open.1 && last.peak > self.violent,
@@ -136,6 +138,11 @@ impl Record<'_> {
             speed
         }));
         speeds
+    }
+
+    /// Whether a pulse is cut off here, by a hole or an end of the record.
+    fn touches_hole(&self, block: usize) -> bool {
+        block == 0 || self.levelled.cut.ends.contains(&block)
     }
 
     /// When a pulse begins to move the cage.
