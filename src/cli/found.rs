@@ -133,6 +133,12 @@ fn other_ends(trip: &Trip) -> String {
 
 fn undecided(stretches: &[Undecided]) -> String {
     let told = |it: &Undecided| {
+        if it.either.is_empty() && it.or.is_empty() {
+            return format!(
+                "\nundecided, {:.1} to {:.1} s: a change of speed that fits no ride\n",
+                it.from, it.to
+            );
+        }
         format!(
             "\nundecided, {:.1} to {:.1} s: either {}, or {} (log odds {:.1})\n",
             it.from,

@@ -69,7 +69,7 @@ impl Detection {
         let rests = Rests::of(&explanation);
         let reference = reference.or_else(|| rests.learn(&explanation, design));
         let decisions = Decisions::new(design, &explanation, reference.as_ref());
-        let (trips, undecided) = trip::told(&explanation, &decisions);
+        let trips = trip::trips(&explanation, &decisions);
         Self {
             at_rest: decisions.at_rest(&rests),
             knowledge: Knowledge {
@@ -82,7 +82,7 @@ impl Detection {
             trace: Trace::of(&explanation.levelled.cut, decisions.whitened()),
             design: design.clone(),
             trips,
-            undecided,
+            undecided: trip::undecided(&explanation, &prior),
         }
     }
 }

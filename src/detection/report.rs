@@ -84,7 +84,7 @@ pub enum Warning {
         to: f64,
         least: f64,
     },
-    #[error("from {from:.1} to {to:.1} s the record does not decide between two readings{remedy}")]
+    #[error("from {from:.1} to {to:.1} s the record does not decide{remedy}")]
     Undecided {
         from: f64,
         to: f64,

@@ -1,11 +1,11 @@
 //! Where the cage rests, undisturbed and beyond doubt.
 
 use crate::explain::{Explanation, Trip};
-use crate::monitor::{Design, LEAST_TRAINING, Reference};
+use crate::monitor::{Design, LEAST_TRAINING, MOST_ORDER, Reference};
 use std::ops::Range;
 
 /// Left out at either end of a motion or a disturbance, s.
-const MARGIN: f64 = 0.3;
+const MARGIN: f64 = 0.15;
 
 /// The blocks at rest.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,8 +21,10 @@ impl Rests {
             let to = (blocks.end + margin).min(is_rest.len());
             is_rest[from..to].fill(false);
         };
+        let trips = &explanation.reading.trips;
         let doubted = explanation.doubts.iter().flat_map(|doubt| &doubt.instead);
-        for trip in explanation.reading.trips.iter().chain(doubted) {
+        let doubted = doubted.filter(|other| !trips.iter().any(|trip| trip.is_like(other)));
+        for trip in trips.iter().chain(doubted) {
             clear(blocks_of(explanation, trip));
         }
         for pulses in &explanation.reading.others {
@@ -50,14 +52,14 @@ impl Rests {
 
     /// The filter and X, if there is enough rest.
     pub fn learn(&self, explanation: &Explanation, design: &Design) -> Option<Reference> {
-        let long = |rest: &&Range<usize>| rest.len() > crate::monitor::MOST_ORDER + 2;
+        let long = |rest: &&Range<usize>| rest.len() > MOST_ORDER + 2;
         let stretches = self.0.iter().filter(long).map(|rest| {
             let blocks = &explanation.levelled.cut.blocks[rest.clone()];
             blocks.iter().map(|block| block.mean).collect()
         });
         let stretches: Vec<Vec<f64>> = stretches.collect();
         let count: usize = stretches.iter().map(Vec::len).sum();
-        let is_enough = count >= LEAST_TRAINING + design.samples.reference();
+        let is_enough = count >= LEAST_TRAINING.max(design.samples.reference()) + MOST_ORDER;
         is_enough.then(|| Reference::from_stretches(&stretches, design))
     }
 }

@@ -45,7 +45,7 @@ pub enum End {
     NotRecorded,
 }
 
-/// A stretch with two explanations that are close.
+/// A stretch with two explanations that are close, or a change of speed without any.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Undecided {
     pub from: f64,
@@ -90,53 +90,31 @@ pub enum What {
     SlowMotion,
 }
 
-/// Ends of trips that lie nearer than this are the same, s.
-const SAME: f64 = 0.5;
-
-/// Another start or stop is worth a word below this difference in cost.
-const END_DECIDED: f64 = 1.0;
-
-/// The trips that are decided, and the stretches that are not.
-pub(super) fn told(
-    explanation: &Explanation,
-    decisions: &Decisions,
-) -> (Vec<Trip>, Vec<Undecided>) {
-    let mut is_decided = vec![true; explanation.reading.trips.len()];
-    let mut ends = vec![(None, None); is_decided.len()];
-    let mut undecided = Vec::new();
-    for doubt in &explanation.doubts {
-        let pair = |trip: &explain::Trip| doubt.instead.iter().find(|other| is_same(trip, other));
-        let is_lost = |trip: &&explain::Trip| pair(trip).is_none();
-        let is_new = |other: &&explain::Trip| !doubt.trips.iter().any(|trip| is_same(trip, other));
-        if doubt.trips.iter().any(|trip| is_lost(&trip))
-            || doubt.instead.iter().any(|trip| is_new(&trip))
-        {
-            undecided.push(Undecided::of(doubt));
-        }
-        for (place, trip) in explanation.reading.trips.iter().enumerate() {
-            if !doubt.trips.contains(trip) {
-                continue;
-            }
-            match pair(trip) {
-                None => is_decided[place] = false,
-                Some(other) if doubt.margin < END_DECIDED => {
-                    if !is_near(trip.start, other.start) {
-                        ends[place].0 = other.start;
-                    }
-                    if !is_near(trip.stop, other.stop) {
-                        ends[place].1 = other.stop;
-                    }
-                }
-                Some(_) => {}
-            }
-        }
-    }
-    let trips = explanation.reading.trips.iter().zip(ends).zip(is_decided);
-    let decided = trips.filter(|(_, is_decided)| *is_decided);
-    let rows = decided.enumerate().map(|(index, ((trip, ends), _))| {
+/// The trips that are decided.
+pub(super) fn trips(explanation: &Explanation, decisions: &Decisions) -> Vec<Trip> {
+    let doubted = |trip: &&explain::Trip| {
+        let mut doubts = explanation.doubts.iter();
+        doubts.any(|doubt| doubt.trips.contains(trip) && other(doubt, trip).is_none())
+    };
+    let decided = explanation
+        .reading
+        .trips
+        .iter()
+        .filter(|trip| !doubted(trip));
+    let rows = (1..).zip(decided).map(|(ride, trip)| {
+        let others = explanation
+            .doubts
+            .iter()
+            .filter(|doubt| doubt.trips.contains(trip));
+        let others: Vec<&explain::Trip> = others.filter_map(|doubt| other(doubt, trip)).collect();
+        let other_end = |end: fn(&explain::Trip) -> Option<f64>| {
+            let ends = others.iter().map(|other| end(other));
+            ends.flatten()
+                .find(|time| !explain::is_near(Some(*time), end(trip)))
+        };
         let pulse = |place: usize| &explanation.pulses[trip.changes[place]];
         Trip {
-            ride: index + 1,
+            ride,
             direction: direction(trip),
             start: trip.start,
             inertial: trip.inertial,
@@ -149,15 +127,47 @@ pub(super) fn told(
                 Some(_) if trip.is_jam => End::Jam,
                 Some(_) => End::Stop,
             },
-            or_start: ends.0,
-            or_stop: ends.1,
+            or_start: other_end(|trip| trip.start),
+            or_stop: other_end(|trip| trip.stop),
             start_decision: trip.start.and_then(|_| decisions.start(pulse(0))),
             stop_decision: trip
                 .stop
                 .and_then(|_| decisions.stop(pulse(braking(trip, explanation)))),
         }
     });
-    (rows.collect(), undecided)
+    rows.collect()
+}
+
+/// The trip of the other explanation that differs in one end at most.
+fn other<'a>(doubt: &'a Doubt, trip: &explain::Trip) -> Option<&'a explain::Trip> {
+    doubt.instead.iter().find(|other| trip.is_like(other))
+}
+
+/// The stretches that are not decided: where another explanation has other trips, and where a change of speed fits
+/// none.
+pub(super) fn undecided(explanation: &Explanation, prior: &Prior) -> Vec<Undecided> {
+    let has_others = |doubt: &&Doubt| {
+        let is_new = |trip: &explain::Trip| !doubt.trips.iter().any(|other| other.is_like(trip));
+        doubt.trips.iter().any(|trip| other(doubt, trip).is_none())
+            || doubt.instead.iter().any(is_new)
+    };
+    let doubts = explanation
+        .doubts
+        .iter()
+        .filter(has_others)
+        .map(Undecided::of);
+    let pushes = events(explanation, prior).into_iter();
+    let pushes = pushes.filter(|it| it.what == What::Push && it.speed.abs() >= prior.least_speed);
+    let pushes = pushes.map(|event| Undecided {
+        from: event.from,
+        to: event.to,
+        either: Vec::new(),
+        or: Vec::new(),
+        log_odds: 0.0,
+    });
+    let mut undecided: Vec<Undecided> = doubts.chain(pushes).collect();
+    undecided.sort_by(|a, b| a.from.total_cmp(&b.from));
+    undecided
 }
 
 /// The change with the main braking: the first of those that end the motion.
@@ -178,23 +188,12 @@ fn direction(trip: &explain::Trip) -> Direction {
     }
 }
 
-/// Whether two trips differ at most in one of their ends.
-fn is_same(one: &explain::Trip, other: &explain::Trip) -> bool {
-    let ends = is_near(one.start, other.start) || is_near(one.stop, other.stop);
-    one.is_up == other.is_up && ends
-}
-
-fn is_near(one: Option<f64>, other: Option<f64>) -> bool {
-    match (one, other) {
-        (Some(one), Some(other)) => (one - other).abs() < SAME,
-        (None, None) => true,
-        _ => false,
-    }
-}
-
 impl Undecided {
     /// What the user can do about it, in brackets after a space.
     pub(super) fn remedy(&self) -> &'static str {
+        if self.either.is_empty() && self.or.is_empty() {
+            return " (record the whole ride, with rest before and after it)";
+        }
         let begins = |trips: &[Brief]| trips.iter().any(|trip| trip.start.is_none());
         if begins(&self.either) != begins(&self.or) {
             " (say how the record begins: --begins rest or --begins motion)"

@@ -100,6 +100,8 @@ pub struct Cut {
     pub seconds: f64,
     /// The ends of the stretches without holes, as places in the blocks.
     pub ends: Vec<usize>,
+    /// The step of the samples, m/s²; 0 if they are finer than their noise.
+    pub step: f64,
 }
 
 impl Cut {
@@ -122,6 +124,7 @@ impl Cut {
             blocks,
             seconds,
             ends,
+            step: step(samples),
         }
     }
 
@@ -136,13 +139,33 @@ impl Cut {
 
     /// The deviation of a block if their noise were white, m/s²: from second differences, which a ramp leaves alone.
     pub fn scatter(&self) -> f64 {
-        let bends = self.blocks.windows(3).map(|it| (it[0].mean - 2.0 * it[1].mean + it[2].mean).abs());
+        let bends = self
+            .blocks
+            .windows(3)
+            .map(|it| (it[0].mean - 2.0 * it[1].mean + it[2].mean).abs());
         1.4826 * median(bends.collect()) / 6f64.sqrt()
     }
 
     /// The blocks in a time, at least one.
     pub fn blocks_in(&self, seconds: f64) -> usize {
         ((seconds / self.seconds).round() as usize).max(1)
+    }
+}
+
+/// The least difference of successive samples, if it is no smaller than a tenth of their median difference: then
+/// they are steps.
+fn step(samples: &[Sample]) -> f64 {
+    let differences = samples
+        .windows(2)
+        .map(|pair| (pair[1].acceleration - pair[0].acceleration).abs());
+    let moves: Vec<f64> = differences
+        .filter(|difference| *difference > 1e-9)
+        .collect();
+    let least = moves.iter().copied().fold(f64::INFINITY, f64::min);
+    if least >= median(moves) / 10.0 && least.is_finite() {
+        least
+    } else {
+        0.0
     }
 }
 

@@ -65,7 +65,10 @@ pub const CREEP_SECOND: f64 = 0.2;
 pub const MOST_CREEP: f64 = 4.0;
 
 /// The cage goes through zero speed and on the other way without a stop.
-pub const TURN: f64 = 12.0;
+pub const TURN: f64 = 6.0;
+
+/// The cage gains speed again from where it crept.
+pub const RESTART: f64 = 6.0;
 
 /// The most a closing speed costs.
 const MOST_CLOSING: f64 = 20.0;
@@ -73,10 +76,12 @@ const MOST_CLOSING: f64 = 20.0;
 /// What rounding leaves of the speed at a stop, m/s.
 const ROUNDING: f64 = 0.015;
 
-/// No trip is shorter than this: m, s.
+/// No trip is shorter than this, m.
 const LEAST_DISTANCE: f64 = 0.5;
 /// Floors are hardly nearer to each other, m.
 const SHORT_DISTANCE: f64 = 2.0;
+
+/// Nor briefer, s.
 const LEAST_DURATION: f64 = 1.5;
 
 /// Faster lifts hardly exist, m/s.
@@ -130,10 +135,10 @@ impl Prior {
     /// A motion that is too slow, too short or too fast for a trip.
     pub fn implausible(&self, top: f64, distance: f64, seconds: f64) -> f64 {
         let slow = if top < self.least_speed { ABSURD } else { 0.0 };
-        let short = if distance.abs() < LEAST_DISTANCE {
-            8.0
-        } else {
-            0.0
+        let short = match distance.abs() {
+            ..LEAST_DISTANCE => 8.0,
+            ..SHORT_DISTANCE => 2.0,
+            _ => 0.0,
         };
         let brief = if seconds < LEAST_DURATION { 8.0 } else { 0.0 };
         slow + short + brief + (top - FASTEST).clamp(0.0, ABSURD)

@@ -48,7 +48,9 @@ impl Level {
         let per_window = record.blocks_in(WINDOW) as f64;
         let differences = means.windows(2).map(|pair| (pair[1] - pair[0]).abs());
         let white = 20.0 * record.scatter() / per_window.sqrt();
-        let width = (4.0 * median(differences.collect())).min(white).clamp(0.03, 0.3);
+        let width = (4.0 * median(differences.collect()))
+            .min(white)
+            .clamp(0.03, 0.3);
         let (path, cost) = path(&means, width, pull);
         let fine: Vec<f64> = (0..means.len())
             .map(|window| refined(&means, &path, width, window))

@@ -24,14 +24,20 @@ pub use cost::Prior;
 pub use lattice::{Lattice, Part};
 pub use level::Level;
 pub use pulse::{Levelled, Pulse};
-pub use reading::{Reading, Record, Trip};
+pub use reading::{Reading, Record, Trip, is_near};
 pub use trips::Motion;
+
+/// How strongly the level is pulled to the mean of the record; of these the better.
+const PULLS: [f64; 2] = [0.0, 1.0];
 
 /// A high-pass filter must explain a record better by this much.
 const HIGH_PASS: f64 = 4.0;
 
+/// And its pulses by this much.
+const SIMPLER: f64 = 2.0;
+
 /// What a high-pass filter leaves of a constant, m/s²: a record farther from zero has none.
-const NO_LEVEL: f64 = 0.1;
+const NO_LEVEL: f64 = 0.4;
 
 /// What a window off the level costs when filters are compared.
 const OFF_LEVEL: f64 = 0.5;
@@ -80,32 +86,47 @@ pub struct Doubt {
 impl Explanation {
     /// Explains a record.
     pub fn of(record: &Cut, prior: &Prior) -> Self {
-        let mut best = (f64::INFINITY, None, None);
-        for pull in [0.0, 1.0] {
-            let plain = Explained::of(record.clone(), prior, pull);
-            if plain.cost() < best.0 {
-                best = (plain.cost(), None, Some(plain));
-            }
-        }
-        let restored_prior = Prior {
+        let plain = PULLS.map(|pull| Explained::of(record.clone(), prior, pull));
+        let plain = plain
+            .into_iter()
+            .min_by(|a, b| a.cost().total_cmp(&b.cost()));
+        let plain = plain.expect("one for each pull");
+        let (high_pass, best) = match Self::restored(record, prior, &plain) {
+            Some((time_constant, restored)) => (Some(time_constant), restored),
+            None => (None, plain),
+        };
+        best.finish(high_pass, prior)
+    }
+
+    /// The best explanation behind a high-pass filter, where it is clearly better than the plain one.
+    fn restored(record: &Cut, prior: &Prior, plain: &Explained) -> Option<(f64, Explained)> {
+        let prior = Prior {
             gain_error: RESTORED_ERROR,
             ..*prior
         };
         let offsets = restore::offsets(record);
-        let offsets = offsets.into_iter().filter(|offset| offset.abs() < NO_LEVEL);
-        for offset in offsets {
-            for time_constant in restore::TIME_CONSTANTS {
+        let best_of = |time_constants: &[f64]| {
+            let pairs = offsets.iter().filter(|offset| offset.abs() < NO_LEVEL);
+            let pairs =
+                pairs.flat_map(|offset| time_constants.iter().map(move |it| (*it, *offset)));
+            let explained = pairs.map(|(time_constant, offset)| {
                 let restored = restore::restored(record, time_constant, offset);
-                let explained = Explained::of(restored, &restored_prior, 0.0);
-                let cost = explained.cost() + HIGH_PASS;
-                let has_trips = || !explained.reading(prior).trips.is_empty();
-                if cost < best.0 && has_trips() {
-                    best = (cost, Some(time_constant), Some(explained));
-                }
-            }
-        }
-        let (_, high_pass, explained) = best;
-        explained.expect("a cost is finite").finish(high_pass, prior)
+                (time_constant, Explained::of(restored, &prior, 0.0))
+            });
+            let better = explained.filter(|(_, it)| {
+                it.cost() + HIGH_PASS < plain.cost()
+                    && it.lattice.cost() + SIMPLER < plain.lattice.cost()
+                    && !it.reading(&prior).trips.is_empty()
+            });
+            better.min_by(|a, b| a.1.cost().total_cmp(&b.1.cost()))
+        };
+        let rough = best_of(&restore::TIME_CONSTANTS)?;
+        let finer = best_of(&restore::NEARBY.map(|factor| factor * rough.0));
+        Some(
+            finer
+                .filter(|finer| finer.1.cost() < rough.1.cost())
+                .unwrap_or(rough),
+        )
     }
 }
 

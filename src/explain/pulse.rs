@@ -10,6 +10,9 @@ const SMOOTHING: f64 = 0.3;
 /// How far a pulse reaches beyond the point where it falls into the noise, s.
 const FOOT: f64 = 0.3;
 
+/// A pulse shorter than this that touches a shock is part of it, s.
+const SHORT: f64 = 1.0;
+
 /// The smallest change of speed, m/s, and in deviations of what noise adds up to.
 const LEAST_CHANGE: f64 = 0.015;
 const LEAST_DEVIATIONS: f64 = 5.0;
@@ -17,8 +20,9 @@ const LEAST_DEVIATIONS: f64 = 5.0;
 /// What colour adds to the walk of white noise, at most as a factor.
 const MOST_COLOUR: f64 = 5.0;
 
-/// Uncertainty of the level, m/s².
+/// Uncertainty of the level, m/s², and what a step of the sensor adds to it, as a share.
 const LEVEL_ERROR: f64 = 0.004;
+const STEP_ERROR: f64 = 0.3;
 
 /// A pulse of acceleration.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,7 +123,10 @@ impl Levelled {
                     .count();
                 if length > 0 {
                     let core = block..block + length;
-                    let pulse = self.pulse(self.with_feet(core, &smoothed, taken..to, least), noise.walk);
+                    let pulse = self.pulse(
+                        self.with_feet(core, &smoothed, taken..to, least),
+                        noise.walk,
+                    );
                     taken = pulse.blocks.end;
                     let least = LEAST_CHANGE.max(LEAST_DEVIATIONS * pulse.deviation);
                     if pulse.change.abs() > least || pulse.peak > violent {
@@ -162,13 +169,14 @@ impl Levelled {
             self.cut.blocks[blocks.end - 1].to,
         );
         let seconds = to - from;
+        let level_error = LEVEL_ERROR.max(STEP_ERROR * self.cut.step);
         let peak = blocks
             .clone()
             .map(|block| self.off(block).abs())
             .fold(0.0, f64::max);
         Pulse {
             change: self.change(blocks.clone()),
-            deviation: (walk * walk * seconds + (LEVEL_ERROR * seconds).powi(2)).sqrt(),
+            deviation: (walk * walk * seconds + (level_error * seconds).powi(2)).sqrt(),
             blocks,
             from,
             to,
@@ -176,26 +184,26 @@ impl Levelled {
         }
     }
 
-    /// A shock and the pulses that touch it are one: what counts is the speed they leave.
+    /// A shock and the short pulses that touch it are one: what counts is the speed they leave.
     fn joined(&self, pulses: Vec<Pulse>, violent: f64, walk: f64) -> Vec<Pulse> {
+        let belong = |one: &Pulse, other: &Pulse| {
+            let part = |shock: &Pulse, pulse: &Pulse| {
+                shock.peak > violent && pulse.to - pulse.from < SHORT
+            };
+            let between = one.blocks.end..=other.blocks.start;
+            let is_hole = self.cut.ends.iter().any(|end| between.contains(end));
+            other.from - one.to < SMOOTHING && !is_hole && (part(one, other) || part(other, one))
+        };
         let mut joined: Vec<Pulse> = Vec::new();
         for pulse in pulses {
-            match joined.last_mut() {
-                Some(last)
-                    if last.peak.max(pulse.peak) > violent
-                        && pulse.from - last.to < SMOOTHING
-                        && !self
-                            .cut
-                            .ends
-                            .iter()
-                            .any(|hole| (last.blocks.end..=pulse.blocks.start).contains(hole)) =>
-                {
-                    *last = self.pulse(
-                        last.blocks.start..pulse.blocks.end.max(last.blocks.end),
-                        walk,
-                    );
+            joined.push(pulse);
+            while let [.., one, other] = &joined[..] {
+                if !belong(one, other) {
+                    break;
                 }
-                _ => joined.push(pulse),
+                let both = self.pulse(one.blocks.start..other.blocks.end, walk);
+                joined.truncate(joined.len() - 2);
+                joined.push(both);
             }
         }
         joined

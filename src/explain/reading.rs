@@ -69,11 +69,11 @@ impl Reading {
                 }
                 Part::Through(_) => {}
                 Part::Motion(motion) => {
-                    let trip = record.trip(motion);
-                    match reading.trips.last_mut() {
-                        Some(last) if is_joined && is_open => last.join(trip),
-                        _ => reading.trips.push(trip),
+                    let mut trips = record.trips(motion).into_iter();
+                    if let Some(last) = reading.trips.last_mut().filter(|_| is_joined && is_open) {
+                        trips.next().into_iter().for_each(|trip| last.join(trip));
                     }
+                    reading.trips.extend(trips);
                 }
             }
             is_joined = false;
@@ -83,7 +83,25 @@ impl Reading {
     }
 }
 
+/// Ends of trips that lie nearer than this are the same, s.
+const SAME: f64 = 0.5;
+
+/// Whether two ends of trips are the same, or both unknown.
+pub fn is_near(one: Option<f64>, other: Option<f64>) -> bool {
+    match (one, other) {
+        (Some(one), Some(other)) => (one - other).abs() < SAME,
+        (None, None) => true,
+        _ => false,
+    }
+}
+
 impl Trip {
+    /// Whether two trips differ at most in one of their ends.
+    pub fn is_like(&self, other: &Self) -> bool {
+        let is_near = is_near(self.start, other.start) || is_near(self.stop, other.stop);
+        self.is_up == other.is_up && is_near
+    }
+
     /// Adds what follows a hole.
     fn join(&mut self, later: Self) {
         self.speed = self.speed.max(later.speed);
@@ -97,12 +115,79 @@ impl Trip {
     }
 }
 
+/// Speeds of both signs beyond this share of the highest are two trips.
+const TURN: f64 = 0.2;
+
 /// The share of the highest speed at which a motion counts as uniform; below it, it levels.
 const FAST: f64 = 0.6;
 
 impl Record<'_> {
-    fn trip(&self, motion: &Motion) -> Trip {
-        let speeds = self.speeds(motion);
+    /// The trips of a motion: two where it goes through zero speed, since it stops there, however briefly.
+    fn trips(&self, motion: &Motion) -> Vec<Trip> {
+        let before = if motion.is_open.0 { motion.speed } else { 0.0 };
+        let speeds = self.speeds(motion, before);
+        let top = speeds.iter().map(|speed| speed.abs()).fold(0.0, f64::max);
+        let turns =
+            |pair: &[f64]| pair[0] * pair[1] < 0.0 && pair[0].abs().min(pair[1].abs()) > TURN * top;
+        let Some(turn) = speeds
+            .windows(2)
+            .position(turns)
+            .filter(|turn| turn + 1 < motion.changes.len())
+        else {
+            return vec![self.trip(motion, before)];
+        };
+        let pulse = motion.changes[turn];
+        let part = |changes: &[usize],
+                    is_open: (bool, bool),
+                    pulses: Range<usize>,
+                    top: f64,
+                    speed: f64| Motion {
+            changes: changes.to_vec(),
+            is_open,
+            pulses,
+            top,
+            speed,
+            ..motion.clone()
+        };
+        let first = part(
+            &motion.changes[..=turn],
+            (motion.is_open.0, false),
+            motion.pulses.start..pulse + 1,
+            speeds[turn],
+            motion.speed,
+        );
+        let second = part(
+            &motion.changes[turn..],
+            (false, motion.is_open.1),
+            pulse..motion.pulses.end,
+            speeds[turn + 1],
+            motion.speed,
+        );
+        let time = self.zero_of(&self.pulses[pulse], speeds[turn]);
+        let (mut first, mut second) = (self.trip(&first, before), self.trip(&second, speeds[turn]));
+        (first.stop, second.start) = (Some(time), Some(time));
+        vec![first, second]
+    }
+
+    /// When the speed, before a pulse so much, is zero in it.
+    fn zero_of(&self, pulse: &Pulse, before: f64) -> f64 {
+        let mut speed = before;
+        for block in pulse.blocks.clone() {
+            speed += self.levelled.change(block..block + 1);
+            if speed * before <= 0.0 {
+                return self.levelled.cut.blocks[block].to;
+            }
+        }
+        pulse.to
+    }
+
+    /// The trip of a motion that has the speed `before` at first; what has another sign than its own does not count.
+    fn trip(&self, motion: &Motion, before: f64) -> Trip {
+        let mut speeds = self.speeds(motion, before);
+        speeds
+            .iter_mut()
+            .filter(|speed| **speed * motion.top < 0.0)
+            .for_each(|speed| *speed = 0.0);
         // speeds[i] is the speed before change i.
         let top = speeds.iter().map(|speed| speed.abs()).fold(0.0, f64::max);
         let is_fast = |speed: &f64| speed.abs() >= FAST * top;
@@ -130,8 +215,8 @@ impl Record<'_> {
     }
 
     /// The speeds before each change, and after the last, m/s.
-    fn speeds(&self, motion: &Motion) -> Vec<f64> {
-        let mut speed = if motion.is_open.0 { motion.speed } else { 0.0 };
+    fn speeds(&self, motion: &Motion, before: f64) -> Vec<f64> {
+        let mut speed = before;
         let mut speeds = vec![speed];
         speeds.extend(motion.changes.iter().map(|pulse| {
             speed += self.pulses[*pulse].change;

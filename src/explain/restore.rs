@@ -11,6 +11,9 @@ pub const TIME_CONSTANTS: [f64; 15] = [
     16.0, 11.0, 8.0, 5.6, 4.0, 2.8, 2.0, 1.4, 1.0, 0.8, 0.65, 0.54, 0.45, 0.36, 0.3,
 ];
 
+/// Factors of the best of them, tried in turn.
+pub const NEARBY: [f64; 4] = [0.85, 0.92, 1.08, 1.17];
+
 /// Length of a window, s.
 const WINDOW: f64 = 0.5;
 

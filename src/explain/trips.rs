@@ -15,6 +15,9 @@ const WIDTH: usize = 24;
 /// A motion costs at most this much more than no motion before it is given up.
 const HOPELESS: f64 = 24.0;
 
+/// The share of its top speed to which a motion that crept gains speed again.
+const RESTARTED: f64 = 0.3;
+
 /// The most pulses in a disturbance, the longest pause in it and the longest of its pulses, s, and how far it
 /// carries the sensor, m.
 const MOST_IN_DISTURBANCE: usize = 24;
@@ -77,6 +80,8 @@ struct Progress {
     since: f64,
     distance: f64,
     creeps: bool,
+    /// Whether it does so at hardly any speed.
+    is_slow: bool,
     /// The latest change, in the list of all.
     latest: usize,
 }
@@ -206,6 +211,7 @@ impl<'a> Stretch<'a> {
             since: pulse.to,
             distance: pulse.change * (pulse.to - pulse.from) / 2.0,
             creeps: false,
+            is_slow: false,
             latest: 0,
         })
     }
@@ -227,7 +233,9 @@ impl<'a> Stretch<'a> {
         }
         changed.top = changed.top.max(changed.speed.abs());
         changed.cost += creeping(motion, self.pulses[pulses.start].from);
-        if total * motion.speed > 0.0 {
+        if motion.is_slow && changed.speed.abs() > RESTARTED * changed.top {
+            changed.cost += cost::RESTART;
+        } else if total * motion.speed > 0.0 {
             changed.cost += cost::acceleration_stage(pause);
         }
         if self.is_half(pulses.end) {
@@ -273,6 +281,7 @@ impl<'a> Stretch<'a> {
         Progress {
             cost: changed.cost + cost,
             creeps: is_slow || (is_braking && cost > cost::RIPPLE),
+            is_slow,
             ..changed
         }
     }
