@@ -51,6 +51,9 @@ use watched::Watched;
 /// Records in a block. A record takes tens of milliseconds.
 const BLOCK: u64 = 4;
 
+/// The classes with the least and the largest value, as parts of the names of quantities.
+const EXTREMES: [(&str, fn(f64, f64) -> f64); 2] = [("least", f64::min), ("most", f64::max)];
+
 /// Records of several classes.
 pub(super) struct Records {
     context: Context,
@@ -127,7 +130,7 @@ impl Study for Records {
         rows
     }
 
-    /// Each outcome by its name and that of its class.
+    /// Each outcome by its name and that of its class; and its least and largest, where it could happen.
     fn quantities(&self, rows: &[Row]) -> Result<Vec<Quantity>, StudyError> {
         let quantity = |row: &Row| Quantity {
             name: format!("{}_{}", row.outcome, row.class),
@@ -135,7 +138,30 @@ impl Study for Records {
             low: row.low,
             high: row.high,
         };
-        Ok(rows.iter().map(quantity).collect())
+        let mut quantities: Vec<Quantity> = rows.iter().map(quantity).collect();
+        let outcomes = rows.iter().filter(|row| row.class == rows[0].class);
+        for outcome in outcomes.map(|row| &row.outcome) {
+            let of = |row: &&Row| row.outcome == *outcome && row.exposure > 0.0;
+            let all = || rows.iter().filter(of);
+            for (name, pick) in EXTREMES {
+                // An end of the interval of the extreme is the extreme of the ends.
+                let extreme = |number: fn(&Row) -> f64| all().map(number).reduce(pick);
+                if let (Some(value), Some(low), Some(high)) = (
+                    extreme(|row| row.estimate),
+                    extreme(|row| row.low),
+                    extreme(|row| row.high),
+                ) {
+                    let name = format!("{outcome}_{name}");
+                    quantities.push(Quantity {
+                        name,
+                        value,
+                        low,
+                        high,
+                    });
+                }
+            }
+        }
+        Ok(quantities)
     }
 
     fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
