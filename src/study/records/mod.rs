@@ -141,11 +141,15 @@ impl Study for Records {
         let mut quantities: Vec<Quantity> = rows.iter().map(quantity).collect();
         let outcomes = rows.iter().filter(|row| row.class == rows[0].class);
         for outcome in outcomes.map(|row| &row.outcome) {
-            let of = |row: &&Row| row.outcome == *outcome && row.exposure > 0.0;
-            let all = || rows.iter().filter(of);
+            let mut of: Vec<&Row> = rows.iter().filter(|row| row.outcome == *outcome).collect();
+            // Before anything is counted, claims are checked for their names.
+            if of.iter().any(|row| row.exposure > 0.0) {
+                of.retain(|row| row.exposure > 0.0);
+            }
             for (name, pick) in EXTREMES {
                 // An end of the interval of the extreme is the extreme of the ends.
-                let extreme = |number: fn(&Row) -> f64| all().map(number).reduce(pick);
+                let extreme =
+                    |number: fn(&Row) -> f64| of.iter().map(|row| number(row)).reduce(pick);
                 if let (Some(value), Some(low), Some(high)) = (
                     extreme(|row| row.estimate),
                     extreme(|row| row.low),
