@@ -51,8 +51,11 @@ use watched::Watched;
 /// Records in a block. A record takes tens of milliseconds.
 const BLOCK: u64 = 4;
 
-/// The classes with the least and the largest value, as parts of the names of quantities.
-const EXTREMES: [(&str, fn(f64, f64) -> f64); 2] = [("least", f64::min), ("most", f64::max)];
+/// Which of two numbers.
+type Pick = fn(f64, f64) -> f64;
+
+/// The least and the largest of the classes, as parts of the names of quantities.
+const EXTREMES: [(&str, Pick); 2] = [("least", f64::min), ("most", f64::max)];
 
 /// Records of several classes.
 pub(super) struct Records {
