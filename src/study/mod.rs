@@ -7,12 +7,14 @@
 
 mod any;
 pub(crate) mod autocorrelation;
+mod estimate;
 pub(crate) mod impulse_law;
 pub(crate) mod independence;
 mod kind;
 pub(crate) mod layout;
 mod loaded;
 pub(crate) mod operating_point;
+pub mod records;
 pub mod reference;
 pub(crate) mod region;
 pub mod ride;
@@ -42,6 +44,7 @@ pub const STUDIES: &[Entry] = &[
     Entry::of::<impulse_law::ImpulseLaw>(),
     Entry::of::<operating_point::OperatingPoint>(),
     Entry::of::<ride::Rides>(),
+    Entry::of::<records::Records>(),
 ];
 
 /// An entry of the list of studies.

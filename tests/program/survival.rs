@@ -39,13 +39,15 @@ test = { grows = { curves = ["laplace"] } }
 "#;
 
 /// One small config of each study that counts trials, except sweeps.
-pub const STUDIES: [&str; 4] = [
+pub const STUDIES: [&str; 5] = [
     "question = \"?\"\nseed = 3\ntrials = 400\n[autocorrelation]\nlags = 5\nlength = 300\n",
     "question = \"?\"\nseed = 3\ntrials = 9000\n[impulse_law]\nnu = [0.1, 0.3]\nlength = 20\n",
     "question = \"?\"\nseed = 3\ntrials = 5000\n[detector]\nalpha = 0.05\n[operating_point]\n\
      sizes = [6, 8]\npower = [0.5, 0.8]\ndelta = { from = 0.0, to = 3.2 }\n",
     "question = \"?\"\nseed = 3\ntrials = 24\n[ride]\nmeasure = \"tradeoff\"\nlength = 60\n\
      rest = [15, 20]\ntrips = 1\n[ride.axis]\ndelta_over_sigma = [1, 16]\n",
+    "question = \"?\"\nseed = 3\ntrials = 24\n[records]\nwatch = \"monitor\"\n\
+     class = [\"drum\", \"express\"]\n",
 ];
 
 /// A directory with a config.

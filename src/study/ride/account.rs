@@ -5,7 +5,7 @@ use crate::monitor::{Alarm, Direction, Event, Kind, State};
 use crate::signal::Phase;
 
 /// The true motion.
-pub(super) struct Truth {
+pub struct Truth {
     pub journeys: Vec<Journey>,
     /// When the record ends, s.
     pub to: f64,
@@ -13,7 +13,7 @@ pub(super) struct Truth {
 
 /// The result of a trial, or of several.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Account {
+pub struct Account {
     pub trips: Vec<Trip>,
     /// Starts that the monitor reported while the cage stood, for a time when the cage stood.
     pub false_motions: u64,
@@ -31,7 +31,7 @@ pub(super) struct Account {
 
 /// The monitor's reports on one trip. Delays are in s; a missing report has an infinite delay.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Trip {
+pub struct Trip {
     /// Whether start, stop and direction are correct.
     pub is_found: bool,
     /// Time from the start to its report.

@@ -21,7 +21,7 @@
 //!
 //! An event that was never reported has an infinite delay. A quantile above the reported share is infinite.
 
-mod account;
+pub(super) mod account;
 mod estimate;
 mod keys;
 mod measure;

@@ -1,9 +1,9 @@
 //! One row of `points.csv`: an outcome at a point.
 
-use super::estimate::Estimate;
 use super::point::RidePoint;
 use super::table::RideTable;
 use crate::results::eight_digits;
+use crate::study::estimate::Estimate;
 use crate::study::kind::Context;
 use crate::whiten::Order;
 use serde::{Deserialize, Serialize};

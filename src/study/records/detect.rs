@@ -1,0 +1,127 @@
+//! A record shown to the detector, which knows all of it before it says anything.
+
+use crate::detection::Detection;
+use crate::lift::{Journey, Record};
+use crate::monitor::{Design, Direction, Knowledge};
+use crate::signal::recording::Sample;
+use std::convert::Infallible;
+
+/// What a detector says of a record. Times in s.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outcome {
+    /// Each trip; an end outside the record is none.
+    pub trips: Vec<Found>,
+    /// Stretches of which it says that it cannot decide.
+    pub undecided: Vec<(f64, f64)>,
+}
+
+/// A trip that was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Found {
+    pub start: Option<f64>,
+    pub stop: Option<f64>,
+    pub direction: Direction,
+}
+
+/// Detects the trips of a record.
+pub fn detect(design: &Design, record: &Record) -> Outcome {
+    let samples = || {
+        let pairs = record.times.iter().zip(&record.acceleration);
+        pairs.map(|(&time, &acceleration)| Ok::<_, Infallible>(Sample { time, acceleration }))
+    };
+    let Ok(learnt) = Knowledge::from_record(design, || Ok(samples()));
+    let Ok(knowledge) = learnt else {
+        return Outcome::default();
+    };
+    let Ok(detection) = Detection::of(design, knowledge, samples());
+    let found = detection.trips.iter().map(|trip| Found {
+        start: Some(trip.start),
+        stop: trip.stop,
+        direction: trip.direction,
+    });
+    Outcome {
+        trips: found.collect(),
+        undecided: Vec::new(),
+    }
+}
+
+/// How the trips of one record, or of several, were told. Each true trip is one of the first four.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Told {
+    /// In the right direction, start and stop within the tolerance.
+    pub found: u64,
+    /// Said to be undecided, in part at least.
+    pub undecided: u64,
+    /// In the right direction, but start or stop are wrong.
+    pub misplaced: u64,
+    /// Not at all, or in the wrong direction only.
+    pub missed: u64,
+    /// Trips told where none went in that direction.
+    pub false_trips: u64,
+}
+
+impl Told {
+    /// Compares what a detector says with the truth. Trips of which the record holds less than the least speed are
+    /// left out; of the others, ends outside the record need not be told.
+    pub fn new(record: &Record, outcome: &Outcome, least_speed: f64, tolerance: f64) -> Self {
+        let mut told = Self::default();
+        let shown = |trip: &&Journey| top_speed_within(record, trip) >= least_speed;
+        for trip in record.journeys.iter().filter(shown) {
+            let along = |found: &&Found| found.is_along(trip);
+            let mut found = outcome.trips.iter().filter(along);
+            let is_undecided = |&(from, to): &(f64, f64)| from < trip.stop && trip.start < to;
+            let count = if found
+                .clone()
+                .any(|found| found.fits(trip, record, tolerance))
+            {
+                &mut told.found
+            } else if outcome.undecided.iter().any(is_undecided) {
+                &mut told.undecided
+            } else if found.next().is_some() {
+                &mut told.misplaced
+            } else {
+                &mut told.missed
+            };
+            *count += 1;
+        }
+        let is_false = |found: &&Found| !record.journeys.iter().any(|trip| found.is_along(trip));
+        told.false_trips = outcome.trips.iter().filter(is_false).count() as u64;
+        told
+    }
+
+    /// All true trips.
+    pub fn trips(&self) -> u64 {
+        self.found + self.undecided + self.misplaced + self.missed
+    }
+}
+
+impl Found {
+    /// Whether it shares a moment and the direction with a trip.
+    fn is_along(&self, trip: &Journey) -> bool {
+        let (start, stop) = (self.start, self.stop);
+        self.direction == Direction::of(f64::from(trip.direction))
+            && start.unwrap_or(f64::NEG_INFINITY) < trip.stop
+            && trip.start < stop.unwrap_or(f64::INFINITY)
+    }
+
+    fn fits(&self, trip: &Journey, record: &Record, tolerance: f64) -> bool {
+        let is_near = |said: Option<f64>, time: f64| match said {
+            _ if !is_within(record, time) => true,
+            Some(said) => (said - time).abs() <= tolerance,
+            None => false,
+        };
+        is_near(self.start, trip.start) && is_near(self.stop, trip.stop)
+    }
+}
+
+fn is_within(record: &Record, time: f64) -> bool {
+    let ends = record.times.first().zip(record.times.last());
+    ends.is_some_and(|(first, last)| (*first..=*last).contains(&time))
+}
+
+fn top_speed_within(record: &Record, trip: &Journey) -> f64 {
+    let speeds = record.times.iter().zip(&record.speed);
+    speeds
+        .filter(|(time, _)| (trip.start..=trip.stop).contains(*time))
+        .fold(0.0, |top, (_, speed)| top.max(speed.abs()))
+}

@@ -1,0 +1,157 @@
+//! The sums of the records of a class, and what follows from them.
+
+use super::detect::Told;
+use super::table::Watch;
+use super::watched::Watched;
+use crate::counts::{Fixed, Shape, Sums, Values};
+use crate::rule::{OutOfRange, Rule};
+use crate::stats::tally::Tally;
+use crate::study::estimate::{Estimate, delays, rate, share};
+
+/// The most trips in a record.
+const MOST_TRIPS: u64 = 4;
+
+const HOUR: f64 = 3600.0;
+
+impl Watch {
+    /// The sums of a record.
+    pub fn shape(self) -> Shape {
+        let (one, trips) = (Some(1), Some(MOST_TRIPS));
+        match self {
+            Self::Detect => Shape {
+                most: vec![trips, trips, trips, trips, None, one],
+                ..Shape::default()
+            },
+            Self::Monitor => Shape {
+                most: vec![None, one, trips, trips, None, None, one],
+                lengths: 2,
+                values: vec![MOST_TRIPS; 2],
+            },
+        }
+    }
+
+    /// Checks that records can give these sums.
+    ///
+    /// # Errors
+    /// If none can.
+    pub fn check(self, sums: &Sums) -> Result<(), OutOfRange> {
+        let counts: Vec<f64> = sums.counts.iter().map(|count| *count as f64).collect();
+        let within = |name, part: f64, most: f64| Rule::Within(0.0, most, "").check(name, &part);
+        match self {
+            Self::Detect => within("false_records", counts[5], counts[4]),
+            Self::Monitor => {
+                let [starts, stops] = [0, 1].map(|at| sums.values[at].count(|_| true));
+                let [stood, known] = [0, 1].map(|at| sums.lengths[at].value());
+                within("records of rest_in_motion", counts[1], counts[0])?;
+                within("slack_missed", counts[3], counts[2])?;
+                within("false_records", counts[6], counts[5])?;
+                // A stretch of `rest` ends between two samples.
+                within("known", known, 1.1 * stood + 1.0)?;
+                let (starts, stops) = (starts as f64, stops as f64);
+                Rule::Within(starts, starts, "").check("stop_delays", &stops)
+            }
+        }
+    }
+
+    /// The outcomes of so many records.
+    pub fn estimates(self, sums: &Sums, records: u64, confidence: f64) -> Vec<Estimate> {
+        let tally = |hits, trials| Tally { hits, trials };
+        let of_records = |name, hits| share(name, tally(hits, records), "records", confidence);
+        let counts = &sums.counts;
+        match self {
+            Self::Detect => {
+                let trips = counts[..4].iter().sum();
+                let of_trips =
+                    |name, at: usize| share(name, tally(counts[at], trips), "trips", confidence);
+                vec![
+                    of_trips("found", 0),
+                    of_trips("undecided", 1),
+                    of_trips("misplaced", 2),
+                    of_trips("missed_silently", 3),
+                    rate(
+                        "false_trips",
+                        counts[4],
+                        records as f64,
+                        "records",
+                        confidence,
+                    ),
+                    of_records("false_records", counts[5]),
+                ]
+            }
+            Self::Monitor => {
+                let [stood, known] = [0, 1].map(|at| sums.lengths[at].value() / HOUR);
+                let slack = tally(counts[3], counts[2]);
+                let mut estimates = vec![
+                    of_records("rest_in_motion", counts[1]),
+                    plain("rest_in_motion_ms", counts[0], records as f64, "records"),
+                    share("slack_missed", slack, "turns of the drum", confidence),
+                    rate(
+                        "false_slack",
+                        counts[4],
+                        records as f64,
+                        "records",
+                        confidence,
+                    ),
+                    rate("false_rides", counts[5], stood, "hours", confidence),
+                    of_records("false_records", counts[6]),
+                    Estimate {
+                        value: if stood > 0.0 { known / stood } else { 0.0 },
+                        ..plain("known", 0, stood, "hours")
+                    },
+                ];
+                estimates.extend(delays("start_delay", &sums.values[0], confidence));
+                estimates.extend(delays("stop_delay", &sums.values[1], confidence));
+                estimates
+            }
+        }
+    }
+}
+
+/// A mean without an interval.
+fn plain(outcome: &str, count: u64, exposure: f64, unit: &'static str) -> Estimate {
+    Estimate {
+        outcome: outcome.to_owned(),
+        count,
+        exposure,
+        unit,
+        value: count as f64 / exposure,
+        low: f64::NEG_INFINITY,
+        high: f64::INFINITY,
+    }
+}
+
+impl From<Told> for Sums {
+    fn from(told: Told) -> Self {
+        Self::of(&[
+            told.found,
+            told.undecided,
+            told.misplaced,
+            told.missed,
+            told.false_trips,
+            u64::from(told.false_trips > 0),
+        ])
+    }
+}
+
+impl From<Watched> for Sums {
+    fn from(watched: Watched) -> Self {
+        let values = [&watched.start_delays, &watched.stop_delays].map(|delays| {
+            let mut values = Values::default();
+            delays.iter().for_each(|delay| values.push(*delay));
+            values
+        });
+        Self {
+            counts: vec![
+                watched.rest_in_motion,
+                u64::from(watched.rest_in_motion > 0),
+                watched.slack_owed,
+                watched.slack_missed,
+                watched.false_slack,
+                watched.false_rides,
+                u64::from(watched.false_rides > 0),
+            ],
+            lengths: vec![Fixed::new(watched.stood), Fixed::new(watched.known)],
+            values: values.into(),
+        }
+    }
+}
