@@ -1,10 +1,9 @@
 //! A record shown to the detector, which knows all of it before it says anything.
 
-use crate::detection::Detection;
+use crate::detection::{Detection, What};
 use crate::lift::{Journey, Record};
-use crate::monitor::{Design, Direction, Knowledge};
+use crate::monitor::{Design, Direction};
 use crate::signal::recording::Sample;
-use std::convert::Infallible;
 
 /// What a detector says of a record. Times in s.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -25,23 +24,30 @@ pub struct Found {
 
 /// Detects the trips of a record.
 pub fn detect(design: &Design, record: &Record) -> Outcome {
-    let samples = || {
-        let pairs = record.times.iter().zip(&record.acceleration);
-        pairs.map(|(&time, &acceleration)| Ok::<_, Infallible>(Sample { time, acceleration }))
-    };
-    let Ok(learnt) = Knowledge::from_record(design, || Ok(samples()));
-    let Ok(knowledge) = learnt else {
-        return Outcome::default();
-    };
-    let Ok(detection) = Detection::of(design, knowledge, samples());
-    let found = detection.trips.iter().map(|trip| Found {
-        start: Some(trip.start),
-        stop: trip.stop,
-        direction: trip.direction,
-    });
+    let readings = record.times.iter().zip(&record.acceleration);
+    let samples = readings.map(|(&time, &acceleration)| Sample { time, acceleration });
+    let detection = Detection::of(design, &samples.collect::<Vec<_>>(), None, None);
+    let (first, last) = ends(record);
+    let doubted = detection
+        .trips
+        .iter()
+        .filter(|trip| trip.or_start.or(trip.or_stop).is_some());
+    let doubted = doubted.map(|trip| (trip.start.unwrap_or(first), trip.stop.unwrap_or(last)));
+    let undecided = detection.undecided.iter().map(|it| (it.from, it.to));
+    let slow = detection
+        .events
+        .iter()
+        .filter(|event| event.what == What::SlowMotion);
+    let slow = slow.map(|event| (event.from, event.to));
     Outcome {
-        trips: found.collect(),
-        undecided: Vec::new(),
+        trips: (detection.trips.iter())
+            .map(|trip| Found {
+                start: trip.start,
+                stop: trip.stop,
+                direction: trip.direction,
+            })
+            .collect(),
+        undecided: undecided.chain(doubted).chain(slow).collect(),
     }
 }
 
@@ -106,17 +112,38 @@ impl Found {
 
     fn fits(&self, trip: &Journey, record: &Record, tolerance: f64) -> bool {
         let is_near = |said: Option<f64>, time: f64| match said {
-            _ if !is_within(record, time) => true,
-            Some(said) => (said - time).abs() <= tolerance,
-            None => false,
+            Some(said) if is_recorded(record, time) => (said - time).abs() <= tolerance,
+            None if is_recorded(record, time) => false,
+            _ => true,
         };
         is_near(self.start, trip.start) && is_near(self.stop, trip.stop)
     }
 }
 
-fn is_within(record: &Record, time: f64) -> bool {
+/// A pulse that a hole cuts off within this time of an end shows nothing of that end, s.
+const CUT_OFF: f64 = 0.6;
+
+/// Whether the record shows the time: not outside it, and not in or at the edge of a hole.
+fn is_recorded(record: &Record, time: f64) -> bool {
+    let (first, last) = ends(record);
+    let longest = 0.25f64.max(3.0 / record.rate);
+    let around = record
+        .times
+        .partition_point(|other| *other < time - CUT_OFF)
+        ..record
+            .times
+            .partition_point(|other| *other <= time + CUT_OFF);
+    let near = record.times
+        [around.start.saturating_sub(1)..(around.end + 1).min(record.times.len())]
+        .windows(2);
+    let has_hole = near.into_iter().any(|pair| pair[1] - pair[0] > longest);
+    (first..=last).contains(&time) && !has_hole
+}
+
+/// The times of the first and the last sample, s.
+fn ends(record: &Record) -> (f64, f64) {
     let ends = record.times.first().zip(record.times.last());
-    ends.is_some_and(|(first, last)| (*first..=*last).contains(&time))
+    ends.map_or((0.0, 0.0), |(first, last)| (*first, *last))
 }
 
 fn top_speed_within(record: &Record, trip: &Journey) -> f64 {
