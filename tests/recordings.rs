@@ -7,7 +7,7 @@
 
 use liftsim::detection::{Detection, End, Trip};
 use liftsim::monitor::{Direction, Event, Knowledge, Monitor, Settings, State};
-use liftsim::signal::recording::{Reading, Recording, Sample};
+use liftsim::recording::{Reading, Recording, Sample};
 use liftsim::signal::{
     Digitiser, Drive, Ending, Journey, Law, Noise, Pickup, Ride as Simulation, Sensor,
     Trip as SimulatedTrip,
@@ -125,11 +125,10 @@ fn stated(folder: &Path, line: &str) -> Option<Known> {
     });
     let recording = Recording::open(&folder.join(name), &Reading::default());
     let recording = recording.unwrap_or_else(|error| panic!("{error}"));
-    let samples = recording.samples().and_then(Iterator::collect);
     Some(Known {
         name: name.to_owned(),
         rate: recording.rate(),
-        samples: samples.unwrap_or_else(|error| panic!("{error}")),
+        samples: recording.samples().to_vec(),
         trips: trips.collect(),
         is_adverse: cells[3].starts_with("adverse"),
     })

@@ -11,7 +11,8 @@ use indicatif::ProgressBar;
 use liftsim::detection::{DetectReport, Detection};
 use liftsim::figure::{self, FigureError};
 use liftsim::monitor::{Design, Knowledge, SavedState};
-use liftsim::signal::recording::{Reading, Recording, Sample};
+use liftsim::recording::{Reading, Recording, Sample};
+use std::convert::Infallible;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -69,12 +70,10 @@ impl Detect {
         let passes = if setup.saved.is_some() { 1 } else { 3 };
         let bar = progress::passes(passes * recording.facts().samples, !quiet);
         let (saved, design) = self.learn(setup, &recording, &bar)?;
-        let first = first_sample(&recording)?;
-        let samples = recording.samples().map_err(Failure::input)?;
-        let samples = progress::seen(samples, &bar);
-        let detection = Detection::of(&design, saved.knowledge_of(&first), samples);
+        let samples = progress::seen(all(&recording), &bar);
+        let knowledge = saved.knowledge_of(&recording.samples()[0]);
+        let Ok(detection) = Detection::of(&design, knowledge, samples);
         bar.finish_and_clear();
-        let detection = detection.map_err(Failure::input)?;
         for warning in detection.warnings(recording.rate()) {
             warn(warning);
         }
@@ -130,9 +129,9 @@ impl Detect {
         let (settings, rate) = (setup.config.settings, recording.rate());
         let design = settings.at(rate);
         let design = design.map_err(|error| self.refused(error.into()))?;
-        let pass = || Ok(progress::seen(recording.samples()?, bar));
-        let learnt = Knowledge::from_record(&design, pass).map_err(Failure::input)?;
-        let first = first_sample(recording)?;
+        let pass = || Ok(progress::seen(all(recording), bar));
+        let Ok(learnt) = Knowledge::from_record(&design, pass);
+        let first = recording.samples()[0];
         let saved = SavedState {
             knowledge: learnt.map_err(|error| self.refused(error.into()))?,
             settings,
@@ -182,8 +181,7 @@ impl Detect {
     }
 }
 
-fn first_sample(recording: &Recording) -> Result<Sample, Failure> {
-    let mut samples = recording.samples().map_err(Failure::input)?;
-    let first = samples.next().expect("a recording has samples");
-    first.map_err(Failure::input)
+/// The samples, of which none fails.
+fn all(recording: &Recording) -> impl Iterator<Item = Result<Sample, Infallible>> {
+    recording.samples().iter().copied().map(Ok)
 }

@@ -5,7 +5,7 @@ use super::{CommandResult, Failure, print_to, warn};
 use anyhow::{Context, anyhow};
 use clap::{Args, ValueEnum};
 use liftsim::monitor::{Event, Knowledge, Monitor, SavedState};
-use liftsim::signal::recording::{LineError, LineReader, LineReading, Sample};
+use liftsim::recording::{LineReader, LineReading, Sample};
 use std::io::{self, BufReader};
 use std::iter;
 use std::process::ExitCode;
@@ -71,9 +71,9 @@ impl MonitorCommand {
         let input = BufReader::with_capacity(1 << 16, io::stdin().lock());
         let mut readings = Readings {
             lines: if self.expected_moving {
-                LineReader::with_drum(input)
+                LineReader::with_drum(input, &config.reading)
             } else {
-                LineReader::new(input)
+                LineReader::new(input, &config.reading)
             },
             rate: None,
             last: None,
@@ -194,7 +194,7 @@ impl<R: io::BufRead> Readings<R> {
                     Ok(sample) => return Ok(Some((sample, reading.drum_turns))),
                     Err(refusal) => refusal,
                 },
-                Err(error @ LineError::Io { .. }) => return Err(Failure::run(error)),
+                Err(error) if error.is_io() => return Err(Failure::run(error)),
                 Err(error) => anyhow::Error::from(error),
             };
             if !self.keeps_going {

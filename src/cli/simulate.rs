@@ -5,7 +5,7 @@ use super::{CommandResult, Failure, print};
 use anyhow::{Context, anyhow};
 use clap::Args;
 use liftsim::config;
-use liftsim::signal::recording::GRAVITY;
+use liftsim::recording::GRAVITY;
 use liftsim::signal::{
     Digitiser, Drive, Ending, ExportLayout, Pickup, Ride, Trip, write_phyphox, write_truth,
 };

@@ -18,7 +18,7 @@ pub use trace::{Column, Trace};
 pub use trip::{End, Trip};
 
 use crate::monitor::{Design, Event, Knowledge, Monitor};
-use crate::signal::recording::Sample;
+use crate::recording::Sample;
 
 /// The result of a detection.
 #[derive(Clone, Debug)]

@@ -13,8 +13,8 @@ use super::pulse::is_level;
 use super::reference::Reference;
 use super::settings::{LEAST_TRAINING, MOST_ORDER};
 use super::{Knowledge, Monitor};
+use crate::recording::Sample;
 use crate::signal::Phase;
-use crate::signal::recording::Sample;
 
 /// Length of a window, s.
 const WINDOW: f64 = 0.5;

@@ -1,7 +1,7 @@
 //! The saved state of a monitor, as written by `detect --save-state`.
 
 use super::{Design, Knowledge, MOST_ORDER, STRONGEST, Settings, SettingsError};
-use crate::signal::recording::Sample;
+use crate::recording::Sample;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::{self, Read};

@@ -1,7 +1,7 @@
 //! The record of an accelerometer in a cage: r = x + Δ + λ, eqs (1)–(8) of [^1].
 //!
-//! The unit is σ_ξ, the standard deviation of the white noise that drives the sensor. Only a [`Ride`] and a
-//! [`recording`] are in m/s² and s; a ride's [`Pickup`] gives σ_ξ in m/s².
+//! The unit is σ_ξ, the standard deviation of the white noise that drives the sensor. Only a [`Ride`] is in m/s²
+//! and s; its [`Pickup`] gives σ_ξ in m/s².
 //!
 //! [^1]: M. A. Raifeld, "Distinguishing the motion/stop states of a lift from accelerometer
 //! signals", Avtometriya (in Russian), received 25 November 2013.
@@ -14,7 +14,6 @@ mod impulses;
 mod motion;
 mod noise;
 mod phase;
-pub mod recording;
 mod ride;
 mod sensor;
 

@@ -4,9 +4,9 @@ use super::account::{Account, Truth};
 use super::measure::Measure;
 use super::point::RidePoint;
 use crate::monitor::{Design, Event, Knowledge, Monitor};
+use crate::recording::Sample;
 use crate::rng::Stream;
 use crate::signal::Ride;
-use crate::signal::recording::Sample;
 use rand::Rng;
 
 /// A point, ready for trials.
