@@ -18,8 +18,9 @@ use std::process::ExitCode;
 
 /// Find the rides in a recording: when each started and stopped, where it went, and by what decisions.
 ///
-/// RECORDING is CSV as phyphox, Science Journal or Sensor Logger write it, or any table with a column of times and
-/// one of acceleration, also in a zip archive. What rest is like is learnt from the recording
+/// RECORDING is a table as phyphox, Science Journal, Sensor Logger, Physics Toolbox, Xsens, Witmotion, Campbell
+/// loggers or an Arduino write it, or any with a column of times and one of acceleration; also in a zip archive,
+/// a workbook or JSON. What rest is like is learnt from the recording
 /// itself: the level, the whitening filter, and the sample X that every decision compares with. So
 /// there must be a few seconds of rest in it.
 ///

@@ -127,10 +127,10 @@ impl Clock {
         }
         // Midnight.
         if !stamp.has_date && moment < self.last_text - DAY / 2 {
-            self.added_text += DAY;
+            self.added_text = self.added_text.saturating_add(DAY);
         }
         self.last_text = moment;
-        (moment - self.text_origin + self.added_text) as f64 / 1e9
+        (moment - self.text_origin).saturating_add(self.added_text) as f64 / 1e9
     }
 }
 

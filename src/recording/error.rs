@@ -88,15 +88,15 @@ pub enum RecordingProblem {
     },
     /// A stream of several axes.
     #[error(
-        "a stream must have one acceleration, got several axes (choose one: axis = \"z\" under [recording] in \
-         --config, or send two columns, `cut -d, -f1,4`)"
+        "a stream must have one acceleration, got several axes (choose one: --axis x, y or z, or \
+         --acceleration COLUMN)"
     )]
     StreamOfAxes,
     /// A cell for the drum.
     #[error("must end with a cell for the drum, 0 or 1, got \"{0}\" (leave out --expected-moving)")]
     Drum(String),
     /// No cell where a stream must have one.
-    #[error("column \"{column}\": is blank (leave the line out where nothing was read)")]
+    #[error("column \"{column}\": is blank (leave the row out where nothing was read)")]
     Blank {
         /// The name of the column.
         column: String,
@@ -173,7 +173,7 @@ pub enum RecordingProblem {
     #[error("holds bytes that are not text (export as CSV)")]
     Binary,
     /// A line that is too long.
-    #[error("must be at most {LONGEST_LINE} bytes long (export a table of numbers)")]
+    #[error("must be at most {LONGEST_LINE} bytes long (write one row of numbers a line)")]
     TooLong,
     /// An unknown column.
     #[error("no column \"{got}\" for the {role}{} (the columns are {found})", did_you_mean(.hint))]
@@ -234,7 +234,7 @@ pub enum RecordingProblem {
     },
     /// NaN or an infinity.
     #[error(
-        "column \"{column}\": must be finite, got \"{got}\" (leave it out where nothing was read)"
+        "column \"{column}\": must be finite, got \"{got}\" (leave the row out where nothing was read)"
     )]
     NotFinite {
         /// The name of the column.
@@ -243,7 +243,7 @@ pub enum RecordingProblem {
         got: String,
     },
     /// A number that no lift gives and whose square might overflow.
-    #[error("column \"{column}\": must lie within 1e{exponent} {unit}, got {got} ({remedy})")]
+    #[error("column \"{column}\": must lie within 1e{exponent} {unit}, got {got:e} ({remedy})")]
     OutOfRange {
         /// The name of the column.
         column: String,

@@ -299,11 +299,11 @@ mod tests {
                 "1 2",
                 "line 3: column \"time\": must be a number, got \"x\" (write times as numbers, or as \
                  2013-11-25 12:30:00.005)",
-                "line 4: column \"a\": must be finite, got \"nan\" (leave it out where nothing was read)",
+                "line 4: column \"a\": must be finite, got \"nan\" (leave the row out where nothing was read)",
                 "line 5: must have 2 cells as the first row has, got 1",
                 "line 6: must have 2 cells as the first row has, got 3 (write decimal points, or quote cells with \
                  decimal commas)",
-                "line 7: column \"a\": is blank (leave the line out where nothing was read)",
+                "line 7: column \"a\": is blank (leave the row out where nothing was read)",
                 "10 11",
             ]
         );

@@ -168,7 +168,7 @@ impl Parser {
             remedy: if is_clock {
                 " (write times as numbers, or as 2013-11-25 12:30:00.005)"
             } else {
-                " (correct the cell, or leave it blank where nothing was read)"
+                " (correct it, or leave the row out)"
             },
         }
     }
@@ -180,7 +180,9 @@ impl Parser {
         }
         let (expected, delimiter) = (self.layout.columns.len(), self.splitter.delimiter);
         let fits = |other: &Delimiter| {
-            *other != delimiter && Splitter::new(*other, line).split(line) == expected
+            expected > 1
+                && *other != delimiter
+                && Splitter::new(*other, line).split(line) == expected
         };
         let other = Delimiter::ALL.into_iter().find(fits);
         if let (Some(other), true) = (other, got == 1 || got > expected) {

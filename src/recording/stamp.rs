@@ -57,12 +57,12 @@ fn days(text: &str) -> Option<i64> {
     let parts: Vec<&str> = text.split(['-', '/', '.']).collect();
     let [a, b, c] = parts[..] else { return None };
     let (year, month, day) = match (a.len(), number(b, 12)) {
-        (4, month) => (number(a, 9999)?, month?, number(c, 31)?),
-        (_, None) if b.len() == 3 => (number(c, 9999)?, named_month(b)?, number(a, 31)?),
+        (4, month) => (number(a, 2199)?, month?, number(c, 31)?),
+        (_, None) if b.len() == 3 => (number(c, 2199)?, named_month(b)?, number(a, 31)?),
         (_, Some(month)) if !text.contains('/') || number(a, 12).is_none() => {
-            (number(c, 9999)?, month, number(a, 31)?)
+            (number(c, 2199)?, month, number(a, 31)?)
         }
-        (_, _) => (number(c, 9999)?, number(a, 12)?, number(b, 31)?),
+        (_, _) => (number(c, 2199)?, number(a, 12)?, number(b, 31)?),
     };
     if year < 1900 || month == 0 || day == 0 {
         return None;
@@ -121,6 +121,7 @@ mod tests {
             "25:00:00",
             "2013-13-01 00:00:00",
             "-1:2:3",
+            "9999-01-01 00:00:00",
             "1:2:3.4.5",
             "a:b:c",
         ] {

@@ -12,6 +12,7 @@ use super::axis::{AXES, Axis};
 use super::table::Columns;
 use super::unit::Unit;
 use std::fmt;
+use std::ops::{Range, RangeInclusive};
 
 /// The vertical direction, and how it was found.
 #[derive(Clone, Debug, PartialEq)]
@@ -154,7 +155,7 @@ const STRIDE: usize = 4;
 const TURNED: (f64, f64) = (3.0, 6.0);
 
 /// A mean of this length is gravity, m/s²: 9.8 up to the bias of a poor sensor.
-const GRAVITATION: std::ops::RangeInclusive<f64> = 8.5..=11.5;
+const GRAVITATION: RangeInclusive<f64> = 8.5..=11.5;
 
 /// No lift accelerates so, m/s²: a shock, or handling.
 const SHOCK: f64 = 2.5;
@@ -173,66 +174,51 @@ impl Windows {
     /// In the unit of the columns; 0 for an axis that is not there.
     pub fn of(columns: &Columns) -> Self {
         let mut windows = Self::default();
-        let (mut sums, mut counts) = ([0.0; 3], [0u64; 3]);
-        let (mut together, mut totals) = (0u64, [0u64; 3]);
-        let number = columns.axes.len();
-        let mut current = f64::NEG_INFINITY;
-        let mut end = |window: f64, sums: &mut [f64; 3], counts: &mut [u64; 3]| {
-            if counts[..number].iter().all(|count| *count > 0) {
-                windows.times.push((window + 0.5) * WINDOW);
-                let mean = |axis: usize| sums[axis] / counts[axis].max(1) as f64;
-                windows.means.push([0, 1, 2].map(mean));
+        let of_window = |a: &f64, b: &f64| (a / WINDOW).floor() == (b / WINDOW).floor();
+        let mut from = 0;
+        for window in columns.times.chunk_by(of_window) {
+            let rows = from..from + window.len();
+            from = rows.end;
+            let mut mean = [0.0; 3];
+            for (mean, axis) in mean.iter_mut().zip(&columns.axes) {
+                let read = axis[rows.clone()]
+                    .iter()
+                    .filter(|reading| !reading.is_nan());
+                *mean = read.clone().sum::<f64>() / read.count() as f64;
             }
-            (*sums, *counts) = ([0.0; 3], [0; 3]);
-        };
-        for (row, time) in columns.times.iter().enumerate() {
-            let window = (time / WINDOW).floor();
-            if window != current {
-                end(current, &mut sums, &mut counts);
-                current = window;
+            // Without readings of an axis its mean is NaN.
+            if !mean.iter().any(|along| along.is_nan()) {
+                windows
+                    .times
+                    .push(((window[0] / WINDOW).floor() + 0.5) * WINDOW);
+                windows.means.push(mean);
             }
-            let mut found = 0;
-            for (axis, column) in columns.axes.iter().enumerate() {
-                if !column[row].is_nan() {
-                    sums[axis] += column[row];
-                    counts[axis] += 1;
-                    totals[axis] += 1;
-                    found += 1;
-                }
-            }
-            together += u64::from(found == number);
         }
-        end(current, &mut sums, &mut counts);
-        let most = totals.into_iter().max().unwrap_or(0);
-        windows.together = together as f64 / most.max(1) as f64;
+        let is_read = |row: usize| move |axis: &Vec<f64>| !axis[row].is_nan();
+        let rows = 0..columns.times.len();
+        let all = rows.filter(|row| columns.axes.iter().all(is_read(*row)));
+        let read = |axis: &Vec<f64>| axis.iter().filter(|reading| !reading.is_nan()).count();
+        let most = columns.axes.iter().map(read).max().unwrap_or(0);
+        windows.together = all.count() as f64 / most.max(1) as f64;
         windows
     }
 
     /// The median length.
     pub fn length(&self) -> f64 {
-        median(
-            &mut self
-                .means
-                .iter()
-                .map(|mean| length(*mean))
-                .collect::<Vec<_>>(),
-        )
+        median(self.means.iter().map(|mean| length(*mean)))
     }
 
     /// The sixth largest distance of a smoothed window from the median: what lasts 3 s in all.
     pub fn strength(&self) -> f64 {
-        let pulses = self.pulses(f64::INFINITY).into_iter();
-        let mut lengths: Vec<f64> = pulses.map(length).collect();
-        lengths.sort_by(|a, b| b.total_cmp(a));
-        lengths.get(5).or(lengths.last()).copied().unwrap_or(0.0)
+        let pulses = self.pulses(f64::INFINITY);
+        let lengths = sorted(pulses.into_iter().map(length));
+        let sixth = lengths.len().saturating_sub(6);
+        lengths.get(sixth).copied().unwrap_or(0.0)
     }
 
     pub fn convert(&mut self, unit: Unit, number: usize) {
-        for mean in &mut self.means {
-            mean[..number]
-                .iter_mut()
-                .for_each(|along| *along = unit.convert(*along));
-        }
+        let readings = self.means.iter_mut().flat_map(|mean| &mut mean[..number]);
+        readings.for_each(|reading| *reading = unit.convert(*reading));
     }
 
     pub fn has_gravity(&self) -> bool {
@@ -240,29 +226,21 @@ impl Windows {
     }
 
     /// The median vector.
-    fn median(&self, range: std::ops::Range<usize>) -> [f64; 3] {
-        [0, 1, 2].map(|axis| {
-            median(
-                &mut self.means[range.clone()]
-                    .iter()
-                    .map(|mean| mean[axis])
-                    .collect::<Vec<_>>(),
-            )
-        })
+    fn median(&self, range: Range<usize>) -> [f64; 3] {
+        let means = &self.means[range];
+        [0, 1, 2].map(|axis| median(means.iter().map(|mean| mean[axis])))
     }
 
     /// The windows over the median, low-passed at about 1 Hz, without those beyond `shock`.
     fn pulses(&self, shock: f64) -> Vec<[f64; 3]> {
         let level = self.median(0..self.means.len());
-        let above = |mean: &[f64; 3]| [0, 1, 2].map(|axis| mean[axis] - level[axis]);
+        let above = |mean: &[f64; 3]| mix([(1.0, *mean), (-1.0, level)]);
         let above: Vec<[f64; 3]> = self.means.iter().map(above).collect();
-        let calm = above
-            .windows(3)
-            .filter(|three| three.iter().all(|v| length(*v) < shock));
-        calm.map(|three| {
-            [0, 1, 2].map(|axis| (three[0][axis] + 2.0 * three[1][axis] + three[2][axis]) / 4.0)
-        })
-        .collect()
+        let three = above.windows(3);
+        three
+            .filter(|three| three.iter().all(|v| length(*v) < shock))
+            .map(|three| mix([(0.25, three[0]), (0.5, three[1]), (0.25, three[2])]))
+            .collect()
     }
 
     /// The direction of the pulses, if they stand out.
@@ -274,33 +252,24 @@ impl Windows {
         /// The share of the squares along the direction: noise alike in three axes has a third.
         const SHARE: f64 = 0.7;
         let pulses = self.pulses(SHOCK);
-        let mut covariance = [[0.0; 3]; 3];
-        for v in &pulses {
-            let weight = length(*v).powi(2);
-            for (row, a) in covariance.iter_mut().zip(v) {
-                for (sum, b) in row.iter_mut().zip(v) {
-                    *sum += weight * a * b;
-                }
-            }
-        }
-        let trace: f64 = (0..3).map(|axis| covariance[axis][axis]).sum();
+        let squares = |a: usize, b: usize| {
+            let weighted = pulses.iter().map(|v| dot(*v, *v) * v[a] * v[b]);
+            weighted.sum::<f64>()
+        };
+        let covariance = [0, 1, 2].map(|a| [0, 1, 2].map(|b| squares(a, b)));
+        let diagonal = [0, 1, 2].map(|axis| covariance[axis][axis]);
         let mut up = [0.0; 3];
-        up[largest([0, 1, 2].map(|axis| covariance[axis][axis]))] = 1.0;
+        up[largest(diagonal)] = 1.0;
         for _ in 0..64 {
             up = unit(covariance.map(|row| dot(row, up)))?;
         }
-        let share = dot(covariance.map(|row| dot(row, up)), up) / trace;
-        let mut along: Vec<f64> = pulses.iter().map(|v| dot(*v, up).abs()).collect();
-        let usual = median(&mut along);
-        let strongest = along.len().checked_sub(3).map_or(0.0, |third| along[third]);
-        let stands_out = strongest > WEAKEST && strongest > OVER_NOISE * usual && share > SHARE;
-        stands_out.then(|| {
-            if up[largest(up)] < 0.0 {
-                up.map(|along| -along)
-            } else {
-                up
-            }
-        })
+        let share = dot(covariance.map(|row| dot(row, up)), up) / diagonal.iter().sum::<f64>();
+        let along = sorted(pulses.iter().map(|v| dot(*v, up).abs()));
+        let strongest = along.get(along.len().saturating_sub(3))?;
+        let usual = along[along.len() / 2];
+        let stands_out = *strongest > WEAKEST.max(OVER_NOISE * usual) && share > SHARE;
+        let sign = up[largest(up)].signum();
+        stands_out.then(|| up.map(|along| sign * along))
     }
 }
 
@@ -431,11 +400,10 @@ fn path(windows: &Windows, up: [f64; 3]) -> Vec<(f64, [f64; 3])> {
         let range = at.saturating_sub(NEIGHBOURS)..(at + NEIGHBOURS + 1).min(number);
         let median = windows.median(range);
         let here = unit(median).filter(|_| GRAVITATION.contains(&length(median)));
-        // Upside down is turned by 180 degrees, though the user may have inverted the whole.
         let here = here.unwrap_or(up);
         let share = ((angle(here, up) - TURNED.0) / (TURNED.1 - TURNED.0)).clamp(0.0, 1.0);
         is_turned |= share > 0.0;
-        let mixed = [0, 1, 2].map(|axis| (1.0 - share) * up[axis] + share * here[axis]);
+        let mixed = mix([(1.0 - share, up), (share, here)]);
         (windows.times[at], unit(mixed).unwrap_or(up))
     });
     let nodes: Vec<_> = nodes.collect();
@@ -452,7 +420,7 @@ fn local(path: &[(f64, [f64; 3])], node: &mut usize, time: f64) -> [f64; 3] {
         return from;
     };
     let share = ((time - start) / (end - start)).clamp(0.0, 1.0);
-    unit([0, 1, 2].map(|axis| (1.0 - share) * from[axis] + share * to[axis])).unwrap_or(from)
+    unit(mix([(1.0 - share, from), (share, *to)])).unwrap_or(from)
 }
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
@@ -480,7 +448,18 @@ fn largest(v: [f64; 3]) -> usize {
         .unwrap_or(0)
 }
 
-fn median(values: &mut [f64]) -> f64 {
+/// The sum of vectors, each times its number.
+fn mix<const N: usize>(parts: [(f64, [f64; 3]); N]) -> [f64; 3] {
+    [0, 1, 2].map(|axis| parts.iter().map(|(share, v)| share * v[axis]).sum())
+}
+
+fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.collect();
     values.sort_unstable_by(f64::total_cmp);
+    values
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let values = sorted(values);
     values.get(values.len() / 2).copied().unwrap_or(0.0)
 }

@@ -61,7 +61,7 @@ pub enum Warning {
         "{count} rows have no time or no acceleration, {samples} have both (the others are left out)"
     )]
     BlankRows { count: u64, samples: u64 },
-    #[error("{0} rows hold NaN for the acceleration (they are left out)")]
+    #[error("rows with NaN for the acceleration: {0} (they are left out)")]
     MissingRows(u64),
     #[error("line {line}: the file ends within this row (it is left out)")]
     CutOff { line: u64 },

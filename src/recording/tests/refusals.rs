@@ -71,14 +71,13 @@ fn cells_that_are_no_numbers() {
     let refused_cell = |cell: &str| refused(format!("time,acc\n0,1\n0.1,{cell}\n0.2,2\n"));
     assert_eq!(
         refused_cell("-inf"),
-        "ride.csv:3: column \"acc\": must be finite, got \"-inf\" (leave it out where nothing was read)"
+        "ride.csv:3: column \"acc\": must be finite, got \"-inf\" (leave the row out where nothing was read)"
     );
     assert!(refused_cell("1e999").contains("must be finite"));
     assert!(refused_cell("1e12").contains("must lie within 1e9 m/s^2"));
     assert_eq!(
         refused_cell("none"),
-        "ride.csv:3: column \"acc\": must be a number, got \"none\" (correct the cell, or leave it blank where \
-         nothing was read)"
+        "ride.csv:3: column \"acc\": must be a number, got \"none\" (correct it, or leave the row out)"
     );
     for date in ["25.11.2013", "2013/11/25", "yesterday"] {
         let refused = refused(format!("time,acc\n{date},1\n"));
@@ -200,6 +199,14 @@ fn files() {
     let mut file = tempfile::NamedTempFile::new().unwrap();
     file.write_all(b"0,1\n0.1,2\n").unwrap();
     assert_eq!(read(&open(file.path()).unwrap()).len(), 2);
+    // Sparse: it is refused by its size before it is read.
+    file.as_file().set_len(20 << 30).unwrap();
+    let refused = open(file.path()).unwrap_err().to_string();
+    assert!(
+        refused.contains("GB of memory, at most 2 are taken (read a part of it with --from"),
+        "{refused}"
+    );
+    assert!(refused.contains("`liftsim monitor`"), "{refused}");
 }
 
 #[test]
