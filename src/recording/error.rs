@@ -1,7 +1,7 @@
 //! Errors of recordings: the file, the line, the rule, the value and the remedy.
 
 use super::axis::Axis;
-use super::lines::LONGEST_LINE;
+use super::lines::{LONGEST_LINE, NoLine};
 use super::unit::{TimeUnit, UnitError};
 use std::fmt;
 use std::io;
@@ -95,12 +95,6 @@ pub enum RecordingProblem {
     /// A cell for the drum.
     #[error("must end with a cell for the drum, 0 or 1, got \"{0}\" (leave out --expected-moving)")]
     Drum(String),
-    /// No cell where a stream must have one.
-    #[error("column \"{column}\": is blank (leave the row out where nothing was read)")]
-    Blank {
-        /// The name of the column.
-        column: String,
-    },
     /// No readings in the wanted part.
     #[error(
         "must have at least 2 readings from {from} to {to} s, got {got} (times go from {first} to {last} s: change \
@@ -222,37 +216,15 @@ pub enum RecordingProblem {
          got {0} (--axis x, y or z)"
     )]
     NoGravity(&'static str),
-    /// A cell that is not a number.
-    #[error("column \"{column}\": must be a number, got \"{got}\"{remedy}")]
-    NotANumber {
+    /// A cell that is not a number, or none that a lift gives.
+    #[error("column \"{column}\": must {rule}, got {got} ({remedy})")]
+    Cell {
         /// The name of the column.
         column: String,
-        /// The text, shortened.
+        /// What it must do.
+        rule: &'static str,
+        /// The text, shortened and quoted, or the value.
         got: String,
-        /// The remedy, in brackets after a space; may be empty.
-        remedy: &'static str,
-    },
-    /// NaN or an infinity.
-    #[error(
-        "column \"{column}\": must be finite, got \"{got}\" (leave the row out where nothing was read)"
-    )]
-    NotFinite {
-        /// The name of the column.
-        column: String,
-        /// The text, shortened.
-        got: String,
-    },
-    /// A number that no lift gives and whose square might overflow.
-    #[error("column \"{column}\": must lie within 1e{exponent} {unit}, got {got:e} ({remedy})")]
-    OutOfRange {
-        /// The name of the column.
-        column: String,
-        /// The limit as a power of ten.
-        exponent: u8,
-        /// The unit of the limit.
-        unit: &'static str,
-        /// The value in that unit.
-        got: f64,
         /// The remedy.
         remedy: &'static str,
     },
@@ -310,6 +282,15 @@ pub enum RecordingProblem {
         /// The highest rate allowed.
         limit: f64,
     },
+}
+
+impl From<NoLine> for RecordingProblem {
+    fn from(reason: NoLine) -> Self {
+        match reason {
+            NoLine::TooLong => Self::TooLong,
+            NoLine::Io(error) => Self::Unreadable(error),
+        }
+    }
 }
 
 /// A list of column or member names in a message.

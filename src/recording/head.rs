@@ -2,7 +2,7 @@
 
 use super::cell::{Cell, DecimalMark};
 use super::error::RecordingProblem;
-use super::lines::{Lines, NoLine};
+use super::lines::Lines;
 use super::names::{Column, Role};
 use super::splitter::{Delimiter, Splitter};
 use super::stamp;
@@ -13,7 +13,7 @@ use std::ops::Range;
 const MOST_LINES: usize = 200;
 
 /// The most bytes of them.
-const MOST_BYTES: usize = 1 << 20;
+const MOST_BYTES: usize = 1 << 21;
 
 /// A line that was read ahead.
 #[derive(Clone, Debug)]
@@ -50,10 +50,7 @@ impl Head {
                 Ok(Some(line)) => line,
                 Ok(None) if head.is_empty() => return Err((None, RecordingProblem::Empty)),
                 Ok(None) => return Ok(Self::without_row(head, owner)),
-                Err(NoLine::TooLong) => return Err((Some(number), RecordingProblem::TooLong)),
-                Err(NoLine::Io(error)) => {
-                    return Err((Some(number), RecordingProblem::Unreadable(error)));
-                }
+                Err(reason) => return Err((Some(number), reason.into())),
             };
             let text = line.bytes;
             if text.iter().any(|&c| c.is_ascii_control() && c != b'\t') {
@@ -63,7 +60,7 @@ impl Head {
                 continue;
             }
             bytes += text.len();
-            if head.len() == MOST_LINES || bytes > 2 * MOST_BYTES {
+            if head.len() == MOST_LINES || bytes > MOST_BYTES {
                 return Err((Some(number), RecordingProblem::NoRows));
             }
             let kept = Kept {

@@ -2,7 +2,7 @@
 
 use super::cell::shorten;
 use super::error::{Names, RecordingError, RecordingProblem};
-use super::lines::{Lines, NoLine};
+use super::lines::Lines;
 use super::reading::Reading;
 use super::source::Source;
 use serde::de::{DeserializeSeed, Deserializer, SeqAccess, Visitor};
@@ -122,10 +122,7 @@ fn of_lines(text: impl BufRead) -> Result<Vec<u8>, (Option<u64>, RecordingProble
         let line = match lines.next() {
             Ok(Some(line)) => line,
             Ok(None) => return Ok(table.whole()),
-            Err(NoLine::TooLong) => return Err((Some(number), RecordingProblem::TooLong)),
-            Err(NoLine::Io(error)) => {
-                return Err((Some(number), RecordingProblem::Unreadable(error)));
-            }
+            Err(reason) => return Err((Some(number), reason.into())),
         };
         if line.bytes.trim_ascii().is_empty() {
             table.text.push(b'\n');

@@ -73,41 +73,28 @@ impl Layout {
         reading: &Reading,
         input: Input,
     ) -> Result<(Self, usize), (Option<u64>, RecordingProblem)> {
-        let header = head.header(owner);
-        let rows = usize::from(head.width.is_some());
-        let last = head.lines.len() - rows;
-        let (line, first) = match &header {
-            // Units and the like stand below the names; a line with a number is a row.
-            Some((_, place)) => {
-                let mut below = place + 1..last;
-                let row = below.find(|&at| head.has_number(&head.lines[at]));
-                (head.lines[*place].number, row.unwrap_or(last))
-            }
-            None => (head.lines[last].number, last),
+        let last = head.lines.len() - usize::from(head.width.is_some());
+        let Some((mut columns, place)) = head.header(owner) else {
+            let columns = numbered(head.width.unwrap_or(0), reading, input);
+            let layout = Self::choose(columns, false, reading, input);
+            let line = Some(head.lines[last].number);
+            return layout
+                .map(|layout| (layout, last))
+                .map_err(|problem| (line, problem));
         };
-        let mut columns = match &header {
-            Some((columns, _)) => columns.clone(),
-            None => numbered(head.width.unwrap_or(0), reading, input),
-        };
-        if let Some((_, place)) = header {
-            head.units(place + 1..first, &mut columns);
-            if let Input::Stream { has_drum: true } = input {
-                columns.pop();
-            }
+        // Units and the like stand below the names; a line with a number is a row.
+        let below = (place + 1..last).find(|&at| head.has_number(&head.lines[at]));
+        let first = below.unwrap_or(last);
+        head.units(place + 1..first, &mut columns);
+        if let Input::Stream { has_drum: true } = input {
+            columns.pop();
         }
-        let layout = Self::choose(columns, header.is_some(), reading, input);
-        match layout {
-            Ok(layout) => {
-                let is_campbell = head.lines[0].bytes.starts_with(b"\"TOA5\"");
-                let format = if is_campbell {
-                    Format::Campbell
-                } else {
-                    layout.format
-                };
-                Ok((Self { format, ..layout }, first))
-            }
-            Err(problem) => Err((Some(line), problem)),
+        let mut layout = Self::choose(columns, true, reading, input)
+            .map_err(|problem| (Some(head.lines[place].number), problem))?;
+        if head.lines[0].bytes.starts_with(b"\"TOA5\"") {
+            layout.format = Format::Campbell;
         }
+        Ok((layout, first))
     }
 
     fn choose(
@@ -129,8 +116,8 @@ impl Layout {
         }
         let time = match (reading.rate, input) {
             (Some(_), Input::File) => None,
-            (_, Input::Stream { .. }) => time(&columns, reading).ok(),
-            (None, Input::File) => Some(time(&columns, reading)?),
+            (_, Input::Stream { .. }) if reading.time.is_none() => time(&columns, reading).ok(),
+            _ => Some(time(&columns, reading)?),
         };
         let axes = accelerations(&columns, reading, time)?;
         if let (Input::Stream { .. }, true) = (input, axes.len() > 1) {

@@ -5,7 +5,7 @@ use super::cell::shorten;
 use super::error::RecordingProblem;
 use super::head::is_remark;
 use super::layout::Input;
-use super::lines::{Lines, NoLine};
+use super::lines::Lines;
 use super::parser::Parser;
 use super::reading::Reading;
 use super::unit::Unit;
@@ -137,8 +137,7 @@ impl<R: BufRead> LineReader<R> {
                 Ok(Some(line)) if is_remark(line.bytes) => {}
                 Ok(Some(line)) => return reading(parser, line.bytes, has_drum, options).map(Some),
                 Ok(None) => return Ok(None),
-                Err(NoLine::TooLong) => return Err(RecordingProblem::TooLong),
-                Err(NoLine::Io(error)) => return Err(RecordingProblem::Unreadable(error)),
+                Err(reason) => return Err(reason.into()),
             }
         }
     }
@@ -160,28 +159,11 @@ fn reading(
     let row = parser
         .read(line, true)?
         .expect("a whole line is not cut off");
-    let name = |column: usize| parser.layout.columns[column].name.clone();
-    let column = parser.layout.axes[0].1;
-    let blank = |column| RecordingProblem::Blank {
-        column: name(column),
-    };
-    let Some(acceleration) = row.axes[0] else {
-        return Err(if row.is_missing {
-            RecordingProblem::NotFinite {
-                column: name(column),
-                got: shorten(parser.splitter.cell(line, column)),
-            }
-        } else {
-            blank(column)
-        });
-    };
-    if let (Some(time), None) = (parser.layout.time, row.time) {
-        return Err(blank(time));
-    }
+    parser.check_whole(line, &row)?;
     let unit = parser.layout.unit.unwrap_or(Unit::MetresPerSecondSquared);
     Ok(LineReading {
         time: row.time,
-        acceleration: unit.convert(acceleration) * options.sign(),
+        acceleration: unit.convert(row.axes[0].unwrap_or_default()) * options.sign(),
         drum_turns,
     })
 }
@@ -303,7 +285,7 @@ mod tests {
                 "line 5: must have 2 cells as the first row has, got 1",
                 "line 6: must have 2 cells as the first row has, got 3 (write decimal points, or quote cells with \
                  decimal commas)",
-                "line 7: column \"a\": is blank (leave the row out where nothing was read)",
+                "line 7: column \"a\": must be finite, got nothing (leave the row out where nothing was read)",
                 "10 11",
             ]
         );

@@ -11,10 +11,12 @@ use super::splitter::{Delimiter, Splitter};
 use super::unit::Unit;
 use std::io::BufRead;
 
-/// No recording of a lift has times or accelerations beyond these: 30 000 years, and ten thousand times the
-/// range of a shock sensor.
-const LATEST: (u8, f64) = (12, 1e12);
-const STRONGEST: (u8, f64) = (9, 1e9);
+/// What a cell must do. No recording of a lift has times or accelerations beyond these: 30 000 years, and ten
+/// thousand times the range of a shock sensor.
+const NUMBER: &str = "be a number";
+const FINITE: &str = "be finite";
+const LATEST: &str = "lie within 1e12 s";
+const STRONGEST: &str = "lie within 1e9 m/s^2";
 
 /// Reads the rows of one table.
 #[derive(Debug)]
@@ -86,7 +88,7 @@ impl Parser {
         }
         self.had_exponent = has_exponent;
         match self.values(line) {
-            Err(RecordingProblem::NotANumber { .. }) if !is_ended => Ok(None),
+            Err(RecordingProblem::Cell { .. }) if !is_ended => Ok(None),
             row => row.map(Some),
         }
     }
@@ -100,77 +102,78 @@ impl Parser {
     #[inline]
     fn values(&mut self, line: &[u8]) -> Result<Row, RecordingProblem> {
         let mut row = Row::default();
+        let rule = |refused| {
+            if refused == Cell::Infinite {
+                FINITE
+            } else {
+                NUMBER
+            }
+        };
         if let Some(column) = self.layout.time {
             let cell = self.splitter.cell(line, column);
             row.time = match self.clock.read(cell) {
-                Ok(Some(time)) if time.abs() > LATEST.1 => {
-                    return Err(self.out_of_range(column, time, LATEST, "s"));
+                Ok(Some(time)) if time.abs() > 1e12 => {
+                    return Err(self.refused(column, cell, LATEST));
                 }
                 Ok(time) => time,
-                Err(refused) => return Err(self.refused(column, cell, refused)),
+                Err(refused) => return Err(self.refused(column, cell, rule(refused))),
             };
         }
+        let unit = self.layout.unit.unwrap_or(Unit::MetresPerSecondSquared);
         for (place, (_, column)) in self.layout.axes.iter().enumerate() {
             let cell = self.splitter.cell(line, *column);
             row.axes[place] = match self.marks[place].read(cell) {
-                Cell::Number(number) => {
-                    let unit = self.layout.unit.unwrap_or(Unit::MetresPerSecondSquared);
-                    let acceleration = unit.convert(number);
-                    if acceleration.abs() > STRONGEST.1 {
-                        let limit = STRONGEST;
-                        return Err(self.out_of_range(*column, acceleration, limit, "m/s^2"));
-                    }
-                    Some(number)
+                Cell::Number(number) if unit.convert(number).abs() > 1e9 => {
+                    return Err(self.refused(*column, cell, STRONGEST));
                 }
+                Cell::Number(number) => Some(number),
                 Cell::Blank => None,
                 Cell::Missing => {
                     row.is_missing = true;
                     None
                 }
-                refused => return Err(self.refused(*column, cell, refused)),
+                refused => return Err(self.refused(*column, cell, rule(refused))),
             };
         }
         Ok(row)
     }
 
-    fn out_of_range(
-        &self,
-        column: usize,
-        got: f64,
-        (exponent, _): (u8, f64),
-        unit: &'static str,
-    ) -> RecordingProblem {
-        RecordingProblem::OutOfRange {
-            column: self.layout.columns[column].name.clone(),
-            exponent,
-            unit,
-            got,
-            remedy: if self.layout.time == Some(column) {
-                "check the unit: --time-unit s, ms, us or ns"
-            } else {
-                "check the unit: --unit m/s^2, g, mg or counts"
-            },
-        }
-    }
-
-    fn refused(&self, column: usize, cell: &[u8], refused: Cell) -> RecordingProblem {
+    fn refused(&self, column: usize, cell: &[u8], rule: &'static str) -> RecordingProblem {
         if cell.iter().any(u8::is_ascii_control) {
             return RecordingProblem::Binary;
         }
         let is_clock = self.layout.time == Some(column);
-        let (column, got) = (self.layout.columns[column].name.clone(), shorten(cell));
-        if refused == Cell::Infinite {
-            return RecordingProblem::NotFinite { column, got };
-        }
-        RecordingProblem::NotANumber {
-            column,
-            got,
-            remedy: if is_clock {
-                " (write times as numbers, or as 2013-11-25 12:30:00.005)"
-            } else {
-                " (correct it, or leave the row out)"
+        RecordingProblem::Cell {
+            column: self.layout.columns[column].name.clone(),
+            got: match cell {
+                [] => "nothing".to_owned(),
+                cell => format!("\"{}\"", shorten(cell)),
             },
+            remedy: match (rule, is_clock) {
+                (LATEST, _) => "check the unit: --time-unit s, ms, us or ns",
+                (STRONGEST, _) => "check the unit: --unit m/s^2, g, mg or counts",
+                (NUMBER, true) => "write times as numbers, or as 2013-11-25 12:30:00.005",
+                (NUMBER, false) => "correct it, or leave the row out",
+                _ => "leave the row out where nothing was read",
+            },
+            rule,
         }
+    }
+
+    /// Refuses a row of a stream that lacks the time or the acceleration.
+    pub fn check_whole(&self, line: &[u8], row: &Row) -> Result<(), RecordingProblem> {
+        let axis = self.layout.axes[0].1;
+        let blank = match (self.layout.time, row) {
+            (Some(time), Row { time: None, .. }) => time,
+            (
+                _,
+                Row {
+                    axes: [None, ..], ..
+                },
+            ) => axis,
+            _ => return Ok(()),
+        };
+        Err(self.refused(blank, self.splitter.cell(line, blank), FINITE))
     }
 
     /// The error for a line with a different number of cells than the first.

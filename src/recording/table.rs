@@ -4,7 +4,7 @@ use super::clock::Clock;
 use super::error::{RecordingError, RecordingProblem};
 use super::head::is_remark;
 use super::layout::{Input, Layout};
-use super::lines::{Lines, NoLine};
+use super::lines::Lines;
 use super::parser::{Parser, Row};
 use super::reading::Reading;
 use super::source::Source;
@@ -92,8 +92,7 @@ impl Columns {
                     columns.take(&mut parser, line.bytes, line.is_ended, number, reading)
                 }
                 Ok(None) => Ok(false),
-                Err(NoLine::TooLong) => Err(RecordingProblem::TooLong),
-                Err(NoLine::Io(error)) => Err(RecordingProblem::Unreadable(error)),
+                Err(reason) => Err(reason.into()),
             };
             goes_on = taken.map_err(|problem| source.error(Some(number), problem))?;
         }
