@@ -11,7 +11,6 @@ use super::parser::Parser;
 use super::reading::Reading;
 use super::sheet;
 use super::source::{Member, Source};
-use crate::suggest::nearest;
 use std::io::Read;
 use zip::{CompressionMethod, ZipArchive};
 
@@ -46,27 +45,13 @@ fn is_archive(source: &Source) -> Result<bool, RecordingError> {
 }
 
 fn member(source: &Source, members: &[Found], reading: &Reading) -> Result<Source, RecordingError> {
-    let names = || {
-        Names(
-            members
-                .iter()
-                .map(|found| found.member.name.clone())
-                .collect(),
-        )
-    };
+    let names: Vec<String> = (members.iter())
+        .map(|found| found.member.name.clone())
+        .collect();
     if let Some(wanted) = &reading.member {
         let found = members.iter().find(|found| found.member.name == *wanted);
-        return match found {
-            Some(found) => found.open(source),
-            None => Err(source.error(
-                None,
-                RecordingProblem::UnknownMember {
-                    got: wanted.clone(),
-                    hint: nearest(wanted, names().0.iter().map(String::as_str)).map(str::to_owned),
-                    found: names(),
-                },
-            )),
-        };
+        let unknown = || source.error(None, RecordingProblem::unknown_member(wanted, names));
+        return found.ok_or_else(unknown)?.open(source);
     }
     let candidates: Vec<&Found> = members
         .iter()
@@ -91,7 +76,7 @@ fn member(source: &Source, members: &[Found], reading: &Reading) -> Result<Sourc
     }
     let problem = match &mut tables[..] {
         [_] => return Ok(tables.remove(0).1),
-        [] => RecordingProblem::NoTable(names()),
+        [] => RecordingProblem::NoTable(Names(names)),
         several => RecordingProblem::SeveralTables(Names(
             several
                 .iter()

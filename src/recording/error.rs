@@ -3,6 +3,7 @@
 use super::axis::Axis;
 use super::lines::{LONGEST_LINE, NoLine};
 use super::unit::{TimeUnit, UnitError};
+use crate::suggest::nearest;
 use std::fmt;
 use std::io;
 
@@ -282,6 +283,16 @@ pub enum RecordingProblem {
         /// The highest rate allowed.
         limit: f64,
     },
+}
+
+impl RecordingProblem {
+    pub(super) fn unknown_member(got: &str, found: Vec<String>) -> Self {
+        Self::UnknownMember {
+            got: got.to_owned(),
+            hint: nearest(got, found.iter().map(String::as_str)).map(str::to_owned),
+            found: Names(found),
+        }
+    }
 }
 
 impl From<NoLine> for RecordingProblem {

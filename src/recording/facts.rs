@@ -1,7 +1,7 @@
 //! Facts about a recording and its sensor.
 
-use super::Sample;
 use super::error::RecordingProblem;
+use super::sample::Sample;
 use super::steps::{LOOKED_AT, Steps};
 
 /// A time without samples.

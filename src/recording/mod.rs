@@ -49,6 +49,7 @@ mod names;
 mod parser;
 mod reading;
 mod resample;
+mod sample;
 mod sheet;
 mod source;
 mod splitter;
@@ -69,6 +70,7 @@ pub use facts::{Facts, Gap};
 pub use layout::Format;
 pub use line_reader::{LineError, LineReader, LineReading};
 pub use reading::Reading;
+pub use sample::Sample;
 pub use unit::{GRAVITY, TimeUnit, Unit, UnitError};
 pub use unknown_name::UnknownName;
 pub use vertical::{Direction, Reason, Sign, Vertical};
@@ -79,15 +81,6 @@ use std::path::Path;
 use std::sync::Arc;
 use table::Columns;
 use vertical::Windows;
-
-/// One reading of the vertical axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
-    /// s, by the file's clock.
-    pub time: f64,
-    /// m/s², up positive; bias and any gravity are left in.
-    pub acceleration: f64,
-}
 
 /// A recording in memory.
 #[derive(Clone, Debug)]

@@ -12,7 +12,7 @@
 //! Blocks that a gap reaches into are left out, because nothing was measured there. Averaging changes the
 //! colour and the variance of the noise, so it is done only on request.
 
-use super::Sample;
+use super::sample::Sample;
 
 /// The samples on a uniform grid; `gap` is the longest interval that is interpolated, s.
 pub(super) fn resample(samples: &[Sample], rate: f64, gap: f64) -> Vec<Sample> {

@@ -1,9 +1,8 @@
 //! A workbook's sheet as a table of text.
 
-use super::error::{Names, RecordingError, RecordingProblem};
+use super::error::{RecordingError, RecordingProblem};
 use super::reading::Reading;
 use super::source::Source;
-use crate::suggest::nearest;
 use calamine::{DataRef, Reader, Xlsx};
 use std::io::{Cursor, Read, Write, sink};
 use zip::ZipArchive;
@@ -27,10 +26,9 @@ pub(super) fn table(source: &Source, reading: &Reading) -> Result<Source, Record
     let sheets = book.sheet_names();
     let wanted = reading.member.as_ref().or(sheets.first());
     let Some(name) = wanted.filter(|name| sheets.contains(name)) else {
-        let got = reading.member.clone().unwrap_or_default();
-        let hint = nearest(&got, sheets.iter().map(String::as_str)).map(str::to_owned);
-        let found = Names(sheets);
-        return Err(source.error(None, RecordingProblem::UnknownMember { got, hint, found }));
+        let got = reading.member.as_deref().unwrap_or_default();
+        let problem = RecordingProblem::unknown_member(got, sheets);
+        return Err(source.error(None, problem));
     };
     let text = text(&mut book, name).map_err(|error| damaged(error.to_string()))?;
     Ok(source.converted(text, Some(name), 0))

@@ -1,6 +1,6 @@
 //! Times that many samples share: stamps of whole seconds, spread evenly; or single repetitions, left out.
 
-use super::Sample;
+use super::sample::Sample;
 
 /// Fewer samples than this are not enough to see that each stamp stands for many.
 const FEWEST: usize = 8;

@@ -22,6 +22,8 @@ pub(super) struct Columns {
     /// In the order of the layout; NaN where nothing was read.
     pub axes: Vec<Vec<f64>>,
     pub skipped: Skipped,
+    /// Rows seen, kept or not.
+    rows: u64,
     /// The last time seen, kept or not, s.
     last: Option<f64>,
     /// The first time seen, s.
@@ -35,8 +37,6 @@ pub(super) struct Skipped {
     pub missing: u64,
     /// All were blank.
     pub blank: u64,
-    /// The time was that of the row before.
-    pub repeated: u64,
     /// The line of the first repeated time.
     pub first_repeat: Option<u64>,
     /// The line at which the file is cut off.
@@ -63,6 +63,7 @@ impl Columns {
             axes: vec![Vec::new(); parser.layout.axes.len()],
             layout: parser.layout.clone(),
             skipped: Skipped::default(),
+            rows: 0,
             last: None,
             first: 0.0,
         };
@@ -121,9 +122,10 @@ impl Columns {
             axes, is_missing, ..
         } = row;
         let time = match reading.rate {
-            Some(rate) => Some(self.rows() / rate),
+            Some(rate) => Some(self.rows as f64 / rate),
             None => row.time,
         };
+        self.rows += 1;
         if self.last.is_none() {
             self.first = time.unwrap_or(0.0);
         }
@@ -159,11 +161,6 @@ impl Columns {
         Ok(true)
     }
 
-    /// The number of rows seen, which evenly spaced rows are counted by.
-    fn rows(&self) -> f64 {
-        (self.times.len() as u64 + self.skipped.missing + self.skipped.blank) as f64
-    }
-
     /// Columns may hold twice what is in them while they grow; samples come to them in the end.
     fn check_memory(&self, rows: f64) -> Result<(), RecordingProblem> {
         check_memory(rows, 16.0 * (1.0 + self.axes.len() as f64) + 24.0)
@@ -193,7 +190,7 @@ impl Columns {
 
     fn check(&self, reading: &Reading) -> Result<(), RecordingProblem> {
         let got = self.times.len() as u64;
-        if got == 0 && self.last.is_none() && self.skipped == Skipped::default() {
+        if self.rows == 0 && self.skipped.cut.is_none() {
             return Err(RecordingProblem::HeaderOnly);
         }
         if got < 2

@@ -156,7 +156,7 @@ pub(super) fn of_signal(facts: &Facts, vertical: &Vertical, is_reversed: bool) -
     let repeats = facts.repeats;
     // Samples at a limit are equal too, but for another reason.
     let is_held = repeats - facts.saturated.unwrap_or(0.0) >= COARSE;
-    let held = is_held.then(|| match facts.quantum {
+    let held = is_held.then_some(match facts.quantum {
         Some(quantum) => Warning::CoarseStep { quantum, repeats },
         None => Warning::Held { repeats },
     });

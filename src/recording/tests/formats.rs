@@ -476,6 +476,11 @@ fn a_part_and_a_rate() {
         (recording.facts().rate, recording.facts().end),
         (50.0, 3.98)
     );
+    let late = Reading {
+        from: Some(2.0),
+        ..rate.clone()
+    };
+    assert_eq!(open_as(&lone, &late).facts().samples, 100);
     let nameless = table("", |_, _, a| a.to_string());
     assert!(refused(&nameless).contains("or --rate HZ where rows are evenly spaced"));
     assert_eq!(open_as(&nameless, &rate).facts().samples, 200);
