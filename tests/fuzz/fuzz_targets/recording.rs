@@ -7,6 +7,7 @@ use libfuzzer_sys::fuzz_target;
 use liftsim::detection::Detection;
 use liftsim::monitor::{Knowledge, Settings};
 use liftsim::recording::{Axis, Reading, Recording, TimeUnit, Unit};
+use liftsim::whiten::Order;
 use std::convert::Infallible;
 
 fuzz_target!(|bytes: &[u8]| {
@@ -82,6 +83,7 @@ fn settings(choice: u8) -> Settings {
     settings.samples.scale = 4;
     settings.detector.alpha = 0.01;
     settings.whitening.training = 40;
-    settings.whitening.order = [None, Some(0), Some(8)][usize::from(choice / 64) % 3];
+    settings.whitening.order =
+        [Order::Auto, Order::Fixed(0), Order::Fixed(8)][usize::from(choice / 64) % 3];
     settings
 }

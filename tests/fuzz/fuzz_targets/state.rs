@@ -4,7 +4,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use liftsim::monitor::{SavedState, Monitor};
+use liftsim::monitor::{Monitor, SavedState};
 use liftsim::recording::Sample;
 
 fuzz_target!(|bytes: &[u8]| {
