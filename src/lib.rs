@@ -33,7 +33,7 @@
 //! |---|---|
 //! | 0 | [`rng`]: coordinates → generator · [`stats`]: exact tails, intervals, tests · [`counts`]: sums by what they count, and of which trials · [`mod@format`], [`suggest`], [`fields`], [`files`]: text and files · [`simd`]: trials side by side |
 //! | 1, 2 | [`rule`], [`values`]: what a value must be |
-//! | 3 | [`signal`]: sensor, noise, impulses, motion, recordings · [`whiten`]: filters · [`detect`]: W, T, their laws, regions · [`config`]: what a file says, with its places · [`claim`]: verdicts · [`plot`]: what a picture says |
+//! | 3 | [`signal`]: sensor, noise, impulses, motion · [`recording`]: what real lifts recorded · [`whiten`]: filters · [`detect`]: W, T, their laws, regions · [`config`]: what a file says, with its places · [`claim`]: verdicts · [`plot`]: what a picture says |
 //! | 4 | [`lift`]: simulated rides with their truth · [`monitor`]: one lift, sample by sample · [`scenario`]: what a point simulates, every parameter · [`report`]: the report |
 //! | 5 | [`chain`]: one trial, every stage · [`detection`]: what a monitor finds in a recording · [`experiment`]: what the author wrote |
 //! | 6 | [`schedule`]: blocks of trials in parallel · [`figure`]: PNG and SVG |
@@ -116,6 +116,7 @@ pub mod monitor;
 pub mod pilot;
 pub mod plan;
 pub mod plot;
+pub mod recording;
 pub mod report;
 pub mod results;
 pub mod rng;

@@ -6,7 +6,7 @@ use liftsim::experiment::SweepConfig;
 use liftsim::monitor::{Knowledge, Monitor, Settings};
 use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
-use liftsim::signal::recording::Sample;
+use liftsim::recording::Sample;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 

@@ -14,7 +14,15 @@ const FLOORS: &[&[&str]] = &[
     &["rule"],
     &["values"],
     // The world, and what config, claims and pictures say, each without the others.
-    &["signal", "whiten", "detect", "config", "claim", "plot"],
+    &[
+        "signal",
+        "recording",
+        "whiten",
+        "detect",
+        "config",
+        "claim",
+        "plot",
+    ],
     // What a record may hold.
     &["explain"],
     // Lifts, estimators; what a point simulates.

@@ -8,7 +8,7 @@
 use liftsim::detection::{Detection, End, Trip};
 use liftsim::lift::{Drive, Ending, Journey, Pickup, Ride as Simulation, Trip as SimulatedTrip};
 use liftsim::monitor::{Direction, Event, Knowledge, Monitor, Settings, State};
-use liftsim::signal::recording::{Reading, Recording, Sample};
+use liftsim::recording::{Reading, Recording, Sample};
 use liftsim::signal::{Digitiser, Law, Noise, Sensor};
 use liftsim::whiten::Order;
 use std::path::{Path, PathBuf};
@@ -123,11 +123,10 @@ fn stated(folder: &Path, line: &str) -> Option<Known> {
     });
     let recording = Recording::open(&folder.join(name), &Reading::default());
     let recording = recording.unwrap_or_else(|error| panic!("{error}"));
-    let samples = recording.samples().and_then(Iterator::collect);
     Some(Known {
         name: name.to_owned(),
         rate: recording.rate(),
-        samples: samples.unwrap_or_else(|error| panic!("{error}")),
+        samples: recording.samples().to_vec(),
         trips: trips.collect(),
         is_adverse: cells[3].starts_with("adverse"),
     })

@@ -2,7 +2,7 @@
 
 use liftsim::detection::{Detection, End};
 use liftsim::monitor::{Alarm, Design, Event, Kind, Knowledge, Monitor, Settings, State};
-use liftsim::signal::recording::Sample;
+use liftsim::recording::Sample;
 
 /// Seconds, and the acceleration in them, m/s².
 type Piece = (f64, f64);

@@ -10,14 +10,15 @@ use clap::Args;
 use liftsim::detection::{DetectReport, Detection};
 use liftsim::figure::{self, FigureError};
 use liftsim::monitor::SavedState;
-use liftsim::signal::recording::{Reading, Recording};
+use liftsim::recording::{Reading, Recording};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Find the rides in a recording: when each started and stopped, where it went, and by what decisions.
 ///
-/// RECORDING is CSV as phyphox, Science Journal or Sensor Logger write it, or any table with a column of times and
-/// one of acceleration, also in a zip archive. What rest is like is learnt from the recording
+/// RECORDING is a table as phyphox, Science Journal, Sensor Logger, Physics Toolbox, Xsens, Witmotion, Campbell
+/// loggers or an Arduino write it, or any with a column of times and one of acceleration; also in a zip archive,
+/// a workbook or JSON. What rest is like is learnt from the recording
 /// itself: the level, the whitening filter, and the sample X that every decision compares with. So
 /// there must be a few seconds of rest in it.
 ///
@@ -71,8 +72,7 @@ impl Detect {
         let outputs = self.outputs()?;
         let setup = self.options.setup()?;
         let recording = self.open(&setup.config.reading)?;
-        let samples: Result<Vec<_>, _> = recording.samples().map_err(Failure::input)?.collect();
-        let samples = samples.map_err(Failure::input)?;
+        let samples = recording.samples();
         let (settings, rate) = match &setup.saved {
             Some(saved) => (saved.settings.clone(), saved.rate),
             None => (setup.config.settings, recording.rate()),
@@ -81,7 +81,7 @@ impl Detect {
         let design = design.map_err(|error| self.refused(error.into()))?;
         let reference = setup.saved.and_then(|saved| saved.knowledge.reference);
         let begins_at_rest = self.begins.and_then(Beginning::is_rest);
-        let detection = Detection::of(&design, &samples, reference, begins_at_rest);
+        let detection = Detection::of(&design, samples, reference, begins_at_rest);
         let saved = SavedState {
             first_sample: samples
                 .first()

@@ -43,9 +43,10 @@ pub fn text(report: &DetectReport, detection: &Detection) -> String {
 fn recording(report: &DetectReport) -> String {
     let it = &report.recording;
     let quantum = it.quantum.map(|step| format!(", step {step:.3e} m/s^2"));
+    let offset = (it.clock_offset).map(|offset| format!("; times count from {offset:.3} s"));
     format!(
         "{}: {}, time in \"{}\" ({}), acceleration in \"{}\" ({}), vertical {}\n\
-         {} samples in {:.2} s, {:.1} Hz with {:.1} % jitter{}\n",
+         {} samples in {:.2} s, {:.1} Hz with {:.1} % jitter{}{}\n",
         it.file,
         it.format,
         it.time,
@@ -58,6 +59,7 @@ fn recording(report: &DetectReport) -> String {
         it.rate,
         100.0 * it.jitter,
         quantum.unwrap_or_default(),
+        offset.unwrap_or_default(),
     )
 }
 

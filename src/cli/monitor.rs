@@ -1,19 +1,20 @@
 //! `liftsim monitor`: watches a lift, sample by sample, from standard input.
 
 use super::monitor_options::{Beginning, MonitorArguments, Setup, check_strength};
+use super::reading::ColumnArguments;
 use super::{CommandResult, Failure, print_to, warn};
 use anyhow::{Context, anyhow};
 use clap::Args;
 use liftsim::monitor::{Event, Knowledge, Monitor, SavedState};
-use liftsim::signal::recording::{LineError, LineReader, LineReading, Sample};
+use liftsim::recording::{LineReader, LineReading, Sample};
 use std::io::{self, BufReader};
 use std::iter;
 use std::process::ExitCode;
 
 /// Watch a lift: read samples from standard input, print changes of its state as they happen.
 ///
-/// A line is `acceleration` or `time,acceleration`, in m/s^2, up positive, and s. A header and lines that begin
-/// with # are skipped. The output is one JSON object a line: the first state, every change of it with the time of the
+/// A line is `acceleration` or `time,acceleration`, up positive, or what a header names: the columns, units and
+/// formats are those of `detect`, without a header m/s^2 and s. The output is one JSON object a line: the first state, every change of it with the time of the
 /// change (time), the time at which it became known (reported) and the decision behind it; and alarms.
 ///
 /// States are unknown, rest, acceleration, inertial, braking. A cage that moves smoothly looks like one that
@@ -45,6 +46,8 @@ pub struct MonitorCommand {
     keep_going: bool,
     #[command(flatten)]
     options: MonitorArguments,
+    #[command(flatten)]
+    columns: ColumnArguments,
 }
 
 /// Readings from which a rate is measured.
@@ -60,12 +63,13 @@ impl MonitorCommand {
     /// Runs the command.
     pub fn run(self) -> CommandResult {
         let Setup { config, saved } = self.options.setup()?;
+        let reading = self.columns.over(&config.reading)?;
         let input = BufReader::with_capacity(1 << 16, io::stdin().lock());
         let mut readings = Readings {
             lines: if self.expected_moving {
-                LineReader::with_drum(input)
+                LineReader::with_drum(input, &reading)
             } else {
-                LineReader::new(input)
+                LineReader::new(input, &reading)
             },
             rate: None,
             last: None,
@@ -186,7 +190,7 @@ impl<R: io::BufRead> Readings<R> {
                     Ok(sample) => return Ok(Some((sample, reading.drum_turns))),
                     Err(refusal) => refusal,
                 },
-                Err(error @ LineError::Io { .. }) => return Err(Failure::run(error)),
+                Err(error) if error.is_io() => return Err(Failure::run(error)),
                 Err(error) => anyhow::Error::from(error),
             };
             if !self.keeps_going {

@@ -2,12 +2,35 @@
 
 use super::Failure;
 use clap::Args;
-use liftsim::signal::recording::{Axis, Reading, TimeUnit, Unit};
+use liftsim::recording::{Axis, Reading, TimeUnit, Unit};
 
 /// How the recording is read. What is left out is found in the file.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "The recording")]
 pub struct ReadingArguments {
+    #[command(flatten)]
+    columns: ColumnArguments,
+    /// Read from this time on, s, as times are printed.
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    from: Option<f64>,
+    /// Read up to this time, s, as times are printed.
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    to: Option<f64>,
+    /// Rows per second, where they are evenly spaced; their times are then not read.
+    #[arg(long, value_name = "HZ")]
+    rate: Option<f64>,
+    /// Resample to this uniform rate first, Hz.
+    #[arg(long, value_name = "HZ")]
+    resample: Option<f64>,
+    /// The table to read in a zip archive, the sheet in a workbook, or the sensor in JSON.
+    #[arg(long, value_name = "NAME")]
+    member: Option<String>,
+}
+
+/// The columns to read, of a file or a stream, and their units.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "The recording")]
+pub struct ColumnArguments {
     /// The name of the column with the time.
     #[arg(long, value_name = "COLUMN")]
     time: Option<String>,
@@ -19,16 +42,13 @@ pub struct ReadingArguments {
     time_unit: Option<TimeUnit>,
     #[command(flatten)]
     unit: UnitArguments,
-    /// Which axis is vertical: x, y, z, gravity (none of them: along gravity), or auto (the nearest to
-    /// gravity, or the one with the ride) [default: auto].
-    #[arg(long, value_name = "AXIS")]
+    /// Which axis is vertical: x, y, z, -x, -y, -z; of a file also gravity (along it), or auto (along gravity, or
+    /// else along the pulses of the ride) [default: auto].
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     axis: Option<Axis>,
-    /// Resample to this uniform rate first, Hz.
-    #[arg(long, value_name = "HZ")]
-    resample: Option<f64>,
-    /// The table to read in a zip archive.
-    #[arg(long, value_name = "NAME")]
-    member: Option<String>,
+    /// Turn the vertical upside down, where gravity does not show which way is up.
+    #[arg(long)]
+    invert: bool,
 }
 
 /// The unit of acceleration.
@@ -55,16 +75,28 @@ impl UnitArguments {
 impl ReadingArguments {
     /// Lays the flags over a config.
     pub fn over(&self, config: &Reading) -> Result<Reading, Failure> {
-        let name =
-            |given: &Option<String>, config: &Option<String>| given.clone().or(config.clone());
         Ok(Reading {
-            unit: self.unit.given()?.unwrap_or(config.unit),
-            time: name(&self.time, &config.time),
-            acceleration: name(&self.acceleration, &config.acceleration),
-            time_unit: self.time_unit.or(config.time_unit),
-            axis: self.axis.unwrap_or(config.axis),
+            from: self.from.or(config.from),
+            to: self.to.or(config.to),
+            rate: self.rate.or(config.rate),
             resample: self.resample.or(config.resample),
-            member: name(&self.member, &config.member),
+            member: self.member.clone().or(config.member.clone()),
+            ..self.columns.over(config)?
+        })
+    }
+}
+
+impl ColumnArguments {
+    /// Lays the flags over a config.
+    pub fn over(&self, config: &Reading) -> Result<Reading, Failure> {
+        Ok(Reading {
+            time: self.time.clone().or(config.time.clone()),
+            acceleration: self.acceleration.clone().or(config.acceleration.clone()),
+            time_unit: self.time_unit.or(config.time_unit),
+            unit: self.unit.given()?.unwrap_or(config.unit),
+            axis: self.axis.unwrap_or(config.axis),
+            invert: self.invert || config.invert,
+            ..config.clone()
         })
     }
 }

@@ -23,7 +23,7 @@ pub use trip::{Brief, End, Event, Trip, Undecided, What};
 
 use crate::explain::{Cut, Explanation, Prior};
 use crate::monitor::{Design, Knowledge, Reference};
-use crate::signal::recording::Sample;
+use crate::recording::Sample;
 use decisions::Decisions;
 use rests::Rests;
 

@@ -5,7 +5,7 @@
 use crate::config::{ConfigError, Node, Source};
 use crate::fields::names;
 use crate::monitor::Settings;
-use crate::signal::recording::{Axis, Reading, TimeUnit, Unit};
+use crate::recording::{Axis, Reading, TimeUnit, Unit};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error};
@@ -42,10 +42,18 @@ pub struct RecordingTable {
     scale: Option<f64>,
     /// The count at 0 m/s².
     offset: Option<f64>,
-    /// Which axis is vertical: auto, x, y, z or gravity.
+    /// Which axis is vertical: auto, gravity, x, y, z, -x, -y or -z.
     #[serde(deserialize_with = "named")]
     #[schemars(with = "Option<String>")]
     axis: Option<Axis>,
+    /// Whether to turn the vertical upside down.
+    invert: Option<bool>,
+    /// The time to begin at, s, as printed.
+    from: Option<f64>,
+    /// The time to end at, s, as printed.
+    to: Option<f64>,
+    /// Rows per second, where they are evenly spaced; their times are then not read.
+    rate: Option<f64>,
     /// Samples per second to resample to.
     resample: Option<f64>,
     /// The file in an archive.
@@ -106,6 +114,10 @@ impl RecordingTable {
             acceleration: self.acceleration,
             time_unit: self.time_unit,
             axis: self.axis.unwrap_or_default(),
+            invert: self.invert.unwrap_or_default(),
+            from: self.from,
+            to: self.to,
+            rate: self.rate,
             resample: self.resample,
             member: self.member,
         })
@@ -176,7 +188,7 @@ mod tests {
             ),
             (
                 "axis = \"up\"",
-                "lift.toml:2:8: recording.axis: must be auto, x, y, z or gravity, got \"up\"",
+                "lift.toml:2:8: recording.axis: must be auto, x, y, z, -x, -y, -z or gravity, got \"up\"",
             ),
         ] {
             let refused = reading(lines).unwrap_err();

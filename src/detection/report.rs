@@ -4,7 +4,7 @@
 
 use super::{AtRest, Detection, Event, Trip, Undecided, What, columns};
 use crate::monitor::{Knowledge, Settings};
-use crate::signal::recording::Recording;
+use crate::recording::Recording;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -48,6 +48,8 @@ pub struct Recorded {
     pub jitter: f64,
     pub quantum: Option<f64>,
     pub has_gravity: bool,
+    /// Subtracted from the times of the file, s.
+    pub clock_offset: Option<f64>,
     /// The time constant of its high-pass filter, s, if it has one: the record was restored.
     pub high_pass: Option<f64>,
 }
@@ -108,9 +110,7 @@ impl<'a> DetectReport<'a> {
                 format: recording.format().to_string(),
                 time: time.to_owned(),
                 time_unit: time_unit.to_string(),
-                acceleration: (recording.acceleration_columns().into_iter())
-                    .map(str::to_owned)
-                    .collect(),
+                acceleration: recording.acceleration_columns().to_vec(),
                 unit: recording.unit().to_string(),
                 vertical: recording.vertical().to_string(),
                 samples: facts.samples,
@@ -120,6 +120,7 @@ impl<'a> DetectReport<'a> {
                 jitter: facts.jitter,
                 quantum: facts.quantum,
                 has_gravity: facts.has_gravity,
+                clock_offset: facts.clock_offset,
                 high_pass: detection.high_pass,
             },
             settings: &detection.design.settings,

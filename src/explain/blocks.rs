@@ -1,6 +1,6 @@
 //! Means of blocks of a fixed number of samples.
 
-use crate::signal::recording::Sample;
+use crate::recording::Sample;
 
 /// Samples are added as whole nanometres per second squared, so that equal means stay equal in any order of
 /// their samples: in floating point, rounding would break the ties of a coarse sensor.

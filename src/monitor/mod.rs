@@ -20,7 +20,7 @@
 //!
 //! ```
 //! use liftsim::monitor::{Knowledge, Monitor, Settings};
-//! use liftsim::signal::recording::Sample;
+//! use liftsim::recording::Sample;
 //!
 //! let mut monitor = Monitor::new(Settings::default().at(100.0)?, Knowledge::default());
 //! for i in 0..1000 {
@@ -54,7 +54,7 @@ pub use saved_state::{SavedState, SavedStateError};
 pub use settings::{Level, Limits, MOST_ORDER, Settings, SettingsError, Sizes, Whitening};
 
 use crate::explain::{Block, Blocks};
-use crate::signal::recording::Sample;
+use crate::recording::Sample;
 use decide::Windows;
 pub(crate) use decide::{Decider, Verdict};
 use history::History;

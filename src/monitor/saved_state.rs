@@ -2,7 +2,7 @@
 
 use super::{Design, Knowledge, MOST_ORDER, Settings, SettingsError};
 use crate::explain::STRONGEST;
-use crate::signal::recording::Sample;
+use crate::recording::Sample;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::{self, Read};

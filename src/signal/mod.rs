@@ -1,7 +1,6 @@
 //! The record of an accelerometer in a cage: r = x + Δ + λ, eqs (1)–(8) of [^1].
 //!
-//! The unit is σ_ξ, the standard deviation of the white noise that drives the sensor. Only a
-//! [`recording`] is in m/s² and s.
+//! The unit is σ_ξ, the standard deviation of the white noise that drives the sensor.
 //!
 //! [^1]: M. A. Raifeld, "Distinguishing the motion/stop states of a lift from accelerometer
 //! signals", Avtometriya (in Russian), received 25 November 2013.
@@ -14,7 +13,6 @@ mod impulses;
 mod motion;
 mod noise;
 mod phase;
-pub mod recording;
 mod sensor;
 
 pub(crate) use autoregression::step_down;

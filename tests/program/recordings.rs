@@ -146,7 +146,8 @@ fn the_monitor_says_the_same() {
     let directory = recorded(&[]);
     let path = directory.path();
     let found_in = |name, more: &[&str]| found(path, &[&[name], more].concat());
-    let expected = found_in("ride.csv", &["--save-state", "lift.json"]);
+    // The pipe has z alone, and so must `detect`.
+    let expected = found_in("ride.csv", &["--axis", "z", "--save-state", "lift.json"]);
     let events = expected["events"].as_array().unwrap();
     assert!(events.len() > 8);
     for separator in [",", ";", "\t", " "] {
@@ -452,7 +453,108 @@ fn warnings() {
     fs::write(path.join("counts.csv"), raised).unwrap();
     let (code, _, err) = detect(path, &["counts.csv"]);
     assert_eq!(code, 0);
+    assert!(err.contains("as 2048 counts per g have it"), "{err}");
+    let (code, _, err) = detect(path, &["counts.csv", "--unit", "m/s^2"]);
+    assert_eq!(code, 0);
     assert!(err.contains("give the unit with --unit"), "{err}");
+}
+
+/// A rest of 20 s: in each row what `row` makes of its number and the acceleration.
+fn rest(head: &str, row: impl Fn(i32, f64) -> String) -> String {
+    let noise = |i: i32| f64::from((i.wrapping_mul(7919) & 1023) - 512) / 5e4;
+    let row = |i: i32| row(i, 9.81 + noise(i ^ (i << 3))) + "\n";
+    head.to_owned() + &(0..2000).map(row).collect::<String>()
+}
+
+/// Each remedy that names a flag works: the message, and the flags as it says them.
+#[test]
+fn remedies_work() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    let time = |i: i32| f64::from(i) / 100.0;
+    let cases: [(String, &str, &[&str]); 9] = [
+        (
+            rest("az\n", |_, a| a.to_string()),
+            "--rate HZ",
+            &["--rate", "100"],
+        ),
+        (
+            rest("when,az\n", |i, a| format!("{},{a}", time(i))),
+            "--time COLUMN",
+            &["--time", "when"],
+        ),
+        (
+            rest("time,lift\n", |i, a| format!("{},{a}", time(i))),
+            "--acceleration COLUMN",
+            &["--acceleration", "lift"],
+        ),
+        (
+            rest("", |i, a| format!("{},{a},3,4,5", time(i))),
+            "--time 1 --acceleration 4",
+            &["--time", "1", "--acceleration", "2"],
+        ),
+        (
+            rest("time,az\n", |i, a| format!("{},{a}", 10 * i)),
+            "--time-unit ms",
+            &["--time-unit", "ms"],
+        ),
+        (
+            rest("time,az\n", |i, a| format!("{},{}", time(i), 70.0 * a)),
+            "--unit counts --scale 1.4281e-2",
+            &["--unit", "counts", "--scale", "1.4281e-2"],
+        ),
+        (
+            rest("time,x,y,z\n", |i, a| {
+                format!("{},0,0,{}", time(i), a - 9.8)
+            }),
+            "--axis x, y or z",
+            &["--axis", "z"],
+        ),
+        (
+            rest("time,az\n", |i, a| format!("{},{a}", time(i))),
+            "change --from or --to",
+            &["--from", "5", "--to", "15"],
+        ),
+        (
+            rest("time,az\n", |i, a| format!("{},{a}", time(i))),
+            "leave out --member",
+            &[],
+        ),
+    ];
+    for (text, remedy, flags) in cases {
+        fs::write(path.join("ride.csv"), text).unwrap();
+        let wrong: &[&str] = match remedy {
+            "--axis x, y or z" => &["--axis", "gravity"],
+            "change --from or --to" => &["--from", "50"],
+            "leave out --member" => &["--member", "z"],
+            _ => &[],
+        };
+        let (code, _, err) = detect(path, &[&["ride.csv"], wrong].concat());
+        assert_eq!(code, 2, "{remedy}: {err}");
+        assert!(err.contains(remedy), "{remedy}: {err}");
+        let (code, out, err) = detect(path, &[&["ride.csv"], flags].concat());
+        assert_eq!(code, 0, "{remedy}: {err}");
+        assert!(out.contains("no rides"), "{out}");
+    }
+}
+
+/// A stream is read as a file: header, units, columns, and the flags that choose them.
+#[test]
+fn a_stream_with_a_header() {
+    let directory = recorded(&[]);
+    let path = directory.path();
+    well(detect(
+        path,
+        &["ride.csv", "--axis", "z", "--save-state", "lift.json"],
+    ));
+    let arguments = ["--state", "lift.json", "--begins", "rest"];
+    let expected = well(monitor(path, &arguments, lines(path, ",")));
+    let text = fs::read_to_string(path.join("ride.csv")).unwrap();
+    let (code, _, err) = monitor(path, &arguments, &*text);
+    assert_eq!(code, 2);
+    assert!(err.contains("(choose one: --axis x, y or z"), "{err}");
+    let along_z = [&arguments[..], &["--axis", "z"]].concat();
+    assert_eq!(well(monitor(path, &along_z, text)), expected);
 }
 
 /// The subject of each message, the input from the pipe, and further arguments.

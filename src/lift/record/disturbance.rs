@@ -3,7 +3,7 @@
 use super::class::Class;
 use super::draws::Draws;
 use super::pulse::{Pulse, Shape};
-use crate::signal::recording::GRAVITY;
+use crate::recording::GRAVITY;
 use libm::cos;
 use std::f64::consts::PI;
 

@@ -3,8 +3,8 @@
 use super::cage::Cage;
 use super::class::{Class, Ranges};
 use super::draws::Draws;
+use crate::recording::GRAVITY;
 use crate::rng::Generator;
-use crate::signal::recording::GRAVITY;
 use crate::signal::{Law, Noise, Sensor};
 use libm::{exp, sqrt};
 

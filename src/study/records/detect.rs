@@ -3,7 +3,7 @@
 use crate::detection::{Detection, What};
 use crate::lift::{Journey, Record};
 use crate::monitor::{Design, Direction};
-use crate::signal::recording::Sample;
+use crate::recording::Sample;
 
 /// What a detector says of a record. Times in s.
 #[derive(Clone, Debug, Default, PartialEq)]

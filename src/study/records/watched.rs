@@ -2,7 +2,7 @@
 
 use crate::lift::{Class, Record};
 use crate::monitor::{Alarm, Design, Event, Kind, Knowledge, Monitor, State};
-use crate::signal::recording::Sample;
+use crate::recording::Sample;
 use crate::study::ride::account::{Account, Truth};
 
 /// What a monitor said of a record, one entry for each event that it was given or that it reported.

@@ -5,8 +5,8 @@ use super::measure::Measure;
 use super::point::RidePoint;
 use crate::lift::Ride;
 use crate::monitor::{Design, Event, Knowledge, Monitor};
+use crate::recording::Sample;
 use crate::rng::Stream;
-use crate::signal::recording::Sample;
 use rand::Rng;
 
 /// A point, ready for trials.

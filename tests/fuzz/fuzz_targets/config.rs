@@ -5,6 +5,7 @@
 use libfuzzer_sys::fuzz_target;
 use liftsim::detection::MonitorOptions;
 use liftsim::monitor::{Monitor, Settings};
+use liftsim::whiten::Order;
 
 fuzz_target!(|bytes: &[u8]| {
     let Some((&choice, bytes)) = bytes.split_first() else {
@@ -36,7 +37,7 @@ fuzz_target!(|bytes: &[u8]| {
     settings.samples.scale = size(next(), default.samples.scale);
     settings.samples.gap = size(next(), default.samples.gap);
     settings.whitening.training = size(next(), default.whitening.training);
-    settings.whitening.order = next().map(|order| order as usize);
+    settings.whitening.order = next().map_or(Order::Auto, |order| Order::Fixed(order as usize));
     settings.monitor.block = number(next(), default.monitor.block);
     settings.detector.alpha = number(next(), default.detector.alpha);
     settings.monitor.least_speed = number(next(), default.monitor.least_speed);

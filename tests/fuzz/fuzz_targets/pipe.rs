@@ -5,7 +5,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use liftsim::monitor::{Design, Kind, Knowledge, Monitor, Settings};
-use liftsim::signal::recording::{LineReader, Sample};
+use liftsim::recording::{LineReader, Reading, Sample};
 use std::cell::OnceCell;
 
 fuzz_target!(|bytes: &[u8]| {
@@ -25,8 +25,8 @@ fuzz_target!(|bytes: &[u8]| {
 /// Reads lines until the end, whatever is refused.
 fn read(text: &[u8], has_drum: bool, watch: &mut Watch) {
     let mut lines = match has_drum {
-        true => LineReader::with_drum(text),
-        false => LineReader::new(text),
+        true => LineReader::with_drum(text, &Reading::default()),
+        false => LineReader::new(text, &Reading::default()),
     };
     let mut number = 0;
     loop {

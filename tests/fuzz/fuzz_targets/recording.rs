@@ -6,7 +6,9 @@
 use libfuzzer_sys::fuzz_target;
 use liftsim::detection::Detection;
 use liftsim::monitor::{Knowledge, Settings};
-use liftsim::signal::recording::{Axis, Reading, Recording, TimeUnit, Unit};
+use liftsim::recording::{Axis, Reading, Recording, TimeUnit, Unit};
+use liftsim::whiten::Order;
+use std::convert::Infallible;
 
 fuzz_target!(|bytes: &[u8]| {
     let Some((&choice, bytes)) = bytes.split_first() else {
@@ -23,8 +25,7 @@ fuzz_target!(|bytes: &[u8]| {
         assert!(!warning.to_string().is_empty());
     }
     let mut last = f64::NEG_INFINITY;
-    for sample in recording.samples().unwrap() {
-        let sample = sample.expect("opening it has read it through");
+    for sample in recording.samples() {
         assert!(sample.time > last && sample.time.is_finite() && sample.acceleration.is_finite());
         last = sample.time;
     }
@@ -35,9 +36,10 @@ fn detect(recording: &Recording, choice: u8) {
     let Ok(design) = settings(choice).at(recording.rate()) else {
         return;
     };
-    let learnt = Knowledge::from_record(&design, || recording.samples()).unwrap();
+    let all = || recording.samples().iter().copied().map(Ok::<_, Infallible>);
+    let Ok(learnt) = Knowledge::from_record(&design, || Ok(all()));
     let knowledge = learnt.unwrap_or_default();
-    let found = Detection::of(&design, knowledge, recording.samples().unwrap()).unwrap();
+    let Ok(found) = Detection::of(&design, knowledge, all());
     let mut said = f64::NEG_INFINITY;
     for event in &found.events {
         assert!(
@@ -56,6 +58,22 @@ fn detect(recording: &Recording, choice: u8) {
     assert!(found.at_rest.false_alarms <= found.at_rest.decisions);
 }
 
+/// A way of reading for each choice.
+fn reading(choice: u8) -> Reading {
+    let flag = |bit: u8| choice & bit > 0;
+    Reading {
+        time_unit: flag(1).then_some(TimeUnit::Milliseconds),
+        unit: if flag(2) { Unit::Gravity } else { Unit::Found },
+        axis: if flag(4) { Axis::Gravity } else { Axis::Auto },
+        invert: flag(8),
+        from: flag(16).then_some(0.5),
+        to: flag(32).then_some(20.0),
+        rate: flag(64).then_some(50.0),
+        resample: flag(128).then_some(20.0),
+        ..Reading::default()
+    }
+}
+
 /// Small samples, so that a short recording reaches all of the monitor.
 fn settings(choice: u8) -> Settings {
     let mut settings = Settings::default();
@@ -65,6 +83,7 @@ fn settings(choice: u8) -> Settings {
     settings.samples.scale = 4;
     settings.detector.alpha = 0.01;
     settings.whitening.training = 40;
-    settings.whitening.order = [None, Some(0), Some(8)][usize::from(choice / 64) % 3];
+    settings.whitening.order =
+        [Order::Auto, Order::Fixed(0), Order::Fixed(8)][usize::from(choice / 64) % 3];
     settings
 }

@@ -4,8 +4,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use liftsim::monitor::{SavedState, Monitor};
-use liftsim::signal::recording::Sample;
+use liftsim::monitor::{Monitor, SavedState};
+use liftsim::recording::Sample;
 
 fuzz_target!(|bytes: &[u8]| {
     let Some((&choice, bytes)) = bytes.split_first() else {

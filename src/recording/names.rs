@@ -3,8 +3,8 @@
 //! Each app has its own names, and phyphox translates them; the unit in brackets and the letter of the axis
 //! are the same in every language.
 
-use super::axis::Axis;
-use super::reading::{TimeUnit, Unit};
+use super::axis::AXES;
+use super::unit::{TimeUnit, Unit};
 
 /// A column of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,9 +21,9 @@ pub(super) struct Column {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Role {
     /// Time; of several, the one with the lowest rank is the record's own clock.
-    Time { rank: u8 },
-    /// The acceleration along one axis.
-    Along { axis: Axis, gravity: Gravity },
+    Time { rank: usize },
+    /// The acceleration along x, y or z: 0, 1 or 2.
+    Along { axis: usize, gravity: Gravity },
     /// An acceleration without an axis in its name.
     Acceleration,
     /// The length of the vector of acceleration, which has no sign.
@@ -41,21 +41,30 @@ pub(super) enum Gravity {
     Out,
 }
 
-/// Names of the clock, the best first.
-const CLOCKS: [&str; 9] = [
-    "secondselapsed",
-    "elapsed",
-    "elapsedtime",
-    "relativetime",
-    "time",
-    "t",
-    "timestamp",
-    "timestamps",
-    "unixtime",
+/// Names of the clock, the best first, with the unit if the name says it.
+const CLOCKS: [(&str, Option<TimeUnit>); 18] = [
+    ("secondselapsed", Some(TimeUnit::Seconds)),
+    ("elapsed", None),
+    ("elapsedtime", None),
+    ("relativetime", Some(TimeUnit::Milliseconds)),
+    ("sampletimefine", Some(TimeUnit::Microseconds)),
+    ("micros", Some(TimeUnit::Microseconds)),
+    ("millis", Some(TimeUnit::Milliseconds)),
+    ("ms", Some(TimeUnit::Milliseconds)),
+    ("us", Some(TimeUnit::Microseconds)),
+    ("time", None),
+    ("t", None),
+    ("ts", None),
+    ("timestamp", None),
+    ("timestamps", None),
+    ("datetime", None),
+    ("datetimeutc", None),
+    ("unixtime", None),
+    ("seconds", Some(TimeUnit::Seconds)),
 ];
 
 /// Names of an acceleration, before an axis or alone.
-const ACCELERATIONS: [&str; 8] = [
+const ACCELERATIONS: [&str; 9] = [
     "a",
     "acc",
     "accel",
@@ -64,16 +73,18 @@ const ACCELERATIONS: [&str; 8] = [
     "accelerometeracceleration",
     "totalacceleration",
     "verticalacceleration",
+    "gf",
 ];
 
 /// Names of an acceleration without gravity.
-const LINEAR: [&str; 6] = [
+const LINEAR: [&str; 7] = [
     "linearacceleration",
     "linearaccelerometer",
     "linearaccel",
     "linacc",
     "linaccel",
     "useracceleration",
+    "freeacc",
 ];
 
 /// Words in the names of files whose x, y and z are not accelerations.
@@ -101,43 +112,73 @@ impl Column {
         let word: String = words.chars().filter(|c| c.is_alphanumeric()).collect();
         let word = word.to_lowercase();
         let is_foreign = unit_name.is_some() && time_unit.is_none() && unit.is_none();
+        // Physics Toolbox's gFx is in g.
+        let unit = unit.or(["gfx", "gfy", "gfz"]
+            .contains(&&*word)
+            .then_some(Unit::Gravity));
         let role = if is_foreign {
             Role::Other
         } else {
             role(&word, time_unit, unit, owner)
         };
+        let clock = CLOCKS.iter().find(|(clock, _)| *clock == word);
         Self {
             name: name.to_owned(),
             role,
-            time_unit,
+            time_unit: time_unit.or(clock.and_then(|(_, unit)| *unit)),
             unit,
+        }
+    }
+
+    /// Takes a unit from a line below the names. A column of accelerations may show itself by it.
+    pub fn unit_below(&mut self, name: &str) {
+        let name = name.trim().trim_matches(['(', ')', '[', ']']);
+        match (self.role, name.parse(), Unit::from_name(name)) {
+            (Role::Time { .. }, Ok(unit), _) => self.time_unit = self.time_unit.or(Some(unit)),
+            (Role::Time { .. }, ..) => {}
+            (_, _, Some(unit)) => {
+                self.unit = self.unit.or(Some(unit));
+                if self.role == Role::Other {
+                    self.role = role(&self.name.to_lowercase(), None, self.unit, "");
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// A column without a name, counted from 1.
+    pub fn numbered(number: usize, role: Role) -> Self {
+        Self {
+            name: number.to_string(),
+            role,
+            time_unit: None,
+            unit: None,
         }
     }
 }
 
 fn role(word: &str, time_unit: Option<TimeUnit>, unit: Option<Unit>, owner: &str) -> Role {
     if unit.is_none() {
-        if let Some(rank) = CLOCKS.iter().position(|clock| *clock == word) {
-            return Role::Time { rank: rank as u8 };
+        if let Some(rank) = CLOCKS.iter().position(|(clock, _)| *clock == word) {
+            return Role::Time { rank };
         }
         if time_unit.is_some() {
-            return Role::Time {
-                rank: CLOCKS.len() as u8,
-            };
+            return Role::Time { rank: CLOCKS.len() };
         }
     }
     let is_stated = unit.is_some();
     if word.contains("gravit") {
         return Role::Other;
     }
-    if word.contains("absol") || word.contains("magnitude") || word == "linearaccelerometersensor" {
+    let is_length = ["linearaccelerometersensor", "tgf"].contains(&word);
+    if is_length || word.contains("absol") || word.contains("magnitude") {
         return Role::Magnitude;
     }
     if let Some((axis, stem)) = along(word) {
         let is_bare = stem.is_empty() && !is_of_another_sensor(owner);
         let is_named = ACCELERATIONS.contains(&stem) || LINEAR.contains(&stem);
         if is_bare || is_named || is_stated {
-            let is_out = stem.contains("lin") || stem.contains("user");
+            let is_out = LINEAR.contains(&stem) || stem.contains("lin");
             let gravity = if is_out { Gravity::Out } else { Gravity::In };
             return Role::Along { axis, gravity };
         }
@@ -150,11 +191,11 @@ fn role(word: &str, time_unit: Option<TimeUnit>, unit: Option<Unit>, owner: &str
 }
 
 /// The axis at the end of a word, and the part before it.
-fn along(word: &str) -> Option<(Axis, &str)> {
+fn along(word: &str) -> Option<(usize, &str)> {
     let word = word.strip_suffix("axis").unwrap_or(word);
-    let axes = [('x', Axis::X), ('y', Axis::Y), ('z', Axis::Z)];
-    axes.into_iter()
-        .find_map(|(letter, axis)| Some((axis, word.strip_suffix(letter)?)))
+    (0..)
+        .zip(AXES)
+        .find_map(|(axis, letter)| Some((axis, word.strip_suffix(letter)?)))
 }
 
 fn is_of_another_sensor(owner: &str) -> bool {
@@ -193,10 +234,7 @@ mod tests {
 
     #[test]
     fn the_apps_names() {
-        let z = |gravity| Role::Along {
-            axis: Axis::Z,
-            gravity,
-        };
+        let z = |gravity| Role::Along { axis: 2, gravity };
         for name in [
             "Acceleration z (m/s^2)",
             "AccZ",
@@ -205,11 +243,15 @@ mod tests {
             "az",
             "acc_z_g",
             "Z-axis [mg]",
+            "gFz",
+            "Acc_Z",
+            "acc.z",
         ] {
             assert_eq!(role_of(name), z(Gravity::In), "{name}");
         }
         for name in [
             "Linear Acceleration z (m/s^2)",
+            "FreeAcc_Z",
             "Lineare Beschleunigung z (m/s²)",
         ] {
             assert_eq!(role_of(name), z(Gravity::Out), "{name}");
@@ -221,10 +263,17 @@ mod tests {
             "time",
             "timestamp_ns",
             "t [ms]",
+            "millis",
+            "SampleTimeFine",
+            "TIMESTAMP",
         ] {
             assert!(matches!(role_of(name), Role::Time { .. }), "{name}");
         }
-        for name in ["Absolute acceleration (m/s^2)", "LinearAccelerometerSensor"] {
+        for name in [
+            "Absolute acceleration (m/s^2)",
+            "LinearAccelerometerSensor",
+            "TgF",
+        ] {
             assert_eq!(role_of(name), Role::Magnitude, "{name}");
         }
         for name in ["acceleration", "acceleration (g)", "Vertical (m/s^2)"] {

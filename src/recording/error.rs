@@ -1,8 +1,9 @@
 //! Errors of recordings: the file, the line, the rule, the value and the remedy.
 
 use super::axis::Axis;
-use super::lines::LONGEST_LINE;
-use super::reading::{TimeUnit, UnitError};
+use super::lines::{LONGEST_LINE, NoLine};
+use super::unit::{TimeUnit, UnitError};
+use crate::suggest::nearest;
 use std::fmt;
 use std::io;
 
@@ -56,9 +57,76 @@ pub enum RecordingProblem {
     /// Not a file, which could be read twice.
     #[error("must be a file, got {0} (a stream of readings is for the monitor)")]
     NotAFile(&'static str),
-    /// A member asked for in a file that is not an archive.
-    #[error("no zip archive, so it has no member \"{0}\" (leave out --member)")]
+    /// A member asked for in a file that has none.
+    #[error("is one table, so it has no member \"{0}\" (leave out --member)")]
     NotAnArchive(String),
+    /// Too large to be held.
+    #[error(
+        "would take {gigabytes:.1} GB of memory, at most 2 are taken (read a part of it with --from and --to in \
+         s, or send its rows to `liftsim monitor`)"
+    )]
+    TooLarge {
+        /// Estimated from the size of the file, or read so far.
+        gigabytes: f64,
+    },
+    /// A workbook that cannot be read.
+    #[error("workbook: {0} (export as CSV)")]
+    Workbook(String),
+    /// JSON that cannot be read.
+    #[error("JSON: {0} (export as CSV)")]
+    Json(String),
+    /// JSON of several sensors, none of them an accelerometer.
+    #[error("JSON: no sensor is an accelerometer, there are {0} (--member NAME)")]
+    NoSensor(Names),
+    /// A table of words.
+    #[error("no row of numbers in the first 200 lines (export a table of numbers)")]
+    NoRows,
+    /// A stream whose lines are not understood.
+    #[error("must be {}", stream(*.has_drum))]
+    Stream {
+        /// Whether lines end with the drum.
+        has_drum: bool,
+    },
+    /// A stream of several axes.
+    #[error(
+        "a stream must have one acceleration, got several axes (choose one: --axis x, y or z, or \
+         --acceleration COLUMN)"
+    )]
+    StreamOfAxes,
+    /// A cell for the drum.
+    #[error("must end with a cell for the drum, 0 or 1, got \"{0}\" (leave out --expected-moving)")]
+    Drum(String),
+    /// No readings in the wanted part.
+    #[error(
+        "must have at least 2 readings from {from} to {to} s, got {got} (times go from {first} to {last} s: change \
+         --from or --to)"
+    )]
+    NothingLeft {
+        /// s
+        from: f64,
+        /// s
+        to: f64,
+        /// Their number.
+        got: u64,
+        /// s
+        first: f64,
+        /// s
+        last: f64,
+    },
+    /// Counts of an unknown converter.
+    #[error(
+        "no unit is named, and the mean is {mean:.1}, that of gravity 9.8 m/s^2 (if gravity is in it: \
+         --unit counts --scale {scale:.4e}; else give --scale and --offset)"
+    )]
+    UnknownCounts {
+        /// As read.
+        mean: f64,
+        /// m/s² a count.
+        scale: f64,
+    },
+    /// A rate of rows out of range.
+    #[error("rate must lie in [0.001, 1e7] Hz, got {0} (--rate HZ)")]
+    RowRate(f64),
     /// A file named like an archive that is not one.
     #[error("ends in .zip, but is not a zip archive (download it again)")]
     NotAZip,
@@ -100,7 +168,7 @@ pub enum RecordingProblem {
     #[error("holds bytes that are not text (export as CSV)")]
     Binary,
     /// A line that is too long.
-    #[error("must be at most {LONGEST_LINE} bytes long (export a table of numbers)")]
+    #[error("must be at most {LONGEST_LINE} bytes long (write one row of numbers a line)")]
     TooLong,
     /// An unknown column.
     #[error("no column \"{got}\" for the {role}{} (the columns are {found})", did_you_mean(.hint))]
@@ -125,7 +193,9 @@ pub enum RecordingProblem {
         width: usize,
     },
     /// No column looks like time.
-    #[error("no column looks like time, the columns are {0} (--time COLUMN)")]
+    #[error(
+        "no column looks like time, the columns are {0} (--time COLUMN, or --rate HZ where rows are evenly spaced)"
+    )]
     NoTime(Names),
     /// No column looks like an acceleration.
     #[error("no column looks like an acceleration, the columns are {0} (--acceleration COLUMN)")]
@@ -143,41 +213,19 @@ pub enum RecordingProblem {
     },
     /// The direction of gravity cannot be found.
     #[error(
-        "vertical along gravity: needs x, y and z in the same rows and a mean of about 9.8 m/s^2, \
+        "vertical along gravity: needs x, y and z in the same rows and a length of 8.5 to 11.5 m/s^2, \
          got {0} (--axis x, y or z)"
     )]
     NoGravity(&'static str),
-    /// A cell that is not a number.
-    #[error("column \"{column}\": must be a number, got \"{got}\"{remedy}")]
-    NotANumber {
+    /// A cell that is not a number, or none that a lift gives.
+    #[error("column \"{column}\": must {rule}, got {got} ({remedy})")]
+    Cell {
         /// The name of the column.
         column: String,
-        /// The text, shortened.
+        /// What it must do.
+        rule: &'static str,
+        /// The text, shortened and quoted, or the value.
         got: String,
-        /// The remedy, in brackets after a space; may be empty.
-        remedy: &'static str,
-    },
-    /// NaN or an infinity.
-    #[error(
-        "column \"{column}\": must be finite, got \"{got}\" (leave the cell blank where nothing was read)"
-    )]
-    NotFinite {
-        /// The name of the column.
-        column: String,
-        /// The text, shortened.
-        got: String,
-    },
-    /// A number that no lift gives and whose square might overflow.
-    #[error("column \"{column}\": must lie within 1e{exponent} {unit}, got {got} ({remedy})")]
-    OutOfRange {
-        /// The name of the column.
-        column: String,
-        /// The limit as a power of ten.
-        exponent: u8,
-        /// The unit of the limit.
-        unit: &'static str,
-        /// The value in that unit.
-        got: f64,
         /// The remedy.
         remedy: &'static str,
     },
@@ -237,6 +285,25 @@ pub enum RecordingProblem {
     },
 }
 
+impl RecordingProblem {
+    pub(super) fn unknown_member(got: &str, found: Vec<String>) -> Self {
+        Self::UnknownMember {
+            got: got.to_owned(),
+            hint: nearest(got, found.iter().map(String::as_str)).map(str::to_owned),
+            found: Names(found),
+        }
+    }
+}
+
+impl From<NoLine> for RecordingProblem {
+    fn from(reason: NoLine) -> Self {
+        match reason {
+            NoLine::TooLong => Self::TooLong,
+            NoLine::Io(error) => Self::Unreadable(error),
+        }
+    }
+}
+
 /// A list of column or member names in a message.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Names(pub Vec<String>);
@@ -250,7 +317,7 @@ impl fmt::Display for Names {
             return f.write_str("none");
         }
         for (index, name) in self.0.iter().take(LISTED).enumerate() {
-            let name = super::line_reader::shorten(name.as_bytes());
+            let name = super::cell::shorten(name.as_bytes());
             write!(f, "{}\"{name}\"", if index > 0 { ", " } else { "" })?;
         }
         match self.0.len().saturating_sub(LISTED) {
@@ -260,24 +327,16 @@ impl fmt::Display for Names {
     }
 }
 
-/// The name nearest to `got`, if it is near.
-pub(super) fn nearest(got: &str, known: &[String]) -> Option<String> {
-    let got = got.to_lowercase();
-    known
-        .iter()
-        .map(|name| {
-            (
-                strsim::damerau_levenshtein(&got, &name.to_lowercase()),
-                name,
-            )
-        })
-        .min()
-        .filter(|&(distance, name)| distance <= name.chars().count().div_ceil(3))
-        .map(|(_, name)| name.clone())
-}
-
 /// The hint as text.
 fn did_you_mean(hint: &Option<String>) -> String {
     hint.as_ref()
         .map_or(String::new(), |name| format!(", did you mean \"{name}\"?"))
+}
+
+fn stream(has_drum: bool) -> &'static str {
+    if has_drum {
+        "`acceleration,drum` or `time,acceleration,drum`, the drum 0 or 1"
+    } else {
+        "`acceleration` or `time,acceleration`"
+    }
 }

@@ -1,28 +1,8 @@
-//! Options for reading a recording; unset options are found from the file.
+//! Units of time and of acceleration.
 
-use super::axis::Axis;
 use super::unknown_name::UnknownName;
 use std::fmt;
 use std::str::FromStr;
-
-/// Options for reading a file. By default all are found from the file.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Reading {
-    /// The name of the time column. Columns of a file without a header are named "1", "2", ….
-    pub time: Option<String>,
-    /// The name of the one column that holds the vertical acceleration.
-    pub acceleration: Option<String>,
-    /// The unit of time.
-    pub time_unit: Option<TimeUnit>,
-    /// The unit of acceleration.
-    pub unit: Unit,
-    /// The vertical axis, if a file has three axes.
-    pub axis: Axis,
-    /// The rate of a uniform grid to resample to, Hz; `None` leaves the signal as recorded.
-    pub resample: Option<f64>,
-    /// The file to read within a zip archive.
-    pub member: Option<String>,
-}
 
 /// A unit of time.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -256,9 +236,6 @@ mod tests {
         assert_eq!(" MS".parse(), Ok(TimeUnit::Milliseconds));
         let refused = "h".parse::<TimeUnit>().unwrap_err().to_string();
         assert_eq!(refused, "must be s, ms, us or ns, got \"h\"");
-        let axes = ["auto", "x", "Y", "z", "gravity"].map(|name| name.parse::<Axis>().unwrap());
-        assert_eq!(axes, [Axis::Auto, Axis::X, Axis::Y, Axis::Z, Axis::Gravity]);
-        assert!("up".parse::<Axis>().is_err());
         assert_eq!(Unit::from_name("m/s²"), Some(Unit::MetresPerSecondSquared));
         assert_eq!(Unit::from_name("rad/s"), None);
     }

@@ -26,9 +26,6 @@ fn refused_as(text: impl AsRef<[u8]>, reading: &Reading) -> String {
 }
 
 fn read(recording: &Recording) -> Vec<(f64, f64)> {
-    let pair = |sample: Result<Sample, RecordingError>| {
-        let sample = sample.unwrap();
-        (sample.time, sample.acceleration)
-    };
-    recording.samples().unwrap().map(pair).collect()
+    let pair = |sample: &Sample| (sample.time, sample.acceleration);
+    recording.samples().iter().map(pair).collect()
 }

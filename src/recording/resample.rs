@@ -12,109 +12,43 @@
 //! Blocks that a gap reaches into are left out, because nothing was measured there. Averaging changes the
 //! colour and the variance of the noise, so it is done only on request.
 
-use super::error::RecordingError;
-use super::series::{Sample, Series};
+use super::sample::Sample;
 
-/// A series on a uniform grid.
-pub(super) struct Resampled {
-    series: Series,
-    rate: f64,
-    /// The longest interval that is interpolated, s.
-    gap: f64,
-    origin: f64,
-    last: Option<Sample>,
-    /// The sample at the end of the current line.
-    next: Option<Sample>,
-    /// The current block.
-    block: f64,
-    /// The integral over the current block up to `last`.
-    area: f64,
-}
-
-impl Resampled {
-    pub fn new(series: Series, rate: f64, gap: f64) -> Self {
-        Self {
-            series,
-            rate,
-            gap,
-            origin: 0.0,
-            last: None,
-            next: None,
-            block: 0.0,
-            area: 0.0,
+/// The samples on a uniform grid; `gap` is the longest interval that is interpolated, s.
+pub(super) fn resample(samples: &[Sample], rate: f64, gap: f64) -> Vec<Sample> {
+    let mut resampled = Vec::new();
+    let Some(origin) = samples.first().map(|first| first.time) else {
+        return resampled;
+    };
+    let edge = |block: f64| origin + block / rate;
+    // The integral over the current block up to the current sample.
+    let (mut block, mut area) = (0.0, 0.0);
+    for pair in samples.windows(2) {
+        let [last, next] = [pair[0], pair[1]];
+        if next.time - last.time > gap {
+            block = ((next.time - origin) * rate).ceil();
+            area = 0.0;
+            continue;
         }
-    }
-
-    fn time(&self, block: f64) -> f64 {
-        self.origin + block / self.rate
-    }
-
-    /// Begins with the first block that lies after `sample`.
-    fn begin(&mut self, sample: Sample) {
-        let blocks = (sample.time - self.origin) * self.rate;
-        self.block = blocks.ceil().max(self.block);
-        self.area = 0.0;
-        self.last = Some(sample);
-    }
-
-    fn advance(&mut self) -> Result<Option<Sample>, RecordingError> {
-        loop {
-            let Some(last) = self.last else {
-                let Some(first) = self.series.next().transpose()? else {
-                    return Ok(None);
-                };
-                self.origin = first.time;
-                self.begin(first);
-                continue;
-            };
-            let next = match self.next.take() {
-                Some(next) => next,
-                None => match self.series.next().transpose()? {
-                    Some(next) => next,
-                    None => return Ok(None),
-                },
-            };
-            if next.time - last.time > self.gap {
-                self.begin(next);
-                continue;
-            }
-            let (start, end) = (self.time(self.block), self.time(self.block + 1.0));
-            let at = |time: f64| {
-                let share = (time - last.time) / (next.time - last.time);
-                last.acceleration + share * (next.acceleration - last.acceleration)
-            };
-            let from = last.time.max(start);
-            let to = next.time.min(end);
-            if from < to {
-                self.area += 0.5 * (to - from) * (at(from) + at(to));
-            }
-            if next.time < end {
-                self.last = Some(next);
-                continue;
-            }
-            let middle = Sample {
-                time: self.time(self.block + 0.5),
-                acceleration: self.area / (end - start),
-            };
-            self.area = 0.0;
-            self.block += 1.0;
-            // The line continues from the end of the block.
-            self.last = Some(Sample {
-                time: end,
-                acceleration: at(end),
+        let at = |time: f64| {
+            let share = (time - last.time) / (next.time - last.time);
+            last.acceleration + share * (next.acceleration - last.acceleration)
+        };
+        let mut from = last.time.max(edge(block));
+        while edge(block + 1.0) <= next.time {
+            let end = edge(block + 1.0);
+            area += 0.5 * (end - from) * (at(from) + at(end));
+            resampled.push(Sample {
+                time: edge(block + 0.5),
+                acceleration: area / (end - edge(block)),
             });
-            self.next = (next.time > end).then_some(next);
-            return Ok(Some(middle));
+            (from, area, block) = (end, 0.0, block + 1.0);
+        }
+        if from < next.time {
+            area += 0.5 * (next.time - from) * (at(from) + at(next.time));
         }
     }
-}
-
-impl Iterator for Resampled {
-    type Item = Result<Sample, RecordingError>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        self.advance().transpose()
-    }
+    resampled
 }
 
 #[cfg(test)]
@@ -128,7 +62,7 @@ mod tests {
             ..Reading::default()
         };
         let recording = Recording::from_bytes("ride", rows.into_bytes(), &reading).unwrap();
-        let samples = recording.samples().unwrap().map(Result::unwrap);
+        let samples = recording.samples().iter();
         samples
             .map(|sample| (sample.time, sample.acceleration))
             .collect()

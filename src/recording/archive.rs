@@ -4,9 +4,12 @@
 //! for each sensor, all with the same columns, so that only their names distinguish them. Of several
 //! accelerations the one with gravity is taken, because it shows which way is up.
 
-use super::error::{Names, RecordingError, RecordingProblem, nearest};
-use super::layout::Layout;
+use super::error::{Names, RecordingError, RecordingProblem};
+use super::layout::Input;
+use super::lines::Lines;
+use super::parser::Parser;
 use super::reading::Reading;
+use super::sheet;
 use super::source::{Member, Source};
 use std::io::Read;
 use zip::{CompressionMethod, ZipArchive};
@@ -17,15 +20,19 @@ use zip::{CompressionMethod, ZipArchive};
 /// If an archive is damaged, or has no suitable table or more than one.
 pub(super) fn table(source: Source, reading: &Reading) -> Result<Source, RecordingError> {
     if is_archive(&source)? {
-        return member(&source, reading);
+        let members = members(&source)?;
+        if members
+            .iter()
+            .any(|found| found.member.name == "xl/workbook.xml")
+        {
+            return sheet::table(&source, reading);
+        }
+        return member(&source, &members, reading);
     }
     if source.name().to_lowercase().ends_with(".zip") {
         return Err(source.error(None, RecordingProblem::NotAZip));
     }
-    match &reading.member {
-        Some(member) => Err(source.error(None, RecordingProblem::NotAnArchive(member.clone()))),
-        None => Ok(source),
-    }
+    Ok(source)
 }
 
 fn is_archive(source: &Source) -> Result<bool, RecordingError> {
@@ -37,29 +44,14 @@ fn is_archive(source: &Source) -> Result<bool, RecordingError> {
     Ok(start == b"PK\x03\x04" || start == b"PK\x05\x06")
 }
 
-fn member(source: &Source, reading: &Reading) -> Result<Source, RecordingError> {
-    let members = members(source)?;
-    let names = || {
-        Names(
-            members
-                .iter()
-                .map(|found| found.member.name.clone())
-                .collect(),
-        )
-    };
+fn member(source: &Source, members: &[Found], reading: &Reading) -> Result<Source, RecordingError> {
+    let names: Vec<String> = (members.iter())
+        .map(|found| found.member.name.clone())
+        .collect();
     if let Some(wanted) = &reading.member {
         let found = members.iter().find(|found| found.member.name == *wanted);
-        return match found {
-            Some(found) => found.open(source),
-            None => Err(source.error(
-                None,
-                RecordingProblem::UnknownMember {
-                    got: wanted.clone(),
-                    hint: nearest(wanted, &names().0),
-                    found: names(),
-                },
-            )),
-        };
+        let unknown = || source.error(None, RecordingProblem::unknown_member(wanted, names));
+        return found.ok_or_else(unknown)?.open(source);
     }
     let candidates: Vec<&Found> = members
         .iter()
@@ -72,8 +64,10 @@ fn member(source: &Source, reading: &Reading) -> Result<Source, RecordingError> 
     let mut tables = Vec::new();
     for candidate in candidates {
         let table = candidate.open(source)?;
-        if let Ok(layout) = Layout::find(&table, reading) {
-            tables.push((layout.includes_gravity(table.name()), table));
+        let mut lines = Lines::new(table.text()?);
+        let begun = Parser::begin(&mut lines, table.name(), reading, Input::File);
+        if let Ok((parser, _)) = begun {
+            tables.push((parser.layout.includes_gravity(table.name()), table));
         }
     }
     let with_gravity = tables.iter().filter(|(gravity, _)| *gravity).count();
@@ -82,7 +76,7 @@ fn member(source: &Source, reading: &Reading) -> Result<Source, RecordingError> 
     }
     let problem = match &mut tables[..] {
         [_] => return Ok(tables.remove(0).1),
-        [] => RecordingProblem::NoTable(names()),
+        [] => RecordingProblem::NoTable(Names(names)),
         several => RecordingProblem::SeveralTables(Names(
             several
                 .iter()
@@ -137,6 +131,7 @@ fn members(source: &Source) -> Result<Vec<Found>, RecordingError> {
                 name,
                 start,
                 packed: file.compressed_size(),
+                unpacked: file.size(),
                 checksum: file.crc32(),
                 is_deflated,
             },

@@ -1,4 +1,4 @@
-//! The source of a recording's text, which can be read several times.
+//! The source of a recording's text: a file, bytes in memory, or a member of a zip archive.
 //!
 //! Text in UTF-16 is recognised by its byte order mark and converted to UTF-8; everything else is passed
 //! unchanged. A member of a zip archive is unpacked as it is read.
@@ -13,17 +13,21 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The size of a read buffer, bytes.
-const BUFFER: usize = 1 << 16;
+const BUFFER: usize = 1 << 17;
 
 /// A reader of lines.
 pub(super) type Text = Box<dyn BufRead + Send>;
 
-/// Bytes that can be read again.
+/// Bytes that can be opened.
 #[derive(Clone, Debug)]
 pub(super) struct Source {
     name: Arc<str>,
     bytes: Bytes,
     member: Option<Member>,
+    /// The sheet or the sensor that was converted.
+    part: Option<String>,
+    /// Lines of the text that the file does not have.
+    added_lines: u64,
 }
 
 #[derive(Clone, Debug)]
@@ -38,6 +42,7 @@ pub(super) struct Member {
     pub name: String,
     pub start: u64,
     pub packed: u64,
+    pub unpacked: u64,
     pub checksum: u32,
     pub is_deflated: bool,
 }
@@ -62,6 +67,8 @@ impl Source {
                 name: name.into(),
                 bytes: Bytes::File(path.to_owned()),
                 member: None,
+                part: None,
+                added_lines: 0,
             }),
         }
     }
@@ -71,6 +78,29 @@ impl Source {
             name: name.into(),
             bytes: Bytes::Memory(bytes),
             member: None,
+            part: None,
+            added_lines: 0,
+        }
+    }
+
+    /// The same, converted into a table with so many lines above the first of the file.
+    pub fn converted(&self, table: Vec<u8>, part: Option<&str>, added_lines: u64) -> Self {
+        let name = part.map_or(self.name.to_string(), |part| {
+            format!("{}:{part}", self.name)
+        });
+        Self {
+            added_lines,
+            part: part.map(str::to_owned),
+            ..Self::memory(&name, table.into())
+        }
+    }
+
+    /// The size of its text, bytes.
+    pub fn size(&self) -> u64 {
+        match (&self.member, &self.bytes) {
+            (Some(member), _) => member.unpacked,
+            (None, Bytes::File(path)) => fs::metadata(path).map_or(0, |file| file.len()),
+            (None, Bytes::Memory(bytes)) => bytes.len() as u64,
         }
     }
 
@@ -80,6 +110,8 @@ impl Source {
             name: format!("{}:{}", self.name, member.name).into(),
             bytes: self.bytes.clone(),
             member: Some(member),
+            part: None,
+            added_lines: 0,
         }
     }
 
@@ -88,13 +120,17 @@ impl Source {
         &self.name
     }
 
-    /// The member that is read.
+    /// The member, the sheet or the sensor that is read.
     pub fn member(&self) -> Option<&str> {
-        self.member.as_ref().map(|member| member.name.as_str())
+        let member = self.member.as_ref().map(|member| member.name.as_str());
+        member.or(self.part.as_deref())
     }
 
     /// An error of this source, in a line if one is given.
     pub fn error(&self, line: Option<u64>, problem: RecordingProblem) -> RecordingError {
+        let line = line
+            .and_then(|line| line.checked_sub(self.added_lines))
+            .filter(|line| *line > 0);
         RecordingError::new(&self.name, line, problem)
     }
 

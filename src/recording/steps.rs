@@ -4,7 +4,7 @@
 //! are integer multiples of the smallest. The estimate is refined from the short multiples to the long, so
 //! that its error never reaches a tenth of a step.
 
-use super::reading::GRAVITY;
+use super::unit::GRAVITY;
 
 /// The number of readings used.
 pub(super) const LOOKED_AT: usize = 8192;

@@ -1,0 +1,238 @@
+//! Facts about a recording and its sensor.
+
+use super::error::RecordingProblem;
+use super::sample::Sample;
+use super::steps::{LOOKED_AT, Steps};
+
+/// A time without samples.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Gap {
+    /// Time of the sample before it, s.
+    pub start: f64,
+    /// s.
+    pub length: f64,
+}
+
+/// An interval above this many medians is a gap: four samples or more are missing.
+const GAP: f64 = 5.0;
+
+/// Facts about a recording before any resampling.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facts {
+    /// Samples.
+    pub samples: u64,
+    /// Time of the first sample, s.
+    pub start: f64,
+    /// Time of the last sample, s.
+    pub end: f64,
+    /// One over the median interval, Hz.
+    pub rate: f64,
+    /// The standard deviation of the intervals over their median, without intervals below 0.5 or above 1.5
+    /// medians.
+    pub jitter: f64,
+    /// The longest interval.
+    pub longest_gap: Gap,
+    /// Intervals longer than five medians.
+    pub gaps: u64,
+    /// The sensor's step, m/s², if its first readings lie on a grid.
+    pub quantum: Option<f64>,
+    /// The share of samples that equal the one before.
+    pub repeats: f64,
+    /// The share of samples at a limit of the sensor, if there clearly is one.
+    pub saturated: Option<f64>,
+    /// m/s².
+    pub mean: f64,
+    /// The standard deviation over rest and ride together, m/s².
+    pub deviation: f64,
+    /// m/s².
+    pub least: f64,
+    /// m/s².
+    pub greatest: f64,
+    /// Whether the record has gravity in it.
+    pub has_gravity: bool,
+    /// What was subtracted from the times of the file, s.
+    pub clock_offset: Option<f64>,
+}
+
+impl Facts {
+    /// Of samples at increasing times.
+    ///
+    /// # Errors
+    /// If there are too few samples or only equal ones.
+    pub(super) fn of(samples: &[Sample], has_gravity: bool) -> Result<Self, RecordingProblem> {
+        let [first, .., last] = samples else {
+            return Err(RecordingProblem::TooFew(samples.len() as u64));
+        };
+        let (mut low, mut high) = (Extreme::of(first), Extreme::of(first));
+        let (mut repeats, mut longest) = (0, Gap::default());
+        let mut intervals = Vec::with_capacity(samples.len() - 1);
+        for (before, sample) in samples.iter().zip(&samples[1..]) {
+            let length = sample.time - before.time;
+            intervals.push(length);
+            if length > longest.length {
+                longest = Gap {
+                    start: before.time,
+                    length,
+                };
+            }
+            repeats += u64::from(sample.acceleration == before.acceleration);
+            low.add(sample.acceleration, sample.acceleration < low.value);
+            high.add(sample.acceleration, sample.acceleration > high.value);
+        }
+        if low.value == high.value {
+            return Err(RecordingProblem::AllEqual(low.value));
+        }
+        let middle = (intervals.len() - 1) / 2;
+        let median = *intervals.select_nth_unstable_by(middle, f64::total_cmp).1;
+        let count = samples.len() as f64;
+        let (mean, deviation) = moments(samples.iter().map(|sample| sample.acceleration));
+        let usual = 0.5 * median..=1.5 * median;
+        let usual = intervals.iter().filter(|length| usual.contains(length));
+        let looked_at = samples
+            .iter()
+            .take(LOOKED_AT)
+            .map(|sample| sample.acceleration);
+        let steps = Steps::of(looked_at.collect());
+        let step = steps.quantum.unwrap_or(0.0);
+        let is_fine = steps.levels > FEW_LEVELS;
+        let at_limits: u64 = [&low, &high]
+            .into_iter()
+            .filter(|extreme| is_fine && extreme.is_limit(mean, step))
+            .map(|extreme| extreme.count)
+            .sum();
+        Ok(Self {
+            samples: samples.len() as u64,
+            start: first.time,
+            end: last.time,
+            rate: 1.0 / median,
+            jitter: moments(usual.map(|length| length / median)).1,
+            gaps: intervals
+                .iter()
+                .filter(|length| **length > GAP * median)
+                .count() as u64,
+            longest_gap: longest,
+            quantum: steps.quantum,
+            repeats: repeats as f64 / count,
+            saturated: (at_limits > 0).then(|| at_limits as f64 / count),
+            mean,
+            deviation,
+            least: low.value,
+            greatest: high.value,
+            has_gravity,
+            clock_offset: None,
+        })
+    }
+
+    /// The longest interval that is not a gap, s.
+    pub fn gap(&self) -> f64 {
+        GAP / self.rate
+    }
+
+    /// s.
+    pub fn duration(&self) -> f64 {
+        self.end - self.start
+    }
+}
+
+/// The mean and the standard deviation, by Welford's recursion.
+fn moments(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let (mut count, mut mean, mut squares) = (0.0, 0.0, 0.0);
+    for value in values {
+        count += 1.0;
+        let deviation = value - mean;
+        mean += deviation / count;
+        squares += deviation * (value - mean);
+    }
+    (mean, (squares / f64::max(count, 1.0)).sqrt())
+}
+
+/// The number of levels that the noise at rest may cover on a sensor with coarse steps.
+const FEW_LEVELS: usize = 20;
+
+/// The least or the greatest reading, how often it occurred, and how often in a row.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Extreme {
+    value: f64,
+    count: u64,
+    run: u64,
+    longest_run: u64,
+}
+
+impl Extreme {
+    fn of(sample: &Sample) -> Self {
+        Self {
+            value: sample.acceleration,
+            count: 1,
+            run: 1,
+            longest_run: 1,
+        }
+    }
+
+    fn add(&mut self, value: f64, is_new: bool) {
+        if is_new {
+            *self = Self {
+                value,
+                ..Self::default()
+            };
+        }
+        self.run = if value == self.value { self.run + 1 } else { 0 };
+        self.count += u64::from(value == self.value);
+        self.longest_run = self.longest_run.max(self.run);
+    }
+
+    /// Whether the extreme is a limit of the sensor. A signal stays at its extreme for three readings if it is
+    /// clipped there. By chance this happens only if the steps are so coarse that rest covers few levels, and then
+    /// the extreme is only a few steps from the mean.
+    fn is_limit(&self, mean: f64, step: f64) -> bool {
+        self.longest_run >= 3 && (self.value - mean).abs() > FEW_LEVELS as f64 * step
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(lengths: &[f64]) -> Facts {
+        let mut time = 0.0;
+        let mut samples = vec![Sample {
+            time,
+            acceleration: 1.0,
+        }];
+        for length in lengths {
+            time += length;
+            samples.push(Sample {
+                time,
+                acceleration: 0.0,
+            });
+        }
+        Facts::of(&samples, false).unwrap()
+    }
+
+    #[test]
+    fn median_jitter_and_gaps() {
+        let mut lengths = vec![0.25; 100];
+        lengths[50] = 8.0;
+        lengths[70] = 0.03125;
+        let facts = of(&lengths);
+        assert_eq!((facts.rate, facts.jitter, facts.gaps), (4.0, 0.0, 1));
+        assert_eq!(
+            facts.longest_gap,
+            Gap {
+                start: 12.5,
+                length: 8.0
+            }
+        );
+    }
+
+    /// A third each at 0.99, 1 and 1.01.
+    #[test]
+    fn jitter_is_relative() {
+        for spread in [0.01, 1e-5] {
+            let thirds = |i: i32| 1.0 + spread * f64::from(i % 3 - 1);
+            let jitter = of(&(0..999).map(thirds).collect::<Vec<_>>()).jitter;
+            let expected = spread * (2.0f64 / 3.0).sqrt();
+            // Times near 1000 have the deviation of each interval to 1e-13.
+            assert!((jitter - expected).abs() < 1e-3 * spread, "{jitter}");
+        }
+    }
+}

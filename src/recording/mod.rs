@@ -1,0 +1,254 @@
+//! Recordings of real lifts by a phone or a logger, read as one signal.
+//!
+//! A [`Recording`] is a table of text: as phyphox, Science Journal, Sensor Logger, Physics Toolbox, Xsens DOT,
+//! Witmotion, a Campbell logger or an Arduino's serial monitor write it, or plainly `time,acceleration`; by
+//! itself or in a zip archive; its cells separated by commas, semicolons, tabs or blanks, quoted or not, with
+//! decimal points or commas, in UTF-8 or UTF-16. JSON and workbooks are turned into such tables. A file is read
+//! once, into columns in memory; then its unit and its vertical are found, and [`Facts`] and [`Warning`]s
+//! about the quality of the signal.
+//!
+//! Samples are in s and m/s², up positive, with strictly increasing times; nothing else is changed. In
+//! particular:
+//!
+//! - a row whose time or acceleration is blank or NaN gives no sample, since apps write a row for every sensor;
+//! - of rows with equal times the first counts, unless each time stands for many rows, which are then spread; a
+//!   time that goes back is refused, unless a clock of 32 bits began again;
+//! - times since 1970 and dates count from the first row;
+//! - a last row that is cut short is left out with a warning. A number that lost only some digits cannot be
+//!   distinguished from a complete one;
+//! - any other cell that is not a finite number is refused with its line;
+//! - samples are resampled to a uniform grid only if [`Reading::resample`] is set: each is then the mean of
+//!   the linear interpolation over a block of 1/rate, and blocks that a gap reaches into are left out.
+//!
+//! A [`LineReader`] reads the same lines from a pipe, in constant memory.
+//!
+//! ```
+//! use liftsim::recording::{Reading, Recording};
+//!
+//! let text = "time (ms),acceleration (g)\n0,1.00\n20,1.25\n40,1.00\n";
+//! let recording = Recording::from_bytes("example", text.as_bytes(), &Reading::default())?;
+//! assert_eq!(recording.facts().rate, 50.0);
+//! let second = recording.samples()[1];
+//! assert_eq!((second.time, second.acceleration), (0.02, 1.25 * 9.80665));
+//! # Ok::<(), liftsim::recording::RecordingError>(())
+//! ```
+
+mod archive;
+mod assumed;
+mod axis;
+mod cell;
+mod clock;
+mod error;
+mod facts;
+mod head;
+mod json;
+mod layout;
+mod line_reader;
+mod lines;
+mod names;
+mod parser;
+mod reading;
+mod resample;
+mod sample;
+mod sheet;
+mod source;
+mod splitter;
+mod spread;
+mod stamp;
+mod steps;
+mod table;
+#[cfg(test)]
+mod tests;
+mod unit;
+mod unknown_name;
+mod vertical;
+mod warning;
+
+pub use axis::Axis;
+pub use error::{Names, RecordingError, RecordingProblem};
+pub use facts::{Facts, Gap};
+pub use layout::Format;
+pub use line_reader::{LineError, LineReader, LineReading};
+pub use reading::Reading;
+pub use sample::Sample;
+pub use unit::{GRAVITY, TimeUnit, Unit, UnitError};
+pub use unknown_name::UnknownName;
+pub use vertical::{Direction, Reason, Sign, Vertical};
+pub use warning::Warning;
+
+use source::Source;
+use std::path::Path;
+use std::sync::Arc;
+use table::Columns;
+use vertical::Windows;
+
+/// A recording in memory.
+#[derive(Clone, Debug)]
+pub struct Recording {
+    samples: Vec<Sample>,
+    rate: f64,
+    facts: Facts,
+    warnings: Vec<Warning>,
+    vertical: Vertical,
+    format: Format,
+    member: Option<String>,
+    /// The name of the column, and its unit.
+    time: (String, TimeUnit),
+    accelerations: Vec<String>,
+    unit: Unit,
+}
+
+impl Recording {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// If the file is not a recording, or cannot be read with these options.
+    pub fn open(path: &Path, reading: &Reading) -> Result<Self, RecordingError> {
+        Self::of(Source::file(path)?, reading)
+    }
+
+    /// Reads a file held in memory; messages call it `name`.
+    ///
+    /// # Errors
+    /// If the file is not a recording, or cannot be read with these options.
+    pub fn from_bytes(
+        name: &str,
+        bytes: impl Into<Arc<[u8]>>,
+        reading: &Reading,
+    ) -> Result<Self, RecordingError> {
+        Self::of(Source::memory(name, bytes.into()), reading)
+    }
+
+    fn of(source: Source, reading: &Reading) -> Result<Self, RecordingError> {
+        let source = json::table(archive::table(source, reading)?, reading)?;
+        let columns = Columns::read(&source, reading)?;
+        let mut recording =
+            Self::of_columns(columns, reading).map_err(|problem| source.error(None, problem))?;
+        recording.member = source.member().map(str::to_owned);
+        Ok(recording)
+    }
+
+    fn of_columns(mut columns: Columns, reading: &Reading) -> Result<Self, RecordingProblem> {
+        let mut windows = Windows::of(&columns);
+        let assumed = assumed::unit(&columns.layout, &windows)?;
+        let unit = assumed.unit;
+        windows.convert(unit, columns.axes.len());
+        let vertical = vertical::find(&columns, &windows, reading.axis, assumed.is_reversed);
+        let mut vertical = vertical.map_err(RecordingProblem::NoGravity)?;
+        let along = vertical::project(&columns, &windows, unit, &vertical);
+        columns.axes.clear();
+        let times = std::mem::take(&mut columns.times);
+        let rows = times.len();
+        let sign = if reading.invert { -1.0 } else { 1.0 };
+        let mut samples: Vec<Sample> = (times.into_iter().zip(along))
+            .filter(|(_, along)| !along.is_nan())
+            .map(|(time, along)| Sample {
+                time,
+                acceleration: sign * along,
+            })
+            .collect();
+        if reading.invert {
+            vertical = vertical.inverted();
+        }
+        let (layout, clock) = (&columns.layout, &columns.clock);
+        columns.skipped.blank += (rows - samples.len()) as u64;
+        let number = samples.len() as u64;
+        let repeats = spread::spread(&mut samples);
+        let mut facts = Facts::of(&samples, windows.has_gravity())?;
+        facts.clock_offset = clock.offset();
+        facts.rate = reading.rate.unwrap_or(facts.rate);
+        columns.check_clock(facts.rate)?;
+        let mut warnings = warning::of_rows(layout, &columns.skipped, clock.wraps, repeats, number);
+        warnings.extend(assumed.warning);
+        let is_reversed = assumed.is_reversed && vertical.sign == Sign::Assumed;
+        warnings.extend(warning::of_signal(&facts, &vertical, is_reversed));
+        let time = match layout.time {
+            Some(time) => (layout.columns[time].name.clone(), clock.unit()),
+            None => ("--rate".to_owned(), TimeUnit::Seconds),
+        };
+        let names = layout.acceleration_names();
+        let accelerations = match vertical.direction {
+            Direction::Along { place, .. } => vec![names[place].to_owned()],
+            Direction::Projected(_) => names.into_iter().map(str::to_owned).collect(),
+        };
+        let rate = reading.resample.unwrap_or(facts.rate);
+        if reading.resample.is_some() {
+            check_resample(rate, &facts)?;
+            samples = resample::resample(&samples, rate, facts.gap());
+        }
+        Ok(Self {
+            samples,
+            rate,
+            facts,
+            warnings,
+            vertical,
+            format: layout.format,
+            member: None,
+            time,
+            accelerations,
+            unit,
+        })
+    }
+
+    /// The samples, times strictly increasing, after any resampling.
+    pub fn samples(&self) -> &[Sample] {
+        &self.samples
+    }
+
+    /// The rate of the samples, Hz, after any resampling.
+    pub fn rate(&self) -> f64 {
+        self.rate
+    }
+
+    /// Facts about the signal before any resampling.
+    pub fn facts(&self) -> &Facts {
+        &self.facts
+    }
+
+    /// Warnings about the quality of the signal, and about what was assumed.
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
+    }
+
+    /// The app that wrote it.
+    pub fn format(&self) -> Format {
+        self.format
+    }
+
+    /// The member of the archive, the sheet or the sensor that is read.
+    pub fn member(&self) -> Option<&str> {
+        self.member.as_deref()
+    }
+
+    /// The name and the unit of the time column.
+    pub fn time_column(&self) -> (&str, TimeUnit) {
+        (&self.time.0, self.time.1)
+    }
+
+    /// The names of the columns that the acceleration is read from: one, or three where it is projected.
+    pub fn acceleration_columns(&self) -> &[String] {
+        &self.accelerations
+    }
+
+    /// The unit of the accelerations, never [`Unit::Found`].
+    pub fn unit(&self) -> Unit {
+        self.unit
+    }
+
+    /// The vertical direction, and how it was found.
+    pub fn vertical(&self) -> &Vertical {
+        &self.vertical
+    }
+}
+
+/// Checks that the grid is neither finer than the clock resolves nor much finer than the recording, nor too much
+/// for the memory.
+fn check_resample(got: f64, facts: &Facts) -> Result<(), RecordingProblem> {
+    let latest = facts.start.abs().max(facts.end.abs());
+    let limit = (10.0 * facts.rate).min(1.0 / (16.0 * f64::EPSILON * latest));
+    if !(got > 0.0 && got <= limit) {
+        let limit = (1e6 * limit).round() / 1e6;
+        return Err(RecordingProblem::Resample { got, limit });
+    }
+    table::check_memory(facts.samples as f64 * (got / facts.rate).max(1.0), 16.0)
+}

@@ -1,0 +1,205 @@
+//! Lines into times and accelerations: the one way for files and for streams.
+
+use super::cell::{Cell, DecimalMark, shorten};
+use super::clock::Clock;
+use super::error::RecordingProblem;
+use super::head::{Head, Kept};
+use super::layout::{Input, Layout};
+use super::lines::Lines;
+use super::reading::Reading;
+use super::splitter::{Delimiter, Splitter};
+use super::unit::Unit;
+use std::io::BufRead;
+
+/// What a cell must do. No recording of a lift has times or accelerations beyond these: 30 000 years, and ten
+/// thousand times the range of a shock sensor.
+const NUMBER: &str = "be a number";
+const FINITE: &str = "be finite";
+const LATEST: &str = "lie within 1e12 s";
+const STRONGEST: &str = "lie within 1e9 m/s^2";
+
+/// Reads the rows of one table.
+#[derive(Debug)]
+pub(super) struct Parser {
+    pub layout: Layout,
+    pub clock: Clock,
+    pub splitter: Splitter,
+    marks: [DecimalMark; 3],
+    /// Whether the last cell of the row before was written with an exponent.
+    had_exponent: bool,
+}
+
+/// What a row says, in s and in the unit of the table.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Row {
+    pub time: Option<f64>,
+    pub axes: [Option<f64>; 3],
+    /// Whether a cell is NaN.
+    pub is_missing: bool,
+}
+
+impl Parser {
+    /// Reads up to the first row, and returns the rows that were read with it.
+    ///
+    /// # Errors
+    /// If there is no table, or a column cannot be found, with the line to blame.
+    pub fn begin<R: BufRead>(
+        lines: &mut Lines<R>,
+        owner: &str,
+        reading: &Reading,
+        input: Input,
+    ) -> Result<(Self, Vec<Kept>), (Option<u64>, RecordingProblem)> {
+        let mut head = Head::read(lines, owner)?;
+        let (layout, first) = Layout::of(&head, owner, reading, input)?;
+        let parser = Self {
+            clock: match input {
+                Input::File => Clock::of_file(layout.time_unit),
+                Input::Stream { .. } => Clock::of_stream(layout.time_unit),
+            },
+            layout,
+            splitter: head.splitter,
+            marks: Default::default(),
+            had_exponent: false,
+        };
+        Ok((parser, head.lines.split_off(first)))
+    }
+
+    /// Reads a row; `None` where the file was cut off within it, which only a line without an end can be.
+    ///
+    /// # Errors
+    /// If the line has other cells than the first row, or one that is read is no number.
+    #[inline]
+    pub fn read(&mut self, line: &[u8], is_ended: bool) -> Result<Option<Row>, RecordingProblem> {
+        let expected = self.layout.columns.len();
+        let got = self.splitter.split(line);
+        if got != expected {
+            let mut more = self.splitter.cells(line).skip(expected);
+            if got < expected && !is_ended {
+                return Ok(None);
+            }
+            if got < expected || !more.all(<[u8]>::is_empty) {
+                return Err(self.wrong_cells(line, got));
+            }
+        }
+        let last = self.splitter.cell(line, expected - 1);
+        let has_exponent = memchr::memchr2(b'e', b'E', last).is_some();
+        if !is_ended && self.had_exponent && !has_exponent && self.reads(expected - 1) {
+            return Ok(None);
+        }
+        self.had_exponent = has_exponent;
+        match self.values(line) {
+            Err(RecordingProblem::Cell { .. }) if !is_ended => Ok(None),
+            row => row.map(Some),
+        }
+    }
+
+    /// Whether a column is read.
+    fn reads(&self, column: usize) -> bool {
+        let mut axes = self.layout.axes.iter();
+        self.layout.time == Some(column) || axes.any(|(_, axis)| *axis == column)
+    }
+
+    #[inline]
+    fn values(&mut self, line: &[u8]) -> Result<Row, RecordingProblem> {
+        let mut row = Row::default();
+        let rule = |refused| {
+            if refused == Cell::Infinite {
+                FINITE
+            } else {
+                NUMBER
+            }
+        };
+        if let Some(column) = self.layout.time {
+            let cell = self.splitter.cell(line, column);
+            row.time = match self.clock.read(cell) {
+                Ok(Some(time)) if time.abs() > 1e12 => {
+                    return Err(self.refused(column, cell, LATEST));
+                }
+                Ok(time) => time,
+                Err(refused) => return Err(self.refused(column, cell, rule(refused))),
+            };
+        }
+        let unit = self.layout.unit.unwrap_or(Unit::MetresPerSecondSquared);
+        for (place, (_, column)) in self.layout.axes.iter().enumerate() {
+            let cell = self.splitter.cell(line, *column);
+            row.axes[place] = match self.marks[place].read(cell) {
+                Cell::Number(number) if unit.convert(number).abs() > 1e9 => {
+                    return Err(self.refused(*column, cell, STRONGEST));
+                }
+                Cell::Number(number) => Some(number),
+                Cell::Blank => None,
+                Cell::Missing => {
+                    row.is_missing = true;
+                    None
+                }
+                refused => return Err(self.refused(*column, cell, rule(refused))),
+            };
+        }
+        Ok(row)
+    }
+
+    fn refused(&self, column: usize, cell: &[u8], rule: &'static str) -> RecordingProblem {
+        if cell.iter().any(u8::is_ascii_control) {
+            return RecordingProblem::Binary;
+        }
+        let is_clock = self.layout.time == Some(column);
+        RecordingProblem::Cell {
+            column: self.layout.columns[column].name.clone(),
+            got: match cell {
+                [] => "nothing".to_owned(),
+                cell => format!("\"{}\"", shorten(cell)),
+            },
+            remedy: match (rule, is_clock) {
+                (LATEST, _) => "check the unit: --time-unit s, ms, us or ns",
+                (STRONGEST, _) => "check the unit: --unit m/s^2, g, mg or counts",
+                (NUMBER, true) => "write times as numbers, or as 2013-11-25 12:30:00.005",
+                (NUMBER, false) => "correct it, or leave the row out",
+                _ => "leave the row out where nothing was read",
+            },
+            rule,
+        }
+    }
+
+    /// Refuses a row of a stream that lacks the time or the acceleration.
+    pub fn check_whole(&self, line: &[u8], row: &Row) -> Result<(), RecordingProblem> {
+        let axis = self.layout.axes[0].1;
+        let blank = match (self.layout.time, row) {
+            (Some(time), Row { time: None, .. }) => time,
+            (
+                _,
+                Row {
+                    axes: [None, ..], ..
+                },
+            ) => axis,
+            _ => return Ok(()),
+        };
+        Err(self.refused(blank, self.splitter.cell(line, blank), FINITE))
+    }
+
+    /// The error for a line with a different number of cells than the first.
+    fn wrong_cells(&self, line: &[u8], got: usize) -> RecordingProblem {
+        if line.iter().any(|&c| c.is_ascii_control() && c != b'\t') {
+            return RecordingProblem::Binary;
+        }
+        let (expected, delimiter) = (self.layout.columns.len(), self.splitter.delimiter);
+        let fits = |other: &Delimiter| {
+            expected > 1
+                && *other != delimiter
+                && Splitter::new(*other, line).split(line) == expected
+        };
+        let other = Delimiter::ALL.into_iter().find(fits);
+        if let (Some(other), true) = (other, got == 1 || got > expected) {
+            return RecordingProblem::MixedSeparators {
+                expected: delimiter.name(),
+                got: other.name(),
+            };
+        }
+        let is_comma_mark = delimiter == Delimiter::Comma && got > expected;
+        RecordingProblem::Cells {
+            expected,
+            got,
+            hint: is_comma_mark
+                .then_some(" (write decimal points, or quote cells with decimal commas)"),
+        }
+    }
+}

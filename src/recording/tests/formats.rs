@@ -1,0 +1,487 @@
+//! The formats of the apps.
+
+use super::*;
+
+const EXPECTED: [(f64, f64); 3] = [(0.01, -0.15), (0.02, 0.25), (0.03, 0.5)];
+
+/// The same three samples in every dialect of phyphox.
+#[test]
+fn phyphox() {
+    let header = "\"Time (s)\",\"Linear Acceleration z (m/s^2)\",\"Absolute acceleration (m/s^2)\"";
+    let rows = "\n1.0E-2,-1.5E-1,1.5E-1\n2.0E-2,2.5E-1,2.5E-1\n3.0E-2,5.0E-1,5.0E-1";
+    let points = format!("{header}{rows}");
+    let dialects = [
+        points.clone(),
+        points.replace(',', ";"),
+        points.replace(',', "\t"),
+        points.replace(',', ";").replace('.', ","),
+        points.replace(',', "\t").replace('.', ","),
+        points.replace('\n', "\r\n") + "\r\n",
+        format!("\u{feff}{points}\n\n"),
+        format!("sep=,\n# exported\n{points}"),
+    ];
+    for text in dialects {
+        let recording = open(&text);
+        assert_eq!(read(&recording), EXPECTED, "{text}");
+        assert_eq!(recording.format(), Format::Phyphox);
+        assert_eq!(recording.time_column(), ("Time (s)", TimeUnit::Seconds));
+        assert_eq!(
+            recording.acceleration_columns(),
+            ["Linear Acceleration z (m/s^2)"]
+        );
+        assert_eq!(recording.unit(), Unit::MetresPerSecondSquared);
+        assert_eq!(recording.warnings(), []);
+    }
+}
+
+#[test]
+fn utf_16() {
+    let text = "\u{feff}Time (s);Acceleration z (m/s²)\n0,01;-0,15\n0,02;0,25\n0,03;0,5\n";
+    let little: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let big: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
+    for bytes in [little, big] {
+        let recording = Recording::from_bytes("ride", bytes, &Reading::default()).unwrap();
+        assert_eq!(read(&recording), EXPECTED);
+    }
+}
+
+#[test]
+fn latin_1() {
+    let text = b"Time (s),Acceleration z (m/s\xb2)\n0.01,-0.15\n0.02,0.25\n0.03,0.5\n";
+    let recording = Recording::from_bytes("ride", &text[..], &Reading::default()).unwrap();
+    assert_eq!(read(&recording), EXPECTED);
+    assert_eq!(recording.format(), Format::Phyphox);
+}
+
+/// Each sensor writes its own rows, and z is read at 20 ms.
+#[test]
+fn science_journal() {
+    let text = "relative_time,LinearAccelerometerSensor,AccX,AccY,AccZ\n\
+        0,,,,9.75\n1,,0.125,,\n2,,,0.25,\n20,1.5,0.125,,9.5\n40,,,0.5,9.75\n";
+    let recording = open(text);
+    assert_eq!(read(&recording), [(0.0, 9.75), (0.02, 9.5), (0.04, 9.75)]);
+    assert_eq!(recording.format(), Format::ScienceJournal);
+    assert_eq!(recording.time_column().1, TimeUnit::Milliseconds);
+    assert!(recording.facts().has_gravity);
+    assert!(matches!(recording.vertical().reason, Reason::Gravity { from, .. } if from < 3.0));
+    let blank = Warning::BlankRows {
+        count: 2,
+        samples: 3,
+    };
+    assert_eq!(recording.warnings(), [blank]);
+}
+
+#[test]
+fn sensor_logger() {
+    let text = "time,seconds_elapsed,z,y,x\n\
+        1700000000010000000,0.01,9.5,0,0\n1700000000020000000,0.02,10,0,0\n";
+    let recording = open(text);
+    assert_eq!(recording.format(), Format::SensorLogger);
+    assert_eq!(
+        recording.time_column(),
+        ("seconds_elapsed", TimeUnit::Seconds)
+    );
+    assert_eq!(read(&recording), [(0.01, 9.5), (0.02, 10.0)]);
+    let reading = Reading {
+        time: Some("time".into()),
+        ..Reading::default()
+    };
+    let recording = open_as(text, &reading);
+    assert_eq!(recording.time_column().1, TimeUnit::Nanoseconds);
+    assert_eq!(recording.facts().clock_offset, Some(1.70000000001e9));
+    assert_eq!(recording.facts().start, 0.0);
+    assert!((recording.facts().rate - 100.0).abs() < 0.01);
+    let gyroscope = Recording::from_bytes("Gyroscope.csv", text.as_bytes(), &Reading::default());
+    assert!(
+        gyroscope
+            .unwrap_err()
+            .to_string()
+            .contains("no column looks like an acceleration")
+    );
+}
+
+#[test]
+fn plain() {
+    for text in [
+        "0.01,-0.15\n0.02,0.25\n0.03,0.5",
+        "t,acc\n0.01,-0.15\n0.02,0.25\n0.03,0.5\n",
+    ] {
+        let recording = open(text);
+        assert_eq!(read(&recording), EXPECTED);
+        assert_eq!(recording.format(), Format::Plain);
+    }
+    assert_eq!(read(&open("0,01;-0,15\n0,02;0,25\n0,03;0,5")), EXPECTED);
+}
+
+#[test]
+fn names_and_units_are_given() {
+    let reading = Reading {
+        time: Some("clock".into()),
+        acceleration: Some("ADC".into()),
+        time_unit: Some(TimeUnit::Microseconds),
+        unit: Unit::Counts {
+            scale: 0.5,
+            offset: 2048.0,
+        },
+        ..Reading::default()
+    };
+    let recording = open_as(
+        "n,clock,adc\n1,0,2048\n2,20000,2050\n3,40000,2047\n",
+        &reading,
+    );
+    assert_eq!(read(&recording), [(0.0, 0.0), (0.02, 1.0), (0.04, -0.5)]);
+    let reading = Reading {
+        acceleration: Some("3".into()),
+        time: Some("1".into()),
+        ..Reading::default()
+    };
+    let recording = open_as("0.00,7,1.5\n0.01,7,2.5\n", &reading);
+    assert_eq!(read(&recording), [(0.0, 1.5), (0.01, 2.5)]);
+}
+
+/// Gravity shows which way is up, for either sign of the sensor's axis.
+#[test]
+fn down_is_turned_up() {
+    let recording = open("time,x,y,z\n0.00,0,0,-9.75\n0.01,0,0,-10\n0.02,0,0,-9.5\n");
+    assert_eq!(read(&recording), [(0.0, 9.75), (0.01, 10.0), (0.02, 9.5)]);
+    assert_eq!(
+        recording.vertical().to_string(),
+        "projected on (0.00, 0.00, -1.00), the direction of gravity"
+    );
+    let recording = open("time,acceleration (g)\n0.00,-1\n0.01,-1.25\n0.02,-1\n");
+    assert!(recording.facts().has_gravity);
+    assert!((recording.facts().greatest - 1.25 * 9.80665).abs() < 1e-12);
+}
+
+#[test]
+fn the_user_chooses_an_axis_and_its_sign() {
+    let text = "time,x,y,z\n0,1,2,3\n0.01,2,3,5\n0.02,1,2,4\n";
+    let read_as = |axis: &str, invert| {
+        let reading = Reading {
+            axis: axis.parse().unwrap(),
+            invert,
+            ..Reading::default()
+        };
+        let recording = open_as(text, &reading);
+        (read(&recording)[1].1, recording.vertical().to_string())
+    };
+    assert_eq!(read_as("x", false), (2.0, "x (as given)".into()));
+    assert_eq!(read_as("-y", false), (-3.0, "-y (as given)".into()));
+    assert_eq!(read_as("-y", true), (3.0, "y (as given)".into()));
+    let (z, text) = read_as("auto", true);
+    assert_eq!(z, -5.0);
+    assert_eq!(text, "-z; no axis carries a ride (--axis x, y or z)");
+}
+
+/// 45° between y and z: neither axis is vertical.
+#[test]
+fn tilted_axes_are_projected() {
+    let half = 9.8 / 2f64.sqrt();
+    let row = |i: i32| {
+        format!(
+            "{},0,{},{}\n",
+            0.01 * f64::from(i),
+            half,
+            half + f64::from(i % 2)
+        )
+    };
+    let rows: String = (0..200).map(row).collect();
+    let text = format!("time,x,y,z\n{rows}");
+    let recording = open(&text);
+    assert_eq!(recording.acceleration_columns(), ["x", "y", "z"]);
+    assert!(
+        (recording.facts().mean - 10.16).abs() < 0.01,
+        "{}",
+        recording.facts().mean
+    );
+    // Axes in different rows cannot be projected.
+    let apart = |i: i32| match i % 2 {
+        0 => format!("{},0,{half},\n", 0.01 * f64::from(i)),
+        _ => format!(
+            "{},,,{}\n",
+            0.01 * f64::from(i),
+            half + 0.1 * f64::from(i % 4)
+        ),
+    };
+    let rows: String = (0..200).map(apart).collect();
+    let recording = open(&format!("time,x,y,z\n{rows}"));
+    let is_tilted = |warning: &Warning| matches!(warning, Warning::Tilted(angle) if *angle > 30.0);
+    assert!(recording.warnings().iter().any(is_tilted));
+}
+
+/// A pulse along y, shaking along x that averages out, and handling at the end that moves all axes.
+#[test]
+fn the_axis_with_the_ride() {
+    let row = |i: i32| {
+        let time = 0.01 * f64::from(i);
+        let pulse = if (300..500).contains(&i) { 0.5 } else { 0.0 };
+        let hand = if i >= 1800 { 4.0 } else { 0.0 };
+        let shaking = f64::from(i % 2) * 3.0;
+        format!(
+            "{time},{},{},{}\n",
+            shaking + hand,
+            pulse - hand,
+            0.01 + hand
+        )
+    };
+    let rows: String = (0..2000).map(row).collect();
+    let recording = open(&format!("time,x,y,z\n{rows}"));
+    let Direction::Projected([x, y, z]) = recording.vertical().direction else {
+        panic!("{}", recording.vertical());
+    };
+    assert!(x.abs() < 1e-6 && y > 0.999 && z.abs() < 1e-6, "{x} {y} {z}");
+    assert_eq!(recording.vertical().sign, Sign::Assumed);
+    assert_eq!(recording.vertical().reason, Reason::Pulses);
+}
+
+#[test]
+fn rest_is_along_z() {
+    let row = |i: i32| {
+        format!(
+            "{},{},0,{}\n",
+            0.01 * f64::from(i),
+            0.01 * f64::from(i % 3),
+            i % 2
+        )
+    };
+    let rows: String = (0..500).map(row).collect();
+    let recording = open(&format!("time,x,y,z\n{rows}"));
+    assert_eq!(recording.acceleration_columns(), ["z"]);
+    assert_eq!(recording.vertical().reason, Reason::Nothing);
+    assert!(matches!(recording.warnings()[0], Warning::Vertical(_)));
+}
+
+/// Turned from flat to upright at rest: the acceleration stays that of gravity, without a step.
+#[test]
+fn a_turned_phone_is_followed() {
+    let row = |i: i32| {
+        let share = (f64::from(i - 3000) / 200.0).clamp(0.0, 1.0);
+        let angle = share * std::f64::consts::FRAC_PI_2;
+        let noise = 0.01 * f64::from(i % 3);
+        let (y, z) = (9.8 * angle.sin() + noise, 9.8 * angle.cos() + noise);
+        format!("{},0,{y},{z}\n", 0.01 * f64::from(i))
+    };
+    let rows: String = (0..8000).map(row).collect();
+    let recording = open(&format!("time,x,y,z\n{rows}"));
+    let samples = read(&recording);
+    let is_still = |time: f64| !(25.0..37.0).contains(&time);
+    for (time, a) in samples.iter().filter(|(time, _)| is_still(*time)) {
+        assert!((a - 9.81).abs() < 0.02, "{a} at {time} s");
+    }
+    let step = samples.windows(2).map(|pair| (pair[1].1 - pair[0].1).abs());
+    assert!(step.fold(0.0, f64::max) < 0.2);
+    assert!(
+        matches!(recording.warnings(), [Warning::Vertical(_)]),
+        "{:?}",
+        recording.warnings()
+    );
+    let text = recording.vertical().to_string();
+    assert!(
+        text.contains("which turns by 90 degrees and is followed"),
+        "{text}"
+    );
+}
+
+/// The rows of `0.5 + i % 3` at 100 Hz, each written by `row` from its number, time and acceleration.
+fn table(head: &str, row: impl Fn(i32, f64, f64) -> String) -> String {
+    let row = |i: i32| row(i, f64::from(i) / 100.0, 9.5 + 0.25 * f64::from(i % 3)) + "\n";
+    head.to_owned() + &(0..200).map(row).collect::<String>()
+}
+
+/// A logger's file is the table of the acceleration that it was made of.
+fn is_that_table(text: &str, format: Format) -> Recording {
+    let recording = open(text);
+    let samples = read(&recording);
+    assert_eq!((recording.format(), samples.len()), (format, 200), "{text}");
+    for (i, (time, a)) in (0..).zip(samples) {
+        assert!((time - f64::from(i) / 100.0).abs() < 6e-3, "{time} {i}");
+        assert!(
+            (a - (9.5 + 0.25 * f64::from(i % 3))).abs() < 1e-3,
+            "{a} {i}"
+        );
+    }
+    recording
+}
+
+#[test]
+fn loggers() {
+    let physics = |_, t: f64, a: f64| {
+        format!(
+            "{t};0,0;0,0;{}",
+            (a / GRAVITY).to_string().replace('.', ",")
+        )
+    };
+    is_that_table(
+        &table("time;gFx;gFy;gFz\n", physics),
+        Format::PhysicsToolbox,
+    );
+    let quoted = |_, t: f64, a: f64| format!("\"{t}\",\"{a}\"").replace('.', ",");
+    is_that_table(&table("\"time\",\"z\"\n", quoted), Format::Plain);
+    let xsens = |i, t: f64, a| format!("{i},{:.0},0,0,{a}", 1e6 * t);
+    let head = "sep=,\nDeviceTag:,Xsens DOT\nOutputRate:,60Hz\n\n\
+                PacketCounter,SampleTimeFine,Acc_X,Acc_Y,Acc_Z\n";
+    is_that_table(&table(head, xsens), Format::Xsens);
+    let witmotion = |_, t: f64, a: f64| format!("0x50\t{t}\t0\t0\t{}\t0.1", a / GRAVITY);
+    let head =
+        "StartTime: 2023-10-24 14:23:05.123\naddress\tTime(s)\tax(g)\tay(g)\taz(g)\twx(deg/s)\n";
+    is_that_table(&table(head, witmotion), Format::Plain);
+    let toa5 = |i, t: f64, a| format!("\"2022-01-11 20:30:0{t:.2}\",{i},{a},\"NAN\"");
+    let head = "\"TOA5\",\"SITE\",\"CR6\",\"4108\",\"CR6.Std\",\"CPU\",\"6\",\"Accel\"\n\
+                \"TIMESTAMP\",\"RECORD\",\"az\",\"batt\"\n\"TS\",\"RN\",\"g\",\"V\"\n\"\",\"\",\"Smp\",\"Avg\"\n";
+    let recording = is_that_table(
+        &table(head, |i, t, a: f64| toa5(i, t, a / GRAVITY)),
+        Format::Campbell,
+    );
+    assert_eq!(recording.unit(), Unit::Gravity);
+    assert_eq!(recording.facts().clock_offset, Some(1641933000.0));
+    let arduino = |_, t: f64, a| format!("14:23:0{t:.3} -> 0.0,0.0,{a}");
+    let recording = is_that_table(
+        &table("14:23:05.123 -> MPU6050 ready\n", arduino),
+        Format::Plain,
+    );
+    assert_eq!(recording.warnings(), [Warning::NoNames("time, x, y and z")]);
+    let units = |_, t, a| format!("{t},{a}");
+    is_that_table(&table("time,lift\ns,m/s^2\n", units), Format::Plain);
+    let blanks = |_, t, a| format!("{t}   {a}");
+    is_that_table(&table("", blanks), Format::Plain);
+    let labels = |_, t, a| format!("{t},0,0,{a},walking");
+    is_that_table(&table("t,x,y,z,what\n", labels), Format::Plain);
+}
+
+#[test]
+fn json() {
+    let line = |_, t: f64, a| {
+        format!(
+            r#"{{"ts": {}, "acc": {{"x": 0, "y": 0, "z": {a}}}}}"#,
+            1.7e12 + 1e3 * t
+        )
+    };
+    let recording = is_that_table(&table("", line), Format::Plain);
+    assert_eq!(recording.time_column(), ("ts", TimeUnit::Milliseconds));
+    let element = |i, t: f64, a| {
+        let of = |sensor, z| {
+            format!(
+                r#"{{"sensor":"{sensor}","time":"17000000000","seconds_elapsed":"{t}","z":"{z}","y":"0","x":"0"}}"#
+            )
+        };
+        let comma = if i == 0 { "" } else { "," };
+        format!(
+            "{comma}{},{}",
+            of("Gyroscope", 0.1),
+            of("TotalAcceleration", a)
+        )
+    };
+    let text = table("[", element) + "]";
+    let recording = is_that_table(&text, Format::SensorLogger);
+    assert_eq!(recording.member(), Some("TotalAcceleration"));
+    let refused_at = |text: &str| refused(text);
+    assert!(refused_at("{\"t\":0,\"a\":1}\n{\"t\":0.1,\"a\":\n{}\n").contains("ride.csv:2: JSON"));
+    assert!(
+        refused_at("{\"t\":0,\"a\":1}\n{\"t\":\"x\",\"a\":1}\n{}\n")
+            .contains("ride.csv:2: column \"t\": must be a number")
+    );
+    assert!(refused_at("[1, 2]").contains("JSON: invalid type"));
+    assert!(refused_at("[{\"sensor\":\"Gyroscope\"}]").contains("no sensor is an accelerometer"));
+}
+
+/// Stamps of whole seconds, counters that wrap, a clock in epoch time, rows without readings.
+#[test]
+fn clocks() {
+    let whole = |_, t: f64, a| format!("{},{a}", 1434934563 + t as i64);
+    let recording = is_that_table(&table("time,z\n", whole), Format::Plain);
+    assert_eq!(recording.warnings()[0], Warning::Spread { rows: 100 });
+    let wrapped = |_, t: f64, a| format!("{},{a}", (4294967295f64 - 1e6 + 1e6 * t) % 4294967296.0);
+    let recording = open(&table("micros,z\n", wrapped));
+    assert_eq!(
+        (recording.facts().samples, recording.facts().gaps),
+        (200, 0)
+    );
+    assert_eq!(recording.warnings(), [Warning::Wrapped(1)]);
+    let missing = |i, t, a| {
+        if i % 10 == 5 {
+            format!("{t},NAN")
+        } else {
+            format!("{t},{a}")
+        }
+    };
+    let recording = open(&table("time,z\n", missing));
+    assert_eq!(recording.facts().samples, 180);
+    assert_eq!(recording.warnings(), [Warning::MissingRows(20)]);
+}
+
+#[test]
+fn units_are_assumed_aloud() {
+    let counts = |_, t: f64, a: f64| format!("{:.0},0,0,{:.0}", 1e3 * t, 16384.0 * a / GRAVITY);
+    let recording = open(&table("millis,ax,ay,az\n", counts));
+    assert!((recording.facts().mean - 9.75).abs() < 0.01);
+    let warning = recording.warnings()[0].to_string();
+    assert!(
+        warning.contains("as 16384 counts per g have it"),
+        "{warning}"
+    );
+    let in_g = |_, t: f64, a: f64| format!("{t},{}", a / GRAVITY);
+    let recording = open(&table("time,z\n", in_g));
+    assert!((recording.facts().mean - 9.75).abs() < 0.01);
+    assert!(
+        recording.warnings()[0]
+            .to_string()
+            .contains("readings in g")
+    );
+    let unknown = |_, t: f64, a: f64| format!("{t},{}", 70.0 * a);
+    let text = table("time,z\n", unknown);
+    let refused = refused(&text);
+    // The remedy is the rest of the message, and works.
+    let scale = refused
+        .split("--scale ")
+        .nth(1)
+        .unwrap()
+        .split(';')
+        .next()
+        .unwrap();
+    let unit = Unit::told(Some("counts"), Some(scale.parse().unwrap()), None).unwrap();
+    let reading = Reading {
+        unit: unit.unwrap(),
+        ..Reading::default()
+    };
+    assert!(
+        (open_as(&text, &reading).facts().mean - 9.8).abs() < 0.1,
+        "{refused}"
+    );
+}
+
+#[test]
+fn a_part_and_a_rate() {
+    let text = table("time,z\n", |_, t, a| format!("{t},{a}"));
+    let part = |from, to| Reading {
+        from,
+        to,
+        ..Reading::default()
+    };
+    let recording = open_as(&text, &part(Some(0.5), Some(1.0)));
+    let facts = recording.facts();
+    assert_eq!((facts.start, facts.end, facts.samples), (0.5, 1.0, 51));
+    assert_eq!(
+        refused_as(&text, &part(Some(5.0), None)),
+        "ride.csv: must have at least 2 readings from 5 to 1.99 s, got 0 (times go from 0 to 1.99 s: change \
+         --from or --to)"
+    );
+    let lone = table("z\n", |_, _, a| a.to_string());
+    assert!(refused(&lone).contains("or --rate HZ where rows are evenly spaced"));
+    let rate = Reading {
+        rate: Some(50.0),
+        ..Reading::default()
+    };
+    let recording = open_as(&lone, &rate);
+    assert_eq!(
+        (recording.facts().rate, recording.facts().end),
+        (50.0, 3.98)
+    );
+    let late = Reading {
+        from: Some(2.0),
+        ..rate.clone()
+    };
+    assert_eq!(open_as(&lone, &late).facts().samples, 100);
+    let nameless = table("", |_, _, a| a.to_string());
+    assert!(refused(&nameless).contains("or --rate HZ where rows are evenly spaced"));
+    assert_eq!(open_as(&nameless, &rate).facts().samples, 200);
+}

@@ -1,0 +1,184 @@
+//! Warnings about the quality of a recording, and about what was assumed in reading it.
+
+use super::facts::{Facts, Gap};
+use super::layout::Layout;
+use super::names::Role;
+use super::spread::Repeats;
+use super::table::Skipped;
+use super::unit::Unit;
+use super::vertical::{Direction, Reason, Vertical};
+
+/// A warning about the quality of a recording, or about an assumption.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "what a message says is not said again")]
+pub enum Warning {
+    #[error(
+        "the columns have no names: they were taken for {0} (--time and --acceleration choose others)"
+    )]
+    NoNames(&'static str),
+    #[error(
+        "no unit is named, and the mean is {mean:.3}, as {unit} have it: this was assumed (--unit m/s^2, g, mg, or \
+         counts with --scale, says otherwise)"
+    )]
+    UnitAssumed { mean: f64, unit: String },
+    #[error(
+        "Sensor Logger writes {unit} without gravity on {platform}: this was assumed by the size of the pulses \
+         (--unit {other} says otherwise)"
+    )]
+    PlatformAssumed {
+        unit: Unit,
+        other: Unit,
+        platform: &'static str,
+    },
+    #[error(
+        "each time stands for {rows} rows: they were spread evenly to the next (--rate HZ, if they come at a rate)"
+    )]
+    Spread { rows: usize },
+    #[error("the clock of 32 bits began again {0} times; its times were continued")]
+    Wrapped(u64),
+    #[error("vertical: {0}")]
+    Vertical(Vertical),
+    #[error(
+        "the vertical axis lies {0:.0} degrees from gravity, and the axes stand in different rows, so they \
+         cannot be turned"
+    )]
+    Tilted(f64),
+    #[error("column \"{0}\" is a magnitude: it cannot tell up from down (--acceleration COLUMN)")]
+    Magnitude(String),
+    #[error("the mean is {0:.1} m/s^2, that of gravity 9.8 (give the unit with --unit)")]
+    PerhapsCounts(f64),
+    #[error("sampling is uneven: intervals deviate by {:.1} % (--resample HZ evens it out)", 100.0 * .jitter)]
+    Uneven { jitter: f64 },
+    #[error(
+        "samples are missing: {count} gaps, the longest {:.3} s after {:.3} s",
+        .longest.length,
+        .longest.start
+    )]
+    Gaps { count: u64, longest: Gap },
+    #[error("line {line}: time repeats {} (the first reading is kept)", repeats(*.count))]
+    RepeatedTimes { count: u64, line: u64 },
+    #[error(
+        "{count} rows have no time or no acceleration, {samples} have both (the others are left out)"
+    )]
+    BlankRows { count: u64, samples: u64 },
+    #[error("rows with NaN for the acceleration: {0} (they are left out)")]
+    MissingRows(u64),
+    #[error("line {line}: the file ends within this row (it is left out)")]
+    CutOff { line: u64 },
+    #[error(
+        "the sensor was at its limit in {:.2} % of the samples, which span {least} to {greatest} m/s^2",
+        100.0 * .share
+    )]
+    Saturated {
+        share: f64,
+        least: f64,
+        greatest: f64,
+    },
+    #[error(
+        "the sensor's step of {quantum:.3} m/s^2 is coarse: {:.0} % of the samples equal the one before",
+        100.0 * .repeats
+    )]
+    CoarseStep { quantum: f64, repeats: f64 },
+    #[error(
+        "{:.0} % of the samples equal the one before (a slow sensor was probably read too often)",
+        100.0 * .repeats
+    )]
+    Held { repeats: f64 },
+}
+
+fn repeats(count: u64) -> String {
+    match count {
+        1 => "once".to_owned(),
+        _ => format!("here, {count} times in all"),
+    }
+}
+
+/// The smallest jitter with a warning. Sensors with their own clock stay below 0.1 %; apps that record the time
+/// of their call are above 10 %.
+const UNEVEN: f64 = 0.05;
+
+/// The share of equal neighbours from which a step counts as coarse. For normal noise of standard deviation s
+/// and steps q the share is 0.28 q/s: here q is 0.7 s.
+const COARSE: f64 = 0.2;
+
+/// Degrees.
+const TILTED: f64 = 25.0;
+
+/// A mean that no recording of a lift has, m/s²: twice gravity.
+pub(super) const BEYOND_GRAVITY: f64 = 20.0;
+
+/// The warnings about a table and its rows.
+pub(super) fn of_rows(
+    layout: &Layout,
+    skipped: &Skipped,
+    wraps: u64,
+    repeats: Repeats,
+    samples: u64,
+) -> Vec<Warning> {
+    let nameless = match (layout.is_guessed, layout.time) {
+        (true, Some(_)) => Some("time, x, y and z"),
+        (true, None) => Some("x, y and z"),
+        _ => None,
+    };
+    let mut columns = layout
+        .axes
+        .iter()
+        .map(|(_, column)| &layout.columns[*column]);
+    let magnitude = columns.find(|column| column.role == Role::Magnitude);
+    let repeated = match (repeats, skipped.first_repeat) {
+        (Repeats::LeftOut(count @ 1..), Some(line)) => Some(Warning::RepeatedTimes { count, line }),
+        (Repeats::Spread(rows), _) => Some(Warning::Spread { rows }),
+        _ => None,
+    };
+    let count = skipped.blank;
+    [
+        nameless.map(Warning::NoNames),
+        magnitude.map(|column| Warning::Magnitude(column.name.clone())),
+        repeated,
+        (wraps > 0).then_some(Warning::Wrapped(wraps)),
+        (count > 0).then_some(Warning::BlankRows { count, samples }),
+        (skipped.missing > 0).then_some(Warning::MissingRows(skipped.missing)),
+        skipped.cut.map(|line| Warning::CutOff { line }),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// The warnings about the vertical and the signal.
+pub(super) fn of_signal(facts: &Facts, vertical: &Vertical, is_reversed: bool) -> Vec<Warning> {
+    let tilt = match (&vertical.direction, vertical.reason) {
+        (Direction::Along { .. }, Reason::Gravity { from, .. }) if from > TILTED => Some(from),
+        _ => None,
+    };
+    let is_turned = matches!(vertical.reason, Reason::Gravity { turned, .. } if turned > 0.0);
+    let is_doubtful = is_reversed || is_turned || vertical.reason == Reason::Nothing;
+    let repeats = facts.repeats;
+    // Samples at a limit are equal too, but for another reason.
+    let is_held = repeats - facts.saturated.unwrap_or(0.0) >= COARSE;
+    let held = is_held.then_some(match facts.quantum {
+        Some(quantum) => Warning::CoarseStep { quantum, repeats },
+        None => Warning::Held { repeats },
+    });
+    [
+        is_doubtful.then(|| Warning::Vertical(vertical.clone())),
+        tilt.map(Warning::Tilted),
+        (facts.mean.abs() > BEYOND_GRAVITY).then_some(Warning::PerhapsCounts(facts.mean)),
+        (facts.jitter > UNEVEN).then_some(Warning::Uneven {
+            jitter: facts.jitter,
+        }),
+        (facts.gaps > 0).then_some(Warning::Gaps {
+            count: facts.gaps,
+            longest: facts.longest_gap,
+        }),
+        facts.saturated.map(|share| Warning::Saturated {
+            share,
+            least: facts.least,
+            greatest: facts.greatest,
+        }),
+        held,
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
