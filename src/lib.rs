@@ -34,13 +34,14 @@
 //! | 0 | [`rng`]: coordinates → generator · [`stats`]: exact tails, intervals, tests · [`counts`]: sums by what they count, and of which trials · [`mod@format`], [`suggest`], [`fields`], [`files`]: text and files · [`simd`]: trials side by side |
 //! | 1, 2 | [`rule`], [`values`]: what a value must be |
 //! | 3 | [`signal`]: sensor, noise, impulses, motion · [`recording`]: what real lifts recorded · [`whiten`]: filters · [`detect`]: W, T, their laws, regions · [`config`]: what a file says, with its places · [`claim`]: verdicts · [`plot`]: what a picture says |
-//! | 4 | [`lift`]: simulated rides with their truth · [`monitor`]: one lift, sample by sample · [`scenario`]: what a point simulates, every parameter · [`report`]: the report |
-//! | 5 | [`chain`]: one trial, every stage · [`detection`]: what a monitor finds in a recording · [`experiment`]: what the author wrote |
-//! | 6 | [`schedule`]: blocks of trials in parallel · [`figure`]: PNG and SVG |
-//! | 7 | [`plan`]: every point with its scenario and region |
-//! | 8 | [`pilot`]: decisions that no law gives · [`gate`]: the false-alarm test · [`results`]: files |
-//! | 9 | [`run`]: what is wanted, what is there, what is missing |
-//! | 10 | [`study`]: what a config's table describes |
+//! | 4 | [`explain`]: what a record may hold |
+//! | 5 | [`lift`]: simulated rides with their truth · [`monitor`]: one lift, sample by sample · [`scenario`]: what a point simulates, every parameter · [`report`]: the report |
+//! | 6 | [`chain`]: one trial, every stage · [`detection`]: what a recording holds · [`experiment`]: what the author wrote |
+//! | 7 | [`schedule`]: blocks of trials in parallel · [`figure`]: PNG and SVG |
+//! | 8 | [`plan`]: every point with its scenario and region |
+//! | 9 | [`pilot`]: decisions that no law gives · [`gate`]: the false-alarm test · [`results`]: files |
+//! | 10 | [`run`]: what is wanted, what is there, what is missing |
+//! | 11 | [`study`]: what a config's table describes |
 //!
 //! # A walk
 //! This walk leads from `delta = [0.0, 0.5, 1.0]` under `[axis]` to a row of `points.csv`, file by file.

@@ -77,6 +77,10 @@ pub enum Warning {
     )]
     NoRest,
     #[error(
+        "the sensor is shaken for {0:.0} % of the time, which would hide a ride (lay it on the floor of the lift)"
+    )]
+    Shaken(f64),
+    #[error(
         "a motion of {speed:.2} m/s from {from:.1} to {to:.1} s is slower than a ride, {least} m/s \
          (use --lift slow)"
     )]
@@ -162,6 +166,14 @@ fn cell(value: &Value) -> String {
 }
 
 impl Detection {
+    /// The share of the time in which something that is no ride moves the sensor.
+    fn shaken(&self) -> f64 {
+        let moved: f64 = self.events.iter().map(|event| event.to - event.from).sum();
+        let columns = self.trace.columns();
+        let ends = columns.first().zip(columns.last());
+        ends.map_or(0.0, |(first, last)| moved / (last.times.1 - first.times.0))
+    }
+
     /// The warnings for a recording with this rate, Hz.
     pub fn warnings(&self, rate: f64) -> Vec<Warning> {
         let learnt = self.design.rate;
@@ -188,6 +200,7 @@ impl Detection {
                 .filter(|level| !is_level_of_rest(*level))
                 .map(Warning::Level),
             level.is_none().then_some(Warning::NoRest),
+            Some(Warning::Shaken(100.0 * self.shaken())).filter(|_| self.shaken() > MOST_SHAKEN),
         ]
         .into_iter()
         .flatten()
@@ -196,6 +209,9 @@ impl Detection {
         .collect()
     }
 }
+
+/// A record shaken for a larger share of the time shows little.
+const MOST_SHAKEN: f64 = 0.5;
 
 /// Whether a level of rest, m/s², is near 0 or gravity, up to the sensor's offset.
 fn is_level_of_rest(level: f64) -> bool {

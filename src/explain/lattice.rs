@@ -165,7 +165,7 @@ impl Lattice {
             });
         }
         let past: f64 = (0..section.pulses.len())
-            .map(|pulse| stretch.ignored(pulse).min(2.0))
+            .map(|pulse| stretch.ignored(pulse))
             .sum();
         for is_up in [true, false] {
             let part = Part::Through(section.pulses.clone());

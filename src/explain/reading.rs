@@ -225,9 +225,9 @@ impl Record<'_> {
         speeds
     }
 
-    /// Whether a pulse is cut off here, by a hole or an end of the record.
+    /// Whether a pulse is cut off here by a hole. At an end of the record it is not: its trip comes to zero.
     fn touches_hole(&self, block: usize) -> bool {
-        block == 0 || self.levelled.cut.ends.contains(&block)
+        block < self.levelled.cut.blocks.len() && self.levelled.cut.ends.contains(&block)
     }
 
     /// When a pulse begins to move the cage.
