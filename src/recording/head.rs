@@ -59,6 +59,11 @@ impl Head {
             if is_remark(text) {
                 continue;
             }
+            // A file of JSON is a table by now.
+            if text.starts_with(b"{") {
+                let has_drum = false;
+                return Err((Some(number), RecordingProblem::Stream { has_drum }));
+            }
             bytes += text.len();
             if head.len() == MOST_LINES || bytes > MOST_BYTES {
                 return Err((Some(number), RecordingProblem::NoRows));

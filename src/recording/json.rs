@@ -12,7 +12,7 @@ use std::fmt;
 use std::io::BufRead;
 
 /// The largest JSON, bytes, of which its numbers are a part.
-const LARGEST: u64 = 1 << 31;
+const LARGEST: u64 = 1 << 30;
 
 /// The most keys of an object, and the most sensors.
 const MOST: usize = 64;
@@ -35,14 +35,17 @@ pub(super) fn table(source: Source, reading: &Reading) -> Result<Source, Recordi
         };
     }
     if source.size() > LARGEST {
-        let gigabytes = source.size() as f64 / 1e9;
-        return Err(source.error(None, RecordingProblem::TooLarge { gigabytes }));
+        return Err(source.error(None, too_large()));
     }
     if is_array {
         return of_array(&source, reading);
     }
     let table = of_lines(text).map_err(|(line, problem)| source.error(line, problem))?;
     Ok(source.converted(table, None, 1))
+}
+
+fn too_large() -> RecordingProblem {
+    RecordingProblem::Json("must be at most 1 GB large, as a table too".to_owned())
 }
 
 /// Messages name the element of the array where they name a line.
@@ -83,7 +86,8 @@ fn of_array(source: &Source, reading: &Reading) -> Result<Source, RecordingError
         }
     })?;
     let member = Some(&**wanted).filter(|name| !name.is_empty());
-    Ok(source.converted(table.whole(), member, 1))
+    let table = table.whole().map_err(refused)?;
+    Ok(source.converted(table, member, 1))
 }
 
 /// Hands every object of an array over as it is read.
@@ -121,7 +125,7 @@ fn of_lines(text: impl BufRead) -> Result<Vec<u8>, (Option<u64>, RecordingProble
         let number = lines.number() + 1;
         let line = match lines.next() {
             Ok(Some(line)) => line,
-            Ok(None) => return Ok(table.whole()),
+            Ok(None) => return table.whole().map_err(|problem| (None, problem)),
             Err(reason) => return Err((Some(number), reason.into())),
         };
         if line.bytes.trim_ascii().is_empty() {
@@ -150,6 +154,10 @@ struct Table {
 
 impl Table {
     fn row(&mut self, object: &Map<String, Value>) {
+        // Short objects may stand for many blank cells; `whole` refuses what is cut here.
+        if self.text.len() as u64 > LARGEST {
+            return;
+        }
         let mut cells = Vec::new();
         flatten("", object, &mut cells);
         if self.keys.is_empty() {
@@ -171,9 +179,13 @@ impl Table {
     }
 
     /// With the line of names.
-    fn whole(self) -> Vec<u8> {
+    fn whole(mut self) -> Result<Vec<u8>, RecordingProblem> {
+        if self.text.len() as u64 > LARGEST {
+            return Err(too_large());
+        }
         let names = self.keys.join("\t") + "\n";
-        [names.as_bytes(), &self.text].concat()
+        self.text.splice(..0, names.into_bytes());
+        Ok(self.text)
     }
 }
 

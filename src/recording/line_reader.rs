@@ -262,6 +262,7 @@ mod tests {
             ["51780.5 9.5", "51781 9.25"]
         );
         assert_eq!(all("1385337600000,9.5\n")[0], "1385337600 9.5");
+        assert!(all("{\"t\": 1}\n")[0].contains("must be `acceleration` or"));
         assert!(
             all("time,x,y,z\n0,1,2,3\n")[0].contains("must have one acceleration, got several")
         );

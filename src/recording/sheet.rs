@@ -10,6 +10,10 @@ use zip::ZipArchive;
 /// The largest workbook, packed and unpacked, bytes: a library keeps parts of it in memory.
 const LARGEST: (u64, u64) = (200 << 20, 1 << 30);
 
+/// The most columns, and the most letters in a cell: a few bytes of a workbook may stand for any number.
+const MOST_COLUMNS: u32 = 64;
+const MOST_LETTERS: usize = 200;
+
 /// The sheet with the readings: the one named, or the first.
 ///
 /// # Errors
@@ -59,7 +63,7 @@ fn text(book: &mut Xlsx<Cursor<Vec<u8>>>, name: &str) -> Result<Vec<u8>, calamin
     let mut widest = None;
     while let Some(cell) = cells.next_cell()? {
         let (at_row, at_column) = cell.get_position();
-        if at_row < row || at_row >= 1 << 20 || at_column >= widest.unwrap_or(1 << 14) {
+        if at_row < row || at_row >= 1 << 20 || at_column >= widest.unwrap_or(MOST_COLUMNS) {
             continue;
         }
         if at_row > row {
@@ -90,5 +94,6 @@ fn text(book: &mut Xlsx<Cursor<Vec<u8>>>, name: &str) -> Result<Vec<u8>, calamin
 }
 
 fn one_cell(words: &str) -> String {
-    words.replace(|c: char| c.is_control() || c == '"', " ")
+    let plain = |c: char| if c.is_control() || c == '"' { ' ' } else { c };
+    words.chars().take(MOST_LETTERS).map(plain).collect()
 }
