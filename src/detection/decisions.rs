@@ -6,7 +6,6 @@
 //! [^1]: see [`crate::signal`].
 
 use super::rests::Rests;
-use super::trip::Trip;
 use crate::detect::Pooled;
 use crate::explain::{Explanation, Pulse};
 use crate::monitor::{Decider, Decision, Design, Reference, Verdict};
@@ -137,17 +136,14 @@ impl<'a> Decisions<'a> {
         found
     }
 
-    /// Whether all motions scatter more than rest, two of them at least.
-    pub fn motion_shows(&self, trips: &[Trip]) -> bool {
+    /// Whether all uniform motions, from and to these times in s, scatter more than rest, two of them at least.
+    pub fn motion_shows(&self, motions: impl Iterator<Item = (f64, f64)>) -> bool {
         let Some(reference) = self.reference else {
             return false;
         };
         let blocks = &self.explanation.levelled.cut.blocks;
         let mut shown = 0;
-        for (from, to) in trips
-            .iter()
-            .filter_map(|trip| trip.inertial.zip(trip.braking))
-        {
+        for (from, to) in motions {
             let place = |time: f64| blocks.partition_point(|block| block.to <= time);
             let whitened = &self.whitened[place(from)..place(to).max(place(from))];
             if whitened.len() < 2 * self.design.samples.reference() {

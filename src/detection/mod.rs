@@ -70,11 +70,14 @@ impl Detection {
         let reference = reference.or_else(|| rests.learn(&explanation, design));
         let decisions = Decisions::new(design, &explanation, reference.as_ref());
         let trips = trip::trips(&explanation, &decisions);
+        let uniform = trips
+            .iter()
+            .filter_map(|trip| trip.inertial.zip(trip.braking));
         Self {
             at_rest: decisions.at_rest(&rests),
             knowledge: Knowledge {
                 begins_at_rest: rests.begins(),
-                motion_shows: decisions.motion_shows(&trips),
+                motion_shows: decisions.motion_shows(uniform),
                 reference: reference.clone(),
             },
             events: trip::events(&explanation, &prior),

@@ -46,15 +46,6 @@ impl Rests {
         self.0.first().is_some_and(|first| first.start == 0)
     }
 
-    /// How long they last together, s.
-    pub fn seconds(&self, explanation: &Explanation) -> f64 {
-        let cut = &explanation.levelled.cut;
-        self.0
-            .iter()
-            .map(|rest| rest.len() as f64 * cut.seconds)
-            .sum()
-    }
-
     pub fn iter(&self) -> impl Iterator<Item = Range<usize>> {
         self.0.iter().cloned()
     }

@@ -23,7 +23,7 @@ const RESTARTED: f64 = 0.3;
 const MOST_IN_DISTURBANCE: usize = 24;
 const LONGEST_PAUSE: f64 = 0.4;
 const LONGEST_SWING: f64 = 1.3;
-const FARTHEST_SWING: f64 = 0.3;
+const FARTHEST_SWING: f64 = 0.5;
 
 /// A motion as one explanation of pulses.
 #[derive(Clone, Debug, PartialEq)]
