@@ -56,6 +56,9 @@ pub struct Detect {
     reading: ReadingArguments,
 }
 
+/// The shortest recording in which anything can be found, s.
+const SHORTEST: f64 = 2.0;
+
 const NO_REST: &str =
     "too little rest to learn a state from (record a few seconds of rest before or after the ride)";
 
@@ -73,6 +76,12 @@ impl Detect {
         let setup = self.options.setup()?;
         let recording = self.open(&setup.config.reading)?;
         let samples = recording.samples();
+        let seconds = recording.facts().end - recording.facts().start;
+        if seconds < SHORTEST {
+            return Err(self.refused(anyhow!(
+                "must last at least {SHORTEST} s, got {seconds:.2} s (record a whole ride, with rest before and after it)"
+            )));
+        }
         let (settings, rate) = match &setup.saved {
             Some(saved) => (saved.settings.clone(), saved.rate),
             None => (setup.config.settings, recording.rate()),

@@ -21,9 +21,23 @@ pub struct MonitorArguments {
     /// Start from a state that `detect --save-state` wrote, settings included.
     #[arg(long, value_name = "FILE", conflicts_with = "config")]
     state: Option<PathBuf>,
+    /// What lift it is: for slow, such as a platform of 0.1 m/s, the slowest motion is 0.06 m/s.
+    #[arg(long, value_name = "LIFT", value_enum, conflicts_with_all = ["state", "least_speed"])]
+    lift: Option<Lift>,
     #[command(flatten)]
     flags: SettingFlags,
 }
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+enum Lift {
+    /// Passenger and goods lifts, mine cages.
+    Usual,
+    /// Platforms and hydraulic lifts below 0.2 m/s.
+    Slow,
+}
+
+/// The slowest motion of a slow lift, m/s.
+const SLOW: f64 = 0.06;
 
 /// The settings that have a flag, named as the ends of their keys.
 #[derive(Debug, Args, Serialize)]
@@ -107,7 +121,10 @@ impl MonitorArguments {
             Some(path) => MonitorOptions::load(path).map_err(Failure::input)?,
             None => MonitorOptions::default(),
         };
-        let given = toml::Table::try_from(&self.flags).map_err(Failure::run)?;
+        let mut given = toml::Table::try_from(&self.flags).map_err(Failure::run)?;
+        if self.lift == Some(Lift::Slow) {
+            given.insert("least_speed".to_owned(), SLOW.into());
+        }
         let flag = |key: &str| format!("--{}", key.replace('_', "-"));
         config.settings = (config.settings.with(&given, flag)).map_err(Failure::input)?;
         let saved = self.state.as_deref().map(SavedState::load);

@@ -116,7 +116,7 @@ impl Explanation {
             let better = explained.filter(|(_, it)| {
                 it.cost() + HIGH_PASS < plain.cost()
                     && it.lattice.cost() + SIMPLER < plain.lattice.cost()
-                    && !it.reading(&prior).trips.is_empty()
+                    && it.has_whole_trip(&prior)
             });
             better.min_by(|a, b| a.1.cost().total_cmp(&b.1.cost()))
         };
@@ -152,7 +152,11 @@ impl Explained {
             from = end;
             stretch
         });
-        let stretches: Vec<_> = stretches.collect();
+        // A record without even one block is a stretch without pulses.
+        let mut stretches: Vec<_> = stretches.collect();
+        if stretches.is_empty() {
+            stretches.push((0, 0.0, 0.0));
+        }
         Self {
             lattice: Lattice::new(prior, &pulses, &stretches),
             levelled,
@@ -175,6 +179,12 @@ impl Explained {
 
     fn reading(&self, prior: &Prior) -> Reading {
         Reading::of(&self.record(prior), &self.lattice.best())
+    }
+
+    /// Whether it has a trip from start to stop.
+    fn has_whole_trip(&self, prior: &Prior) -> bool {
+        let trips = self.reading(prior).trips;
+        trips.iter().any(|trip| trip.start.and(trip.stop).is_some())
     }
 
     /// The trips below the least speed.
