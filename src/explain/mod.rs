@@ -49,7 +49,7 @@ const RESTORED_ERROR: f64 = 0.08;
 const SLOW: f64 = 0.3;
 
 /// A difference in cost below this decides nothing.
-const DECIDED: f64 = 2.0;
+const DECIDED: f64 = 3.0;
 
 /// A record explained.
 #[derive(Clone, Debug)]

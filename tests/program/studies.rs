@@ -210,7 +210,7 @@ fn changed_rows_are_not_drawn() {
 /// Every class of records, before the detector and the monitor; their configs have no results yet.
 #[test]
 fn records_of_every_class() {
-    for (name, points) in [("ride_hard", 11), ("ride_danger", 15)] {
+    for (name, points) in [("ride_danger", 15)] {
         let directory = tempfile::tempdir().unwrap();
         let config = format!("tests/program/configs/{name}.toml");
         let mut command = liftsim();
