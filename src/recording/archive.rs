@@ -9,30 +9,22 @@ use super::layout::Input;
 use super::lines::Lines;
 use super::parser::Parser;
 use super::reading::Reading;
-use super::sheet;
-use super::source::{Member, Source};
+use super::source::{Member, Packing, Source};
 use std::io::Read;
 use zip::{CompressionMethod, ZipArchive};
 
-/// The table to be read: the source itself, or a member of it.
+/// The members of an archive, or none if the source is no archive.
 ///
 /// # Errors
-/// If an archive is damaged, or has no suitable table or more than one.
-pub(super) fn table(source: Source, reading: &Reading) -> Result<Source, RecordingError> {
-    if is_archive(&source)? {
-        let members = members(&source)?;
-        if members
-            .iter()
-            .any(|found| found.member.name == "xl/workbook.xml")
-        {
-            return sheet::table(&source, reading);
-        }
-        return member(&source, &members, reading);
+/// If an archive is damaged, or a file of another kind is called one.
+pub(super) fn members(source: &Source) -> Result<Option<Vec<Member>>, RecordingError> {
+    if is_archive(source)? {
+        return directory(source).map(Some);
     }
     if source.name().to_lowercase().ends_with(".zip") {
         return Err(source.error(None, RecordingProblem::NotAZip));
     }
-    Ok(source)
+    Ok(None)
 }
 
 fn is_archive(source: &Source) -> Result<bool, RecordingError> {
@@ -44,26 +36,33 @@ fn is_archive(source: &Source) -> Result<bool, RecordingError> {
     Ok(start == b"PK\x03\x04" || start == b"PK\x05\x06")
 }
 
-fn member(source: &Source, members: &[Found], reading: &Reading) -> Result<Source, RecordingError> {
-    let names: Vec<String> = (members.iter())
-        .map(|found| found.member.name.clone())
-        .collect();
+/// The member that is the table to be read.
+///
+/// # Errors
+/// If there is no suitable table or more than one.
+pub(super) fn table(
+    source: &Source,
+    members: &[Member],
+    reading: &Reading,
+) -> Result<Source, RecordingError> {
+    let open = |member: &Member| source.with_member(member.clone());
+    let names: Vec<String> = members.iter().map(|member| member.name.clone()).collect();
     if let Some(wanted) = &reading.member {
-        let found = members.iter().find(|found| found.member.name == *wanted);
+        let found = members.iter().find(|member| member.name == *wanted);
         let unknown = || source.error(None, RecordingProblem::unknown_member(wanted, names));
-        return found.ok_or_else(unknown)?.open(source);
+        return open(found.ok_or_else(unknown)?);
     }
-    let candidates: Vec<&Found> = members
+    let candidates: Vec<&Member> = members
         .iter()
-        .filter(|found| found.may_be_table())
+        .filter(|member| may_be_table(member))
         .collect();
     if let [only] = candidates[..] {
         // An error of the only table is more helpful than "no table".
-        return only.open(source);
+        return open(only);
     }
     let mut tables = Vec::new();
     for candidate in candidates {
-        let table = candidate.open(source)?;
+        let table = open(candidate)?;
         let mut lines = Lines::new(table.text()?);
         let begun = Parser::begin(&mut lines, table.name(), reading, Input::File);
         if let Ok((parser, _)) = begun {
@@ -87,34 +86,17 @@ fn member(source: &Source, members: &[Found], reading: &Reading) -> Result<Sourc
     Err(source.error(None, problem))
 }
 
-/// A member and whether it can be unpacked here.
-struct Found {
-    member: Member,
-    is_packed_otherwise: bool,
+/// Whether it may be a table of readings: not a table about the device, and not a file left by a system.
+fn may_be_table(member: &Member) -> bool {
+    let name = member.name.to_lowercase();
+    let is_text = [".csv", ".txt", ".tsv"]
+        .iter()
+        .any(|end| name.ends_with(end));
+    let mut parts = name.split('/');
+    is_text && !parts.any(|part| part == "meta" || part == "__macosx" || part.starts_with('.'))
 }
 
-impl Found {
-    fn open(&self, source: &Source) -> Result<Source, RecordingError> {
-        if self.is_packed_otherwise {
-            let problem = RecordingProblem::Packing(self.member.name.clone());
-            Err(source.error(None, problem))
-        } else {
-            Ok(source.with_member(self.member.clone()))
-        }
-    }
-
-    /// Whether it may be a table of readings: not a table about the device, and not a file left by a system.
-    fn may_be_table(&self) -> bool {
-        let name = self.member.name.to_lowercase();
-        let is_text = [".csv", ".txt", ".tsv"]
-            .iter()
-            .any(|end| name.ends_with(end));
-        let mut parts = name.split('/');
-        is_text && !parts.any(|part| part == "meta" || part == "__macosx" || part.starts_with('.'))
-    }
-}
-
-fn members(source: &Source) -> Result<Vec<Found>, RecordingError> {
+fn directory(source: &Source) -> Result<Vec<Member>, RecordingError> {
     let damaged = |error| source.error(None, RecordingProblem::Archive(error));
     let mut archive = ZipArchive::new(source.bytes()?).map_err(damaged)?;
     let mut members = Vec::new();
@@ -124,18 +106,18 @@ fn members(source: &Source) -> Result<Vec<Found>, RecordingError> {
         let (Some(start), false) = (file.data_start(), file.is_dir()) else {
             continue;
         };
-        let is_deflated = file.compression() == CompressionMethod::Deflated;
-        let is_stored = file.compression() == CompressionMethod::Stored;
-        members.push(Found {
-            member: Member {
-                name,
-                start,
-                packed: file.compressed_size(),
-                unpacked: file.size(),
-                checksum: file.crc32(),
-                is_deflated,
+        members.push(Member {
+            name,
+            start,
+            packed: file.compressed_size(),
+            unpacked: file.size(),
+            checksum: file.crc32(),
+            packing: match file.compression() {
+                _ if file.encrypted() => Packing::Unknown,
+                CompressionMethod::Deflated => Packing::Deflated,
+                CompressionMethod::Stored => Packing::Stored,
+                _ => Packing::Unknown,
             },
-            is_packed_otherwise: file.encrypted() || !(is_deflated || is_stored),
         });
     }
     Ok(members)

@@ -63,6 +63,7 @@ mod unit;
 mod unknown_name;
 mod vertical;
 mod warning;
+mod xml;
 
 pub use axis::Axis;
 pub use error::{Names, RecordingError, RecordingProblem};
@@ -120,7 +121,12 @@ impl Recording {
     }
 
     fn of(source: Source, reading: &Reading) -> Result<Self, RecordingError> {
-        let source = json::table(archive::table(source, reading)?, reading)?;
+        let source = match archive::members(&source)? {
+            Some(members) if sheet::is_book(&members) => sheet::table(&source, &members, reading)?,
+            Some(members) => archive::table(&source, &members, reading)?,
+            None => source,
+        };
+        let source = json::table(source, reading)?;
         let columns = Columns::read(&source, reading)?;
         let mut recording =
             Self::of_columns(columns, reading).map_err(|problem| source.error(None, problem))?;

@@ -1,99 +1,359 @@
 //! A workbook's sheet as a table of text.
+//!
+//! A workbook (ECMA-376, part 1, §18) is an archive of XML: `workbook.xml` names the sheets, its relations tell
+//! which part is which, texts stand once in a part that they share, and a format in the styles tells that a
+//! number is a date.
 
 use super::error::{RecordingError, RecordingProblem};
 use super::reading::Reading;
-use super::source::Source;
-use calamine::{DataRef, Reader, Xlsx};
-use std::io::{Cursor, Read, Write, sink};
-use zip::ZipArchive;
+use super::source::{Member, Source};
+use super::xml::{self, Piece, attribute};
+use quick_xml::events::BytesStart;
+use std::collections::BTreeSet;
 
-/// The largest workbook, packed and unpacked, bytes: a library keeps parts of it in memory.
-const LARGEST: (u64, u64) = (200 << 20, 1 << 30);
+const BOOK: &str = "xl/workbook.xml";
 
-/// The most columns, and the most letters in a cell: a few bytes of a workbook may stand for any number.
-const MOST_COLUMNS: u32 = 64;
+/// The largest workbook, packed, and table made of it, bytes: a few bytes of a workbook may stand for any number.
+const LARGEST: (u64, usize) = (200 << 20, 1 << 30);
+
+/// The most rows and shared texts, the most columns, and the most letters in a cell.
+const MOST_ROWS: usize = 1 << 20;
+const MOST_COLUMNS: usize = 64;
 const MOST_LETTERS: usize = 200;
+
+/// Whether an archive is a workbook.
+pub(super) fn is_book(members: &[Member]) -> bool {
+    members.iter().any(|member| member.name == BOOK)
+}
 
 /// The sheet with the readings: the one named, or the first.
 ///
 /// # Errors
 /// If the workbook is damaged or too large, or has no such sheet.
-pub(super) fn table(source: &Source, reading: &Reading) -> Result<Source, RecordingError> {
-    let damaged = |error: String| source.error(None, RecordingProblem::Workbook(error));
-    let mut bytes = Vec::new();
-    let mut packed = source.bytes()?.take(LARGEST.0 + 1);
-    packed
-        .read_to_end(&mut bytes)
-        .map_err(|error| damaged(error.to_string()))?;
-    check_size(&bytes).map_err(damaged)?;
-    let mut book = Xlsx::new(Cursor::new(bytes)).map_err(|error| damaged(error.to_string()))?;
-    let sheets = book.sheet_names();
-    let wanted = reading.member.as_ref().or(sheets.first());
-    let Some(name) = wanted.filter(|name| sheets.contains(name)) else {
-        let got = reading.member.as_deref().unwrap_or_default();
-        let problem = RecordingProblem::unknown_member(got, sheets);
-        return Err(source.error(None, problem));
+pub(super) fn table(
+    source: &Source,
+    members: &[Member],
+    reading: &Reading,
+) -> Result<Source, RecordingError> {
+    let book = Book { source, members };
+    let damaged = |error| source.error(None, RecordingProblem::Workbook(error));
+    if source.size() > LARGEST.0 {
+        return Err(damaged(too_large()));
+    }
+    let sheets = book.sheets().map_err(damaged)?;
+    let wanted = match &reading.member {
+        Some(name) => sheets.iter().find(|(of, _)| of == name),
+        None => sheets.first(),
     };
-    let text = text(&mut book, name).map_err(|error| damaged(error.to_string()))?;
+    let Some((name, part)) = wanted else {
+        let names = sheets.into_iter().map(|(name, _)| name).collect();
+        let got = reading.member.as_deref().unwrap_or_default();
+        return Err(source.error(None, RecordingProblem::unknown_member(got, names)));
+    };
+    let text = book.text(part).map_err(damaged)?;
     Ok(source.converted(text, Some(name), 0))
 }
 
-/// Unpacks every part once to nowhere, since an archive may not tell its true size.
-fn check_size(bytes: &[u8]) -> Result<(), String> {
-    let too_large = || "is too large".to_owned();
-    if bytes.len() as u64 > LARGEST.0 {
+fn too_large() -> String {
+    "is too large".to_owned()
+}
+
+struct Book<'a> {
+    source: &'a Source,
+    members: &'a [Member],
+}
+
+impl Book<'_> {
+    fn has(&self, part: &str) -> bool {
+        self.members.iter().any(|member| member.name == part)
+    }
+
+    /// Reads a part; errors name it.
+    fn read(
+        &self,
+        part: &str,
+        take: impl FnMut(Piece) -> Result<(), String>,
+    ) -> Result<(), String> {
+        let member = self.members.iter().find(|member| member.name == part);
+        let member = member.ok_or_else(|| format!("there is no part {part}"))?;
+        let text = (self.source.with_member(member.clone()))
+            .and_then(|source| source.text())
+            .map_err(|error| error.to_string())?;
+        xml::read(text, take).map_err(|error| format!("{part}: {error}"))
+    }
+
+    /// The names of the sheets, and their parts.
+    fn sheets(&self) -> Result<Vec<(String, String)>, String> {
+        let mut parts = Vec::new();
+        self.read("xl/_rels/workbook.xml.rels", |piece| {
+            if let Piece::Start("Relationship", tag) = piece {
+                let wanted = |name| Ok::<_, String>(attribute(tag, name)?.unwrap_or_default());
+                let target = wanted("Target")?;
+                let part = match target.strip_prefix('/') {
+                    Some(part) => part.to_owned(),
+                    None => format!("xl/{target}"),
+                };
+                if wanted("Type")?.ends_with("/worksheet") {
+                    push(&mut parts, (wanted("Id")?, part))?;
+                }
+            }
+            Ok(())
+        })?;
+        let mut sheets = Vec::new();
+        self.read(BOOK, |piece| {
+            if let Piece::Start("sheet", tag) = piece {
+                let id = attribute(tag, "id")?;
+                let part = parts.iter().find(|(of, _)| Some(of) == id.as_ref());
+                if let (Some(name), Some((_, part))) = (attribute(tag, "name")?, part) {
+                    push(&mut sheets, (name, part.clone()))?;
+                }
+            }
+            Ok(())
+        })?;
+        Ok(sheets)
+    }
+
+    /// The texts that cells share.
+    fn shared(&self) -> Result<Vec<String>, String> {
+        const PART: &str = "xl/sharedStrings.xml";
+        let (mut shared, mut text) = (Vec::new(), Words::default());
+        if !self.has(PART) {
+            return Ok(shared);
+        }
+        self.read(PART, |piece| {
+            text.take(&piece);
+            if let Piece::End("si") = piece {
+                push(&mut shared, text.end())?;
+            }
+            Ok(())
+        })?;
+        Ok(shared)
+    }
+
+    /// For each style of cells whether it shows numbers as dates.
+    fn dates(&self) -> Result<Vec<bool>, String> {
+        const PART: &str = "xl/styles.xml";
+        let mut formats: BTreeSet<String> =
+            (14..=22).chain(45..=47).map(|id| id.to_string()).collect();
+        let (mut dates, mut is_of_cells) = (Vec::new(), false);
+        if !self.has(PART) {
+            return Ok(dates);
+        }
+        self.read(PART, |piece| {
+            match piece {
+                Piece::Start("numFmt", tag) => {
+                    let code = attribute(tag, "formatCode")?.unwrap_or_default();
+                    if is_date(&code) && formats.len() < MOST_ROWS {
+                        formats.extend(attribute(tag, "numFmtId")?);
+                    }
+                }
+                Piece::Start("cellXfs", _) => is_of_cells = true,
+                Piece::End("cellXfs") => is_of_cells = false,
+                Piece::Start("xf", tag) if is_of_cells => {
+                    let format = attribute(tag, "numFmtId")?;
+                    push(&mut dates, format.is_some_and(|id| formats.contains(&id)))?;
+                }
+                _ => {}
+            }
+            Ok(())
+        })?;
+        Ok(dates)
+    }
+
+    /// A line for each row, cells separated by tabs; columns beyond those of the first row with several are left
+    /// out, since people calculate beside their readings.
+    fn text(&self, part: &str) -> Result<Vec<u8>, String> {
+        let (shared, dates) = (self.shared()?, self.dates()?);
+        let (mut table, mut words) = (Table::default(), Words::default());
+        let mut cell = Cell::default();
+        self.read(part, |piece| {
+            words.take(&piece);
+            match piece {
+                Piece::Start("row", tag) => table.begin_row(number(tag, "r")?),
+                Piece::End("row") => table.end_row(),
+                Piece::Start("c", tag) => {
+                    words.end();
+                    cell = Cell::of(tag, &dates)?;
+                    Ok(())
+                }
+                Piece::End("c") => table.cell(cell.column, &cell.value(words.end(), &shared)?),
+                _ => Ok(()),
+            }
+        })?;
+        Ok(table.text)
+    }
+}
+
+fn push<T>(list: &mut Vec<T>, item: T) -> Result<(), String> {
+    if list.len() == MOST_ROWS {
         return Err(too_large());
     }
-    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| error.to_string())?;
-    let mut left = LARGEST.1;
-    for index in 0..archive.len() {
-        let part = archive.by_index(index).map_err(|error| error.to_string())?;
-        let size = std::io::copy(&mut part.take(left + 1), &mut sink());
-        let size = size.map_err(|error| error.to_string())?;
-        left = left.checked_sub(size).ok_or_else(too_large)?;
-    }
+    list.push(item);
     Ok(())
 }
 
-/// A line for each row, cells separated by tabs; columns beyond those of the first row with several are left
-/// out, since people calculate beside their readings.
-fn text(book: &mut Xlsx<Cursor<Vec<u8>>>, name: &str) -> Result<Vec<u8>, calamine::XlsxError> {
-    let mut cells = book.worksheet_cells_reader(name)?;
-    let (mut text, mut row, mut column) = (Vec::new(), 0, 0);
-    let mut widest = None;
-    while let Some(cell) = cells.next_cell()? {
-        let (at_row, at_column) = cell.get_position();
-        if at_row < row || at_row >= 1 << 20 || at_column >= widest.unwrap_or(MOST_COLUMNS) {
-            continue;
-        }
-        if at_row > row {
-            if column > 0 && widest.is_none() {
-                widest = Some(column + 1);
-            }
-            text.resize(text.len() + (at_row - row) as usize, b'\n');
-            (row, column) = (at_row, 0);
-        }
-        if at_column < column {
-            continue;
-        }
-        text.resize(text.len() + (at_column - column) as usize, b'\t');
-        column = at_column;
-        let written = match cell.get_value() {
-            DataRef::Float(number) => write!(text, "{number}"),
-            DataRef::Int(number) => write!(text, "{number}"),
-            // Days.
-            DataRef::DateTime(moment) => write!(text, "{}", moment.as_f64() * 86_400.0),
-            DataRef::String(words) => text.write_all(one_cell(words).as_bytes()),
-            DataRef::SharedString(words) => text.write_all(one_cell(words).as_bytes()),
-            DataRef::DateTimeIso(words) => text.write_all(one_cell(words).as_bytes()),
-            _ => Ok(()),
-        };
-        written.expect("a vector takes it");
-    }
-    Ok(text)
+fn number(tag: &BytesStart, name: &str) -> Result<Option<usize>, String> {
+    let value = attribute(tag, name)?;
+    let parsed = value.map(|value| {
+        value
+            .parse()
+            .map_err(|_| format!("{name}=\"{value}\" is no number"))
+    });
+    parsed.transpose()
 }
 
-fn one_cell(words: &str) -> String {
-    let plain = |c: char| if c.is_control() || c == '"' { ' ' } else { c };
-    words.chars().take(MOST_LETTERS).map(plain).collect()
+/// Whether a format shows a number as a date: it has letters of dates beside literal text and colours.
+fn is_date(code: &str) -> bool {
+    let mut closing = None;
+    code.chars().any(|c| match (closing, c) {
+        (Some(end), c) => {
+            closing = Some(end).filter(|end| *end != c);
+            false
+        }
+        (None, '"') => {
+            closing = Some('"');
+            false
+        }
+        (None, '[') => {
+            closing = Some(']');
+            false
+        }
+        (None, c) => "dmyhsDMYHS".contains(c),
+    })
+}
+
+/// The words of a cell as they come, without hints for their pronunciation.
+#[derive(Default)]
+struct Words {
+    text: String,
+    is_hint: bool,
+}
+
+impl Words {
+    fn take(&mut self, piece: &Piece) {
+        match piece {
+            Piece::Start("rPh", _) => self.is_hint = true,
+            Piece::End("rPh") => self.is_hint = false,
+            Piece::Text("t" | "v", text) if !self.is_hint => {
+                let left = MOST_LETTERS - self.text.chars().count();
+                self.text.extend(
+                    text.chars()
+                        .take(left)
+                        .map(|c| if c.is_control() || c == '"' { ' ' } else { c }),
+                );
+            }
+            _ => {}
+        }
+    }
+
+    fn end(&mut self) -> String {
+        std::mem::take(&mut self.text)
+    }
+}
+
+/// What stands in the tag of a cell.
+#[derive(Default)]
+struct Cell {
+    column: Option<usize>,
+    kind: String,
+    is_date: bool,
+}
+
+impl Cell {
+    fn of(tag: &BytesStart, dates: &[bool]) -> Result<Self, String> {
+        // "B12" is in the second column.
+        let place = attribute(tag, "r")?.unwrap_or_default();
+        let letters = place.bytes().take_while(u8::is_ascii_uppercase);
+        let column = letters.fold(0usize, |column, letter| {
+            column
+                .saturating_mul(26)
+                .saturating_add(usize::from(letter - b'A' + 1))
+        });
+        let style = number(tag, "s")?.unwrap_or(0);
+        Ok(Self {
+            column: column.checked_sub(1),
+            kind: attribute(tag, "t")?.unwrap_or_default(),
+            is_date: dates.get(style) == Some(&true),
+        })
+    }
+
+    fn value(&self, words: String, shared: &[String]) -> Result<String, String> {
+        Ok(match &*self.kind {
+            _ if words.is_empty() => words,
+            "s" => {
+                let place: Option<usize> = words.trim().parse().ok();
+                let found = place.and_then(|place| shared.get(place));
+                found
+                    .ok_or_else(|| format!("there is no shared text {words}"))?
+                    .clone()
+            }
+            "b" => if words.trim() == "0" { "FALSE" } else { "TRUE" }.to_owned(),
+            "e" => String::new(),
+            "" | "n" if self.is_date => match words.trim().parse::<f64>() {
+                Ok(days) => (days * 86_400.0).to_string(),
+                Err(_) => words,
+            },
+            _ => words,
+        })
+    }
+}
+
+/// The text as it is made.
+#[derive(Default)]
+struct Table {
+    text: Vec<u8>,
+    /// Lines before this one, and cells in it.
+    row: usize,
+    column: usize,
+    widest: Option<usize>,
+}
+
+impl Table {
+    fn begin_row(&mut self, number: Option<usize>) -> Result<(), String> {
+        let number = number.unwrap_or(self.row + 1);
+        let blank = number.checked_sub(self.row + 1);
+        let blank =
+            blank.ok_or_else(|| format!("row {number} must stand after row {}", self.row))?;
+        if number > MOST_ROWS || self.text.len() > LARGEST.1 {
+            return Err(too_large());
+        }
+        self.text.resize(self.text.len() + blank, b'\n');
+        self.row += blank;
+        self.column = 0;
+        Ok(())
+    }
+
+    fn cell(&mut self, column: Option<usize>, words: &str) -> Result<(), String> {
+        let column = column.unwrap_or(self.column);
+        if column >= self.widest.unwrap_or(MOST_COLUMNS) {
+            return Ok(());
+        }
+        if column < self.column {
+            return Err(format!(
+                "the cells of row {} must stand in order",
+                self.row + 1
+            ));
+        }
+        self.tabs_to(column);
+        self.text.extend(words.as_bytes());
+        self.column = column + 1;
+        Ok(())
+    }
+
+    fn end_row(&mut self) -> Result<(), String> {
+        if self.column > 1 && self.widest.is_none() {
+            self.widest = Some(self.column);
+        }
+        if let (Some(widest), 1..) = (self.widest, self.column) {
+            self.tabs_to(widest - 1);
+        }
+        self.text.push(b'\n');
+        self.row += 1;
+        Ok(())
+    }
+
+    fn tabs_to(&mut self, column: usize) {
+        let tabs = column + 1 - self.column.max(1);
+        self.text.resize(self.text.len() + tabs, b'\t');
+    }
 }

@@ -44,7 +44,16 @@ pub(super) struct Member {
     pub packed: u64,
     pub unpacked: u64,
     pub checksum: u32,
-    pub is_deflated: bool,
+    pub packing: Packing,
+}
+
+/// How the bytes of a member are packed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Packing {
+    Stored,
+    Deflated,
+    /// Encrypted, or by another method.
+    Unknown,
 }
 
 pub(super) trait ReadSeek: Read + Seek + Send {}
@@ -105,14 +114,20 @@ impl Source {
     }
 
     /// The same file, read at one of its members.
-    pub fn with_member(&self, member: Member) -> Self {
-        Self {
+    ///
+    /// # Errors
+    /// If it cannot be unpacked.
+    pub fn with_member(&self, member: Member) -> Result<Self, RecordingError> {
+        if member.packing == Packing::Unknown {
+            return Err(self.error(None, RecordingProblem::Packing(member.name)));
+        }
+        Ok(Self {
             name: format!("{}:{}", self.name, member.name).into(),
             bytes: self.bytes.clone(),
             member: Some(member),
             part: None,
             added_lines: 0,
-        }
+        })
     }
 
     /// The name in messages.
@@ -156,7 +171,7 @@ impl Source {
             .map_err(|error| self.error(None, RecordingProblem::Unreadable(error)))?;
         let packed = BufReader::with_capacity(BUFFER, bytes).take(member.packed);
         let checksum = member.checksum;
-        Ok(if member.is_deflated {
+        Ok(if member.packing == Packing::Deflated {
             decoded(Checked::new(DeflateDecoder::new(packed), checksum))
         } else {
             decoded(Checked::new(packed, checksum))

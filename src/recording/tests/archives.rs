@@ -1,23 +1,9 @@
 //! Tables in zip archives.
 
 use super::*;
-use std::io::{Cursor, Write};
-use zip::ZipWriter;
-use zip::write::SimpleFileOptions;
 
 const TABLE: &str = "\"Time (s)\",\"Acceleration z (m/s^2)\"\n0.01,9.5\n0.02,10.5\n";
 const BARE: &str = "time,seconds_elapsed,z,y,x\n10000000,0.01,1.5,0,0\n20000000,0.02,1.25,0,0\n";
-
-fn archive(members: &[(&str, &str)]) -> Vec<u8> {
-    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
-    for (name, text) in members {
-        writer
-            .start_file(*name, SimpleFileOptions::default())
-            .unwrap();
-        writer.write_all(text.as_bytes()).unwrap();
-    }
-    writer.finish().unwrap().into_inner()
-}
 
 fn open_archive(members: &[(&str, &str)]) -> Result<Recording, RecordingError> {
     Recording::from_bytes("ride.zip", archive(members), &Reading::default())

@@ -1,12 +1,16 @@
 //! Whole recordings, from small texts in memory and, if available, from real lifts.
 
 use super::*;
+use std::io::{Cursor, Write};
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
 
 mod arbitrary;
 mod archives;
 mod formats;
 mod real;
 mod refusals;
+mod workbooks;
 
 fn open(text: &str) -> Recording {
     open_as(text, &Reading::default())
@@ -28,4 +32,15 @@ fn refused_as(text: impl AsRef<[u8]>, reading: &Reading) -> String {
 fn read(recording: &Recording) -> Vec<(f64, f64)> {
     let pair = |sample: &Sample| (sample.time, sample.acceleration);
     recording.samples().iter().map(pair).collect()
+}
+
+fn archive(members: &[(&str, &str)]) -> Vec<u8> {
+    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
+    for (name, text) in members {
+        writer
+            .start_file(*name, SimpleFileOptions::default())
+            .unwrap();
+        writer.write_all(text.as_bytes()).unwrap();
+    }
+    writer.finish().unwrap().into_inner()
 }

@@ -2,7 +2,6 @@
 
 use super::lines::LONGEST_LINE;
 use super::*;
-use std::io::Write;
 
 #[test]
 fn no_table() {
