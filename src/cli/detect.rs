@@ -154,7 +154,7 @@ impl Detect {
         let mut written = Vec::new();
         if let Some(figure) = to.figure {
             let name = self.name();
-            let plot = figure::detection::plot(detection, &name);
+            let plot = figure::detection::plot(detection, &name, report.recording.clock_offset);
             let plot = plot.map_err(|error| match error {
                 FigureError::Short => self.refused(error.into()),
                 error => Failure::run(error),

@@ -42,7 +42,8 @@ impl<'a> Decisions<'a> {
         let levelled = &explanation.levelled;
         let blocks = levelled.cut.blocks.iter().zip(&levelled.level.at);
         let centred: Vec<f64> = blocks.map(|(block, level)| block.mean - level).collect();
-        let mut whitened = vec![0.0; centred.len()];
+        // Without a filter it is shown as it is.
+        let mut whitened = centred.clone();
         if let Some(reference) = reference {
             let mut from = 0;
             for &to in &levelled.cut.ends {

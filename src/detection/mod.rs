@@ -82,7 +82,11 @@ impl Detection {
             },
             events: trip::events(&explanation, &prior),
             high_pass: explanation.high_pass,
-            trace: Trace::of(&explanation.levelled.cut, decisions.whitened()),
+            trace: Trace::of(
+                &explanation.levelled.cut.blocks,
+                decisions.whitened(),
+                &explanation.course(),
+            ),
             design: design.clone(),
             trips,
             undecided: trip::undecided(&explanation, &prior),

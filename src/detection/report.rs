@@ -58,7 +58,7 @@ pub struct Recorded {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Warning {
     #[error(
-        "the sensor is behind a high-pass filter with a time constant of about {0} s: the record was restored, \
+        "the sensor is behind a high-pass filter with a time constant of about {0:.2} s: the record was restored, \
          so speeds are rough (record the raw accelerometer, with g)"
     )]
     HighPass(f64),

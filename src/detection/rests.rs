@@ -1,6 +1,6 @@
 //! Where the cage rests, undisturbed and beyond doubt.
 
-use crate::explain::{Explanation, Trip};
+use crate::explain::Explanation;
 use crate::monitor::{Design, LEAST_TRAINING, MOST_ORDER, Reference};
 use std::ops::Range;
 
@@ -25,7 +25,7 @@ impl Rests {
         let doubted = explanation.doubts.iter().flat_map(|doubt| &doubt.instead);
         let doubted = doubted.filter(|other| !trips.iter().any(|trip| trip.is_like(other)));
         for trip in trips.iter().chain(doubted) {
-            clear(blocks_of(explanation, trip));
+            clear(explanation.blocks_of(trip));
         }
         for pulses in &explanation.reading.others {
             let pulses = &explanation.pulses[pulses.clone()];
@@ -62,25 +62,4 @@ impl Rests {
         let is_enough = count >= LEAST_TRAINING.max(design.samples.reference()) + MOST_ORDER;
         is_enough.then(|| Reference::from_stretches(&stretches, design))
     }
-}
-
-/// The blocks of a trip, to the edges of the record or of a hole where it is open.
-pub(super) fn blocks_of(explanation: &Explanation, trip: &Trip) -> Range<usize> {
-    let cut = &explanation.levelled.cut;
-    let first = explanation.pulses[trip.pulses.start].blocks.start;
-    let last = explanation.pulses[trip.pulses.end - 1].blocks.end;
-    let stretch = cut.ends.partition_point(|end| *end <= first);
-    let begin = if stretch > 0 {
-        cut.ends[stretch - 1]
-    } else {
-        0
-    };
-    let end = cut.ends.iter().copied().find(|end| *end >= last);
-    let from = if trip.start.is_some() { first } else { begin };
-    let to = if trip.stop.is_some() {
-        last
-    } else {
-        end.unwrap_or(last)
-    };
-    from..to
 }

@@ -1,8 +1,8 @@
 //! A recording thinned for a picture: the lowest and the highest block in each of a few thousand columns of time.
 
-use crate::explain::Cut;
+use crate::explain::{Block, Place};
 
-/// The record and the whitened record, thinned.
+/// The record, the record whitened, and the course of the cage, thinned.
 #[derive(Clone, Debug)]
 pub struct Trace(Vec<Column>);
 
@@ -15,6 +15,10 @@ pub struct Column {
     pub record: (f64, f64),
     /// The lowest and the highest whitened block, m/s².
     pub whitened: (f64, f64),
+    /// The lowest and the highest speed, m/s.
+    pub speed: (f64, f64),
+    /// The lowest and the highest position, m.
+    pub position: (f64, f64),
 }
 
 /// More columns than a picture resolves.
@@ -26,22 +30,25 @@ impl Trace {
         &self.0
     }
 
-    pub(super) fn of(cut: &Cut, whitened: &[f64]) -> Self {
-        let wide = cut.blocks.len().div_ceil(MOST_COLUMNS).max(1);
-        let span = |values: &mut dyn Iterator<Item = f64>| {
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-                (low.min(value), high.max(value))
-            })
-        };
-        let columns = cut.blocks.chunks(wide).zip(whitened.chunks(wide));
-        Self(
-            columns
-                .map(|(blocks, whitened)| Column {
-                    times: (blocks[0].from, blocks[blocks.len() - 1].to),
-                    record: span(&mut blocks.iter().map(|block| block.mean)),
-                    whitened: span(&mut whitened.iter().copied()),
-                })
-                .collect(),
-        )
+    pub(super) fn of(blocks: &[Block], whitened: &[f64], course: &[Place]) -> Self {
+        let wide = blocks.len().div_ceil(MOST_COLUMNS).max(1);
+        let columns = (0..blocks.len()).step_by(wide).map(|from| {
+            let range = from..(from + wide).min(blocks.len());
+            let span = |value: &dyn Fn(usize) -> f64| {
+                let ends = (f64::INFINITY, f64::NEG_INFINITY);
+                range
+                    .clone()
+                    .map(value)
+                    .fold(ends, |(low, high), value| (low.min(value), high.max(value)))
+            };
+            Column {
+                times: (blocks[from].from, blocks[range.end - 1].to),
+                record: span(&|block| blocks[block].mean),
+                whitened: span(&|block| whitened[block]),
+                speed: span(&|block| course[block].speed),
+                position: span(&|block| course[block].position),
+            }
+        });
+        Self(columns.collect())
     }
 }

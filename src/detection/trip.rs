@@ -155,7 +155,7 @@ pub(super) fn undecided(explanation: &Explanation, prior: &Prior) -> Vec<Undecid
         .doubts
         .iter()
         .filter(has_others)
-        .map(Undecided::of);
+        .map(|doubt| Undecided::of(explanation, doubt));
     let pushes = events(explanation, prior).into_iter();
     let pushes = pushes.filter(|it| it.what == What::Push && it.speed.abs() >= prior.least_speed);
     let pushes = pushes.map(|event| Undecided {
@@ -202,11 +202,19 @@ impl Undecided {
         }
     }
 
-    fn of(doubt: &Doubt) -> Self {
+    fn of(explanation: &Explanation, doubt: &Doubt) -> Self {
         let brief = |trips: &[explain::Trip]| trips.iter().map(Brief::of).collect();
+        let blocks = &explanation.levelled.cut.blocks;
+        let places = doubt
+            .trips
+            .iter()
+            .chain(&doubt.instead)
+            .map(|trip| explanation.blocks_of(trip));
+        let place = places.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end));
+        let place = place.expect("a doubt has a trip");
         Self {
-            from: doubt.from,
-            to: doubt.to,
+            from: blocks[place.start].from,
+            to: blocks[place.end - 1].to,
             either: brief(&doubt.trips),
             or: brief(&doubt.instead),
             log_odds: doubt.margin,

@@ -349,3 +349,59 @@ impl Lattice {
         parts
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// All paths from a node to the end, with their costs and the gaps in which they rest or move.
+    fn paths(lattice: &Lattice, node: usize) -> Vec<(f64, Vec<usize>)> {
+        if node == lattice.forwards.len() - 1 {
+            return vec![(0.0, Vec::new())];
+        }
+        let edges = (0..lattice.edges.len()).filter(|edge| lattice.edges[*edge].from == node);
+        let longer = edges.flat_map(|index| {
+            let edge = &lattice.edges[index];
+            paths(lattice, edge.to)
+                .into_iter()
+                .map(move |(cost, mut by)| {
+                    by.push(index);
+                    (cost + edge.cost, by)
+                })
+        });
+        longer.collect()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+        /// The cheapest path, and the cheapest with motion in each gap, are those of all paths.
+        #[test]
+        fn margins_are_those_of_all_paths(changes in prop::collection::vec(
+            prop::sample::select(vec![-1.0, -0.5, 0.1, 0.5, 1.0]), 1..5,
+        )) {
+            let pulse = |(index, change): (usize, f64)| Pulse {
+                blocks: 0..1,
+                from: 10.0 * index as f64 + 5.0,
+                to: 10.0 * index as f64 + 6.5,
+                change,
+                deviation: 0.01,
+                peak: 1.0,
+            };
+            let pulses: Vec<Pulse> = changes.into_iter().enumerate().map(pulse).collect();
+            let middle = pulses.len() / 2;
+            let ends = [(middle, 0.0, 10.0 * middle as f64), (pulses.len(), 10.0 * middle as f64 + 2.0, 60.0)];
+            let lattice = Lattice::new(&Prior::default(), &pulses, &ends);
+            let all = paths(&lattice, 0);
+            let best = all.iter().map(|path| path.0).fold(f64::INFINITY, f64::min);
+            prop_assert!((lattice.cost() - best).abs() < 1e-9);
+            for (gap, (_, motion)) in lattice.margins().into_iter().enumerate() {
+                let moves = |path: &&(f64, Vec<usize>)| {
+                    path.1.iter().any(|edge| lattice.gaps_in_motion(&lattice.edges[*edge]).contains(&gap))
+                };
+                let expected = all.iter().filter(moves).map(|path| path.0).fold(f64::INFINITY, f64::min);
+                prop_assert!((best + motion - expected).abs() < 1e-9 || motion == expected, "{}", gap);
+            }
+        }
+    }
+}

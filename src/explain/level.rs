@@ -141,3 +141,56 @@ fn between(values: &[f64], place: f64) -> f64 {
     let share = place - before as f64;
     values[before] * (1.0 - share) + values[after] * share
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recording::Sample;
+
+    /// The largest error of the level of a record with these accelerations and levels, with a little noise.
+    fn worst(acceleration: impl Fn(f64) -> f64, level: impl Fn(f64) -> f64) -> f64 {
+        let noise = |i: u32| f64::from(i.wrapping_mul(2_654_435_761) >> 16) / 65536.0 - 0.5;
+        let samples: Vec<Sample> = (0..6000)
+            .map(|i| {
+                let time = f64::from(i) / 50.0;
+                let acceleration = acceleration(time) + level(time) + 0.05 * noise(i);
+                Sample { time, acceleration }
+            })
+            .collect();
+        let cut = Cut::new(&samples, 2, 0.04);
+        let found = Level::of(&cut, 0.0);
+        let errors = cut
+            .blocks
+            .iter()
+            .zip(&found.at)
+            .map(|(block, found)| (found - level(block.to)).abs());
+        errors.fold(0.0, f64::max)
+    }
+
+    fn pulse(time: f64, from: f64, to: f64, size: f64) -> f64 {
+        if (from..to).contains(&time) {
+            size
+        } else {
+            0.0
+        }
+    }
+
+    /// A braking of 8 s does not become the level, nor does a drift escape it.
+    #[test]
+    fn the_level_stays_below_pulses_and_follows_drift() {
+        let ride = |time| pulse(time, 20.0, 22.0, 1.0) + pulse(time, 60.0, 68.0, -0.25);
+        assert!(worst(ride, |_| 9.81) < 0.01);
+        assert!(worst(ride, |time| 9.81 + time / 600.0) < 0.03);
+        assert!(worst(ride, |time| -0.1 * time / 60.0) < 0.03);
+    }
+
+    /// A step of the level for good is followed within three seconds.
+    #[test]
+    fn the_level_follows_a_step() {
+        let near = |time: f64| (57.0..63.5).contains(&time);
+        let step = |time: f64| if time < 60.25 { 0.0 } else { 0.4 };
+        // Near the step the sensor reads nothing but the level found, so that only the rest is compared.
+        let found = worst(|_| 0.0, |time| if near(time) { 0.2 } else { step(time) });
+        assert!(found < 0.21, "{found}");
+    }
+}

@@ -12,6 +12,7 @@
 
 mod blocks;
 mod cost;
+mod course;
 mod lattice;
 mod level;
 mod pulse;
@@ -21,6 +22,7 @@ mod trips;
 
 pub use blocks::{Block, Blocks, Cut, STRONGEST};
 pub use cost::Prior;
+pub use course::Place;
 pub use lattice::{Lattice, Part};
 pub use level::Level;
 pub use pulse::{Levelled, Pulse};
@@ -68,14 +70,10 @@ pub struct Explanation {
     pub slow: Vec<Trip>,
 }
 
-/// A stretch on which two explanations are close.
+/// Two explanations that are close.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Doubt {
-    /// s
-    pub from: f64,
-    /// s
-    pub to: f64,
-    /// The trips of the cheapest explanation there.
+    /// The trips of the cheapest explanation that are not those of the other.
     pub trips: Vec<Trip>,
     /// Those of the other.
     pub instead: Vec<Trip>,
@@ -234,13 +232,10 @@ fn doubts(record: &Record, lattice: &Lattice, best: &Reading) -> Vec<Doubt> {
             missing.cloned().collect::<Vec<_>>()
         };
         let (trips, instead) = (differ(best, &other), differ(&other, best));
-        let pulses = trips.iter().chain(&instead).map(|trip| trip.pulses.clone());
-        let Some(place) = pulses.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)) else {
+        if trips.is_empty() && instead.is_empty() {
             continue;
-        };
+        }
         let doubt = Doubt {
-            from: record.pulses[place.start].from,
-            to: record.pulses[place.end - 1].to,
             trips,
             instead,
             margin,

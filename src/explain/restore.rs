@@ -51,3 +51,31 @@ pub fn restored(record: &Cut, time_constant: f64, offset: f64) -> Cut {
         ..record.clone()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recording::Sample;
+
+    /// A pulse behind a high pass comes back, whatever its time constant; the integral is exact to the trapezoid.
+    #[test]
+    fn a_pulse_comes_back() {
+        for time_constant in [0.5f64, 2.0, 8.0] {
+            let rate = 200.0f64;
+            let pulse = |time: f64| if (3.0..5.0).contains(&time) { 1.0 } else { 0.0 };
+            let mut low = 0.0;
+            let share = 1.0 - (-1.0 / (rate * time_constant)).exp();
+            let samples = (0..4000).map(|i| {
+                let time = f64::from(i) / rate;
+                let acceleration = pulse(time) - low;
+                low += share * acceleration;
+                Sample { time, acceleration }
+            });
+            let cut = Cut::new(&samples.collect::<Vec<_>>(), 10, 0.05);
+            for block in restored(&cut, time_constant, 0.0).blocks {
+                let error = (block.mean - pulse(block.to - 0.02)).abs();
+                assert!(error < 0.01, "{time_constant}: {error} at {}", block.to);
+            }
+        }
+    }
+}

@@ -362,3 +362,101 @@ fn disturbances(prior: &Prior, pulses: &[Turned], first: usize) -> Vec<(usize, f
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::collections::BTreeMap;
+
+    /// A few pulses in a row, some of them close to each other.
+    pub(crate) fn pulses() -> impl Strategy<Value = Vec<Pulse>> {
+        let pulse = (
+            0.1..4.0f64,
+            0.2..2.0f64,
+            prop::sample::select(vec![-1.0, -0.7, -0.3, -0.05, 0.05, 0.3, 0.7, 1.0]),
+        );
+        prop::collection::vec(pulse, 1..7).prop_map(|parts| {
+            let mut time = 1.0;
+            let pulses = parts.into_iter().map(|(pause, length, change)| {
+                let from = time + pause;
+                time = from + length;
+                Pulse {
+                    blocks: 0..1,
+                    from,
+                    to: time,
+                    change,
+                    deviation: 0.01,
+                    peak: 1.0,
+                }
+            });
+            pulses.collect()
+        })
+    }
+
+    /// Every motion that begins with a pulse, without giving any up: the cheapest for each end.
+    fn exhaustive(stretch: &Stretch, first: usize) -> BTreeMap<(usize, bool), f64> {
+        let mut best = BTreeMap::new();
+        let mut note = |key: (usize, bool), cost: f64| {
+            let known = best.entry(key).or_insert(f64::INFINITY);
+            *known = known.min(cost);
+        };
+        let Some(start) = stretch.start(first) else {
+            return best;
+        };
+        let mut waiting = vec![(start, first + 1)];
+        while let Some((motion, next)) = waiting.pop() {
+            if next == stretch.pulses.len() {
+                let slow = stretch
+                    .prior
+                    .implausible(motion.top, f64::INFINITY, f64::INFINITY);
+                note(
+                    (next, true),
+                    motion.cost + creeping(&motion, stretch.end) + slow,
+                );
+                continue;
+            }
+            let others = [(next + 1, stretch.ignored(next))].into_iter();
+            for (after, cost) in others.chain(stretch.disturbances(next).iter().copied()) {
+                let cost = motion.cost + cost;
+                waiting.push((Progress { cost, ..motion }, after));
+                let changed = stretch.changed(&motion, next..after);
+                let closed = stretch.closed(&changed, first, after - 1, &vec![(None, first)]);
+                note((after, false), closed.cost);
+                waiting.push((stretch.going_on(changed, &motion, first), after));
+            }
+        }
+        best
+    }
+
+    proptest! {
+        /// What is given up early would not have been the cheapest, unless it is hopeless.
+        #[test]
+        fn the_cheapest_motions_are_found(pulses in pulses()) {
+            let prior = Prior::default();
+            let end = pulses.last().map_or(0.0, |pulse| pulse.to + 3.0);
+            let forwards = Stretch::new(&prior, &pulses, (0.0, end));
+            for stretch in [forwards.reversed(), forwards] {
+                for first in 0..pulses.len() {
+                    let mut found = BTreeMap::new();
+                    stretch.motions(first, &mut |motion, is_open| {
+                        let edge = if stretch.is_reversed {
+                            pulses.len() - motion.pulses.start
+                        } else {
+                            motion.pulses.end
+                        };
+                        let known = found.entry((edge, is_open)).or_insert(f64::INFINITY);
+                        *known = motion.cost.min(*known);
+                    });
+                    for (key, cost) in exhaustive(&stretch, first) {
+                        let idle: f64 = (first..key.0).map(|pulse| stretch.ignored(pulse)).sum();
+                        if cost < idle + 8.0 {
+                            let found = found.get(&key).copied().unwrap_or(f64::INFINITY);
+                            prop_assert!((found - cost).abs() < 1e-9, "{:?}: {} for {}", key, found, cost);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,23 +1,30 @@
-//! A recording and what was found in it: the record, below it the same whitened; states shaded and named; X, Y₁
-//! and Y₂ of each decision.
+//! A recording and what was found in it: the record, the same whitened, speed and position; states shaded and named,
+//! undecided stretches hatched; X, Y₁ and Y₂ of each decision.
 
 use super::error::FigureError;
 use crate::detection::{Column, Detection, Trip};
 use crate::monitor::Decision;
 use crate::plot::{
-    Axis, Colour, Entry, Key, Mark, Place, Plot, Style, add_phases, ends, literal, phase_colour,
-    phase_words,
+    Axis, Colour, Entry, Key, Mark, Place, Plot, Style, add_phases, ends, hatch, literal,
+    phase_colour, phase_words,
 };
 
-const PANEL: f64 = 140.0;
+/// Heights of the panels of the record and of the course, points.
+const PANEL: f64 = 120.0;
+const COURSE: f64 = 60.0;
 /// Room for the bars of the samples, as a share of the lower panel.
 const BARS: f64 = 0.34;
 
-/// The picture of a recording, whose name is `name`, and what was found in it.
+/// The picture of a recording, whose name is `name` and whose times count from `clock_offset`, and what was found in
+/// it.
 ///
 /// # Errors
 /// Where the recording has not even one block.
-pub fn plot(detection: &Detection, name: &str) -> Result<Plot, FigureError> {
+pub fn plot(
+    detection: &Detection,
+    name: &str,
+    clock_offset: Option<f64>,
+) -> Result<Plot, FigureError> {
     let columns = detection.trace.columns();
     let (Some(first), Some(last)) = (columns.first(), columns.last()) else {
         return Err(FigureError::Short);
@@ -28,12 +35,28 @@ pub fn plot(detection: &Detection, name: &str) -> Result<Plot, FigureError> {
     let record = y_axis(columns, &states, 0.08, |column| column.record).labelled("record, m/s²");
     let whitened =
         y_axis(columns, &states, BARS, |column| column.whitened).labelled("whitened, m/s²");
-    let mut plot = Plot::stack(&x, [(PANEL, record), (PANEL, whitened)]);
+    let speed = y_axis(columns, &[], 0.08, |column| column.speed).labelled("speed, m/s");
+    let position = y_axis(columns, &[], 0.08, |column| column.position).labelled("position, m");
+    let axes = [record, whitened, speed, position];
+    let mut plot = Plot::stack(
+        &x,
+        [PANEL, PANEL, COURSE, COURSE].into_iter().zip(axes.clone()),
+    );
     (plot.margins.top, plot.margins.legend) = (16.0, (4.0, 4.0));
     add_phases(&mut plot, &states, 5.0);
+    for it in &detection.undecided {
+        for (panel, y) in axes.iter().enumerate() {
+            for line in hatch((it.from, it.to), &x, y) {
+                plot.add(panel, line);
+            }
+        }
+    }
     plot.add(1, Mark::Level(0.0, &[]));
+    plot.add(2, Mark::Level(0.0, &[]));
     plot.add(0, values(columns, |column| column.record));
     plot.add(1, values(columns, |column| column.whitened));
+    plot.add(2, values(columns, |column| column.speed));
+    plot.add(3, values(columns, |column| column.position));
     for trip in &detection.trips {
         for decision in trip.start_decision.iter().chain(&trip.stop_decision) {
             add_decision(&mut plot, decision);
@@ -41,7 +64,12 @@ pub fn plot(detection: &Detection, name: &str) -> Result<Plot, FigureError> {
     }
     plot.add_to_all(&Mark::Axes);
     plot.add_legend(entries(), Place::Across);
-    plot.set_caption(&caption(detection, name));
+    let mut caption = caption(detection, name);
+    caption.extend(clock_offset.map(|offset| format!("times count from {offset:.3} s")));
+    if let Some(time_constant) = detection.high_pass {
+        caption.push(format!("restored from a high pass of {time_constant:.2} s"));
+    }
+    plot.set_caption(&caption);
     Ok(plot)
 }
 

@@ -26,7 +26,7 @@ pub use curves::{Curve, add_bands, add_bars};
 pub use layout::{LayoutError, layout};
 pub use legend::{Entry, Key, Legend, Place};
 pub use mark::{Block, Cell, Limit, Mark, Point};
-pub use phases::{add_phases, phase_colour, phase_words};
+pub use phases::{add_phases, hatch, phase_colour, phase_words};
 pub use picture::{Margins, Panel, Plot, WIDTH};
 pub use style::{Colour, Marker, Style};
 pub use text::{font, literal, text_width};

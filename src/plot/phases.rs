@@ -1,8 +1,9 @@
 //! What pictures of a ride in time share: phases shaded and named.
 
+use super::axis::Axis;
 use super::mark::Mark;
 use super::picture::Plot;
-use super::style::Colour;
+use super::style::{Colour, Style};
 
 /// The shade of a phase.
 pub fn phase_colour(name: &str) -> Colour {
@@ -15,6 +16,27 @@ pub fn phase_colour(name: &str) -> Colour {
         _ => Colour::WHITE,
     }
 }
+
+/// Slanted lines over a stretch of a panel with these axes: what is there is not known.
+pub fn hatch((from, to): (f64, f64), x: &Axis, y: &Axis) -> Vec<Mark> {
+    let style = Style::of(0).coloured(Colour::new(170, 170, 170));
+    let step = (x.to - x.from) / 80.0;
+    let count = ((to - from) / step) as i32 + SLANT;
+    let lines = (1 - SLANT..count).map(|line| {
+        let foot = from + f64::from(line) * step;
+        let width = f64::from(SLANT) * step;
+        let at = |time: f64| (time, y.from + (y.to - y.from) * (time - foot) / width);
+        let ends = (foot.max(from), (foot + width).min(to));
+        vec![at(ends.0), at(ends.1)]
+    });
+    lines
+        .filter(|ends| ends[0].0 < ends[1].0)
+        .map(|ends| Mark::Line(ends, style))
+        .collect()
+}
+
+/// How many lines of a hatch begin below one of them.
+const SLANT: i32 = 6;
 
 /// A phase in words.
 pub fn phase_words(name: &str) -> &str {
