@@ -10,8 +10,8 @@ use super::pulse::Pulse;
 use super::trips::{Motion, Stretch};
 use std::ops::Range;
 
-/// An edge dearer than no motion by this much cannot matter.
-const HOPELESS: f64 = 8.0;
+/// An edge dearer than the usual explanation by this much cannot matter.
+const HOPELESS: f64 = 12.0;
 
 /// A hole shorter than this can hardly hide a start, s.
 const SHORT_HOLE: f64 = 1.0;
@@ -72,6 +72,8 @@ pub struct Lattice {
     /// The last edge of the cheapest way to a node, and the first of the cheapest from it.
     behind: Vec<Option<usize>>,
     ahead: Vec<Option<usize>>,
+    /// Whether a node is on the cheapest path.
+    is_best: Vec<bool>,
     /// The cheapest path with motion in a gap: its cost and edge.
     moving: Vec<(f64, Option<usize>)>,
 }
@@ -93,6 +95,7 @@ impl Lattice {
             backwards: vec![f64::INFINITY; next.1 + 1],
             behind: vec![None; next.1 + 1],
             ahead: vec![None; next.1 + 1],
+            is_best: vec![false; next.1 + 1],
             moving: vec![(f64::INFINITY, None); pulses.len() + sections.len()],
             sections,
         };
@@ -121,10 +124,8 @@ impl Lattice {
     fn explain(&mut self, section: &Section, stretch: &Stretch) {
         let offset = section.pulses.start;
         let shift = |range: Range<usize>| range.start + offset..range.end + offset;
-        let mut idle = vec![0.0];
         for pulse in 0..section.pulses.len() {
             let ignored = stretch.ignored(pulse);
-            idle.push(idle[pulse] + ignored);
             let (from, to) = (section.rest(pulse), section.rest(pulse + 1));
             self.edge(from, to, ignored, Part::Other(shift(pulse..pulse + 1)));
             for &(after, cost) in stretch.disturbances(pulse) {
@@ -136,9 +137,11 @@ impl Lattice {
                 );
             }
         }
+        let reversed = stretch.reversed();
         let mut add = |motion: Motion, is_open: bool, is_reversed: bool| {
             let pulses = motion.pulses.clone();
-            if motion.cost > idle[pulses.end] - idle[pulses.start] + HOPELESS {
+            let stretch = if is_reversed { &reversed } else { stretch };
+            if stretch.excess(pulses.clone(), motion.cost) > HOPELESS {
                 return;
             }
             let is_up = motion.top > 0.0;
@@ -155,7 +158,6 @@ impl Lattice {
             };
             self.edge(from, to, part.cost, Part::Motion(part));
         };
-        let reversed = stretch.reversed();
         for first in 0..section.pulses.len() {
             stretch.motions(first, &mut |motion, is_open| add(motion, is_open, false));
             reversed.motions(first, &mut |motion, is_open| {
@@ -251,6 +253,12 @@ impl Lattice {
                 (self.backwards[from], self.ahead[from]) = (total, Some(index));
             }
         }
+        let mut node = 0;
+        self.is_best[0] = true;
+        while let Some(edge) = self.ahead[node] {
+            node = self.edges[edge].to;
+            self.is_best[node] = true;
+        }
         for index in 0..self.edges.len() {
             let edge = &self.edges[index];
             let total = self.forwards[edge.from] + edge.cost + self.backwards[edge.to];
@@ -300,53 +308,59 @@ impl Lattice {
 
     /// The parts of the cheapest explanation.
     pub fn best(&self) -> Vec<&Part> {
-        self.onwards(0)
+        let end = self.forwards.len() - 1;
+        self.parts(&self.onwards(0, |node| node == end).0)
     }
 
-    /// Of the cheapest one with the cage at rest in this gap.
-    pub fn best_at_rest(&self, gap: usize) -> Vec<&Part> {
-        let mut section = 0;
-        let mut first = 0;
-        while gap > first + self.sections[section].pulses.len() {
-            first += self.sections[section].pulses.len() + 1;
-            section += 1;
+    /// Where the cheapest explanation with the cage at rest in this gap, or with it moving, leaves the cheapest of all
+    /// and comes back to it: the parts of the cheapest, and those of the other.
+    pub fn detour(&self, gap: usize, moves: bool) -> (Vec<&Part>, Vec<&Part>) {
+        let (node, by) = if moves {
+            match self.moving[gap].1 {
+                Some(edge) => (self.edges[edge].from, Some(edge)),
+                None => return (Vec::new(), Vec::new()),
+            }
+        } else {
+            (self.rest(gap), None)
+        };
+        let mut before = Vec::new();
+        let mut from = node;
+        while !self.is_best[from] {
+            let Some(edge) = self.behind[from] else { break };
+            before.push(edge);
+            from = self.edges[edge].from;
         }
-        self.through(self.sections[section].rest(gap - first), None)
+        before.reverse();
+        before.extend(by);
+        let after = by.map_or(node, |edge| self.edges[edge].to);
+        let (onwards, to) = self.onwards(after, |node| self.is_best[node]);
+        before.extend(onwards);
+        let (best, _) = self.onwards(from, |node| node == to);
+        (self.parts(&best), self.parts(&before))
     }
 
-    /// Of the cheapest one with the cage moving in this gap.
-    pub fn best_in_motion(&self, gap: usize) -> Vec<&Part> {
-        match self.moving[gap].1 {
-            Some(index) => self.through(self.edges[index].from, Some(index)),
-            None => Vec::new(),
-        }
+    /// The node of rest in a gap.
+    fn rest(&self, gap: usize) -> usize {
+        let before = |index: usize| self.sections[index].pulses.start + index;
+        let count = self.sections.len();
+        let indices: Vec<usize> = (0..count).collect();
+        let section = indices.partition_point(|index| before(*index) <= gap) - 1;
+        self.sections[section].rest(gap - before(section))
     }
 
-    fn through(&self, node: usize, by: Option<usize>) -> Vec<&Part> {
-        let mut parts = Vec::new();
-        let mut place = node;
-        while let Some(index) = self.behind[place] {
-            parts.push(&self.edges[index].part);
-            place = self.edges[index].from;
+    /// The edges of the cheapest way on from a node, to the first node of which `is_last` holds, and that node.
+    fn onwards(&self, node: usize, is_last: impl Fn(usize) -> bool) -> (Vec<usize>, usize) {
+        let (mut edges, mut place) = (Vec::new(), node);
+        while !is_last(place) {
+            let Some(edge) = self.ahead[place] else { break };
+            edges.push(edge);
+            place = self.edges[edge].to;
         }
-        parts.reverse();
-        let mut next = node;
-        if let Some(index) = by {
-            parts.push(&self.edges[index].part);
-            next = self.edges[index].to;
-        }
-        parts.extend(self.onwards(next));
-        parts
+        (edges, place)
     }
 
-    fn onwards(&self, node: usize) -> Vec<&Part> {
-        let mut parts = Vec::new();
-        let mut place = node;
-        while let Some(index) = self.ahead[place] {
-            parts.push(&self.edges[index].part);
-            place = self.edges[index].to;
-        }
-        parts
+    fn parts(&self, edges: &[usize]) -> Vec<&Part> {
+        edges.iter().map(|edge| &self.edges[*edge].part).collect()
     }
 }
 

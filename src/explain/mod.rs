@@ -29,8 +29,12 @@ pub use pulse::{Levelled, Pulse};
 pub use reading::{Reading, Record, Trip, is_near};
 pub use trips::Motion;
 
-/// How strongly the level is pulled to the mean of the record; of these the better.
-const PULLS: [f64; 2] = [0.0, 1.0];
+/// A record is hardly ever at its level where more than this share of its windows is off it.
+const OFTEN: f64 = 0.25;
+
+/// A filter is looked for in so much of a record before and after its first pulse, s.
+const BEFORE: f64 = 30.0;
+const TELLING: f64 = 300.0;
 
 /// A high-pass filter must explain a record better by this much.
 const HIGH_PASS: f64 = 4.0;
@@ -84,48 +88,40 @@ pub struct Doubt {
 impl Explanation {
     /// Explains a record.
     pub fn of(record: &Cut, prior: &Prior) -> Self {
-        let plain = PULLS.map(|pull| Explained::of(record.clone(), prior, pull));
-        let plain = plain
-            .into_iter()
-            .min_by(|a, b| a.cost().total_cmp(&b.cost()));
-        let plain = plain.expect("one for each pull");
-        let (high_pass, best) = match Self::restored(record, prior, &plain) {
-            Some((time_constant, restored)) => (Some(time_constant), restored),
-            None => (None, plain),
+        let plain = Explained::plain(record, prior);
+        let high_pass = plain
+            .telling_part()
+            .and_then(|part| high_pass(&part, prior));
+        let explained = match high_pass {
+            None => plain,
+            Some((time_constant, offset)) => {
+                Explained::restored(record, prior, time_constant, offset)
+            }
         };
-        best.finish(high_pass, prior)
+        explained.finish(high_pass.map(|it| it.0), prior)
     }
+}
 
-    /// The best explanation behind a high-pass filter, where it is clearly better than the plain one.
-    fn restored(record: &Cut, prior: &Prior, plain: &Explained) -> Option<(f64, Explained)> {
-        let prior = Prior {
-            gain_error: RESTORED_ERROR,
-            ..*prior
-        };
-        let offsets = restore::offsets(record);
-        let best_of = |time_constants: &[f64]| {
-            let pairs = offsets.iter().filter(|offset| offset.abs() < NO_LEVEL);
-            let pairs =
-                pairs.flat_map(|offset| time_constants.iter().map(move |it| (*it, *offset)));
-            let explained = pairs.map(|(time_constant, offset)| {
-                let restored = restore::restored(record, time_constant, offset);
-                (time_constant, Explained::of(restored, &prior, 0.0))
-            });
-            let better = explained.filter(|(_, it)| {
-                it.cost() + HIGH_PASS < plain.cost()
-                    && it.lattice.cost() + SIMPLER < plain.lattice.cost()
-                    && it.has_whole_trip(&prior)
-            });
-            better.min_by(|a, b| a.1.cost().total_cmp(&b.1.cost()))
-        };
-        let rough = best_of(&restore::TIME_CONSTANTS)?;
-        let finer = best_of(&restore::NEARBY.map(|factor| factor * rough.0));
-        Some(
-            finer
-                .filter(|finer| finer.1.cost() < rough.1.cost())
-                .unwrap_or(rough),
-        )
-    }
+/// The time constant, s, and the offset, m/s², of the high-pass filter that explains a record clearly better than none.
+fn high_pass(record: &Cut, prior: &Prior) -> Option<(f64, f64)> {
+    let plain = Explained::plain(record, prior);
+    let offsets = restore::offsets(record);
+    let best_of = |time_constants: &[f64]| {
+        let pairs = offsets.iter().filter(|offset| offset.abs() < NO_LEVEL);
+        let pairs = pairs.flat_map(|offset| time_constants.iter().map(move |it| (*it, *offset)));
+        let costs = pairs.filter_map(|(time_constant, offset)| {
+            let restored = Explained::restored(record, prior, time_constant, offset);
+            let is_better = restored.cost() + HIGH_PASS < plain.cost()
+                && restored.lattice.cost() + SIMPLER < plain.lattice.cost()
+                && restored.has_whole_trip(prior);
+            is_better.then(|| (restored.cost(), (time_constant, offset)))
+        });
+        costs.min_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let rough = best_of(&restore::TIME_CONSTANTS)?;
+    let finer = best_of(&restore::NEARBY.map(|factor| factor * rough.1.0));
+    let finer = finer.filter(|finer| finer.0 < rough.0);
+    Some(finer.unwrap_or(rough).1)
 }
 
 /// A record explained under one assumption about its filter.
@@ -138,6 +134,50 @@ struct Explained {
 }
 
 impl Explained {
+    /// As it is. Where the record is hardly ever at its level, the level may be its mean.
+    fn plain(record: &Cut, prior: &Prior) -> Self {
+        let plain = Self::of(record.clone(), prior, 0.0);
+        let windows = record.blocks.len() as f64 / record.blocks_in(0.5) as f64;
+        if plain.levelled.level.cost < OFTEN * windows {
+            return plain;
+        }
+        let pulled = Self::of(record.clone(), prior, 1.0);
+        if pulled.cost() < plain.cost() {
+            pulled
+        } else {
+            plain
+        }
+    }
+
+    /// With a high-pass filter undone.
+    fn restored(record: &Cut, prior: &Prior, time_constant: f64, offset: f64) -> Self {
+        let prior = Prior {
+            gain_error: RESTORED_ERROR,
+            ..*prior
+        };
+        Self::of(
+            restore::restored(record, time_constant, offset),
+            &prior,
+            0.0,
+        )
+    }
+
+    /// The first minutes in which pulses show, long enough to tell whether there is a filter.
+    fn telling_part(&self) -> Option<Cut> {
+        let cut = &self.levelled.cut;
+        let first = self.pulses.first()?.blocks.start;
+        let from = first.saturating_sub(cut.blocks_in(BEFORE));
+        let to = cut.blocks.len().min(first + cut.blocks_in(TELLING));
+        let ends = cut.ends.iter().map(|end| (*end).clamp(from, to) - from);
+        let mut ends: Vec<usize> = ends.filter(|end| *end > 0).collect();
+        ends.dedup();
+        Some(Cut {
+            blocks: cut.blocks[from..to].to_vec(),
+            ends,
+            ..*cut
+        })
+    }
+
     fn of(cut: Cut, prior: &Prior, pull: f64) -> Self {
         let level = Level::of(&cut, pull);
         let levelled = Levelled { cut, level };
@@ -200,7 +240,7 @@ impl Explained {
     fn finish(self, high_pass: Option<f64>, prior: &Prior) -> Explanation {
         let reading = self.reading(prior);
         Explanation {
-            doubts: doubts(&self.record(prior), &self.lattice, &reading),
+            doubts: doubts(&self.record(prior), &self.lattice),
             slow: self.slow(prior),
             high_pass,
             reading,
@@ -211,39 +251,34 @@ impl Explained {
 }
 
 /// The nearly as cheap explanations that have other trips.
-fn doubts(record: &Record, lattice: &Lattice, best: &Reading) -> Vec<Doubt> {
+fn doubts(record: &Record, lattice: &Lattice) -> Vec<Doubt> {
     let mut doubts: Vec<Doubt> = Vec::new();
     for (gap, (rest, motion)) in lattice.margins().into_iter().enumerate() {
         let margin = rest.max(motion);
         if margin > DECIDED {
             continue;
         }
-        let parts = if rest > motion {
-            lattice.best_at_rest(gap)
-        } else {
-            lattice.best_in_motion(gap)
+        let (best, other) = lattice.detour(gap, motion > rest);
+        let [trips, instead] = [best, other].map(|parts| Reading::of(record, &parts).trips);
+        let only = |these: &[Trip], those: &[Trip]| {
+            let only = these.iter().filter(|trip| !those.contains(trip));
+            only.cloned().collect::<Vec<_>>()
         };
-        let other = Reading::of(record, &parts);
-        let differ = |these: &Reading, those: &Reading| {
-            let missing = these
-                .trips
-                .iter()
-                .filter(|trip| !those.trips.contains(trip));
-            missing.cloned().collect::<Vec<_>>()
-        };
-        let (trips, instead) = (differ(best, &other), differ(&other, best));
-        if trips.is_empty() && instead.is_empty() {
-            continue;
-        }
         let doubt = Doubt {
-            trips,
-            instead,
+            trips: only(&trips, &instead),
+            instead: only(&instead, &trips),
             margin,
         };
-        let is_known = |known: &Doubt| known.trips == doubt.trips && known.instead == doubt.instead;
-        if !doubts.iter().any(is_known) {
+        let is_empty = doubt.trips.is_empty() && doubt.instead.is_empty();
+        let mut latest = doubts.iter().rev().take(LATEST);
+        if !is_empty
+            && !latest.any(|known| known.trips == doubt.trips && known.instead == doubt.instead)
+        {
             doubts.push(doubt);
         }
     }
     doubts
 }
+
+/// The same doubt shows in neighbouring gaps: it is looked for among so many of the latest.
+const LATEST: usize = 64;

@@ -12,8 +12,11 @@ use std::ops::Range;
 /// The most partial motions kept at a pulse.
 const WIDTH: usize = 24;
 
-/// A motion costs at most this much more than no motion before it is given up.
+/// A motion costs at most this much more than the usual explanation before it is given up.
 const HOPELESS: f64 = 24.0;
+
+/// A usual trip has fewer pulses than this.
+const SHORT_TRIP: usize = 8;
 
 /// The share of its top speed to which a motion that crept gains speed again.
 const RESTARTED: f64 = 0.3;
@@ -61,6 +64,8 @@ pub struct Stretch<'a> {
     pulses: Vec<Turned>,
     /// For each pulse the disturbances that begin with it: the pulse after, and the cost.
     disturbances: Vec<Vec<(usize, f64)>>,
+    /// What the usual explanation of the first pulses costs.
+    usual: Vec<f64>,
     /// Its end, s.
     end: f64,
     /// Its beginning, s.
@@ -126,14 +131,17 @@ impl<'a> Stretch<'a> {
         is_reversed: bool,
     ) -> Self {
         let disturbances = (0..pulses.len()).map(|first| disturbances(prior, &pulses, first));
-        Self {
+        let mut stretch = Self {
             disturbances: disturbances.collect(),
+            usual: Vec::new(),
             prior,
             pulses,
             begin,
             end,
             is_reversed,
-        }
+        };
+        stretch.usual = stretch.usual();
+        stretch
     }
 
     /// The cost of a pulse that is not part of any motion.
@@ -146,20 +154,79 @@ impl<'a> Stretch<'a> {
         &self.disturbances[first]
     }
 
+    /// What an explanation of the first pulses costs that knows short trips only: a bound for what is worth following.
+    fn usual(&self) -> Vec<f64> {
+        let count = self.pulses.len();
+        let mut usual = vec![f64::INFINITY; count + 1];
+        usual[0] = 0.0;
+        for first in 0..count {
+            let so_far = usual[first];
+            let mut note = |end: usize, cost: f64| usual[end] = usual[end].min(so_far + cost);
+            note(first + 1, self.pulses[first].ignored);
+            for &(after, cost) in &self.disturbances[first] {
+                note(after, cost);
+            }
+            let far = (first + SHORT_TRIP).min(count);
+            self.follow(
+                first,
+                far,
+                |_, _| f64::INFINITY,
+                &mut |motion, last, is_open, _| {
+                    if !is_open {
+                        note(last + 1, motion.cost);
+                    }
+                },
+            );
+        }
+        usual
+    }
+
+    /// How much dearer than the usual explanation of its pulses a motion is.
+    pub fn excess(&self, pulses: Range<usize>, cost: f64) -> f64 {
+        let (start, end) = if self.is_reversed {
+            (
+                self.pulses.len() - pulses.end,
+                self.pulses.len() - pulses.start,
+            )
+        } else {
+            (pulses.start, pulses.end)
+        };
+        cost - (self.usual[end] - self.usual[start])
+    }
+
     /// The motions that begin with a pulse: those that end within the stretch, and those that go on.
     pub fn motions(&self, first: usize, take: &mut impl FnMut(Motion, bool)) {
+        let most = |first: usize, pulse: usize| self.usual[pulse] - self.usual[first] + HOPELESS;
+        self.follow(
+            first,
+            self.pulses.len(),
+            most,
+            &mut |motion, last, is_open, changes| {
+                let cost = motion.cost;
+                take(self.motion(motion, first..last + 1, cost, changes), is_open);
+            },
+        );
+    }
+
+    /// Follows the motions that begin with a pulse over those before `far`, while they cost less than `most` of the first
+    /// pulse and the next. Takes each at its last pulse, with its whole cost.
+    fn follow(
+        &self,
+        first: usize,
+        far: usize,
+        most: impl Fn(usize, usize) -> f64,
+        take: &mut impl FnMut(&Progress, usize, bool, &Changes),
+    ) {
         let Some(start) = self.start(first) else {
             return;
         };
         let mut changes: Changes = vec![(None, first)];
         let mut waiting = VecDeque::from([vec![start]]);
-        let mut idle = cost::TRIP;
-        for pulse in first + 1..self.pulses.len() {
-            idle += self.pulses[pulse - 1].ignored;
+        for pulse in first + 1..far {
             let mut here = waiting.pop_front().unwrap_or_default();
             here.sort_by(|a, b| a.cost.total_cmp(&b.cost));
             here.truncate(WIDTH);
-            here.retain(|motion| motion.cost < idle + HOPELESS);
+            here.retain(|motion| motion.cost < most(first, pulse));
             let is_over =
                 self.pulses[pulse].from - self.pulses[first].from > self.prior.longest_motion;
             if is_over || (here.is_empty() && waiting.iter().all(Vec::is_empty)) {
@@ -185,18 +252,30 @@ impl<'a> Stretch<'a> {
                 for after in [pulse + 1].into_iter().chain(disturbances) {
                     let changed = self.changed(&motion, pulse..after);
                     let changed = Progress { latest, ..changed };
-                    take(self.closed(&changed, first, after - 1, &changes), false);
+                    take(
+                        &self.closed(&changed, first, after - 1),
+                        after - 1,
+                        false,
+                        &changes,
+                    );
                     wait(after, self.going_on(changed, &motion, first));
                 }
             }
+        }
+        if far < self.pulses.len() {
+            return;
         }
         for motion in waiting.front().into_iter().flatten() {
             let slow = self
                 .prior
                 .implausible(motion.top, f64::INFINITY, f64::INFINITY);
-            let pulses = first..self.pulses.len();
             let cost = motion.cost + creeping(motion, self.end) + slow;
-            take(self.motion(motion, pulses, cost, &changes), true);
+            take(
+                &Progress { cost, ..*motion },
+                self.pulses.len() - 1,
+                true,
+                &changes,
+            );
         }
     }
 
@@ -287,13 +366,13 @@ impl<'a> Stretch<'a> {
     }
 
     /// A motion that ends with a pulse.
-    fn closed(&self, motion: &Progress, first: usize, last: usize, changes: &Changes) -> Motion {
+    fn closed(&self, motion: &Progress, first: usize, last: usize) -> Progress {
         let seconds = self.pulses[last].to - self.pulses[first].from;
         let tolerance = self.prior.tolerance(motion.top, motion.variance);
         let cost = motion.cost
             + cost::closing(motion.speed, tolerance)
             + self.prior.implausible(motion.top, motion.distance, seconds);
-        self.motion(motion, first..last + 1, cost, changes)
+        Progress { cost, ..*motion }
     }
 
     /// As it is in the order of the record.
@@ -421,7 +500,7 @@ mod tests {
                 let cost = motion.cost + cost;
                 waiting.push((Progress { cost, ..motion }, after));
                 let changed = stretch.changed(&motion, next..after);
-                let closed = stretch.closed(&changed, first, after - 1, &vec![(None, first)]);
+                let closed = stretch.closed(&changed, first, after - 1);
                 note((after, false), closed.cost);
                 waiting.push((stretch.going_on(changed, &motion, first), after));
             }
@@ -449,8 +528,7 @@ mod tests {
                         *known = motion.cost.min(*known);
                     });
                     for (key, cost) in exhaustive(&stretch, first) {
-                        let idle: f64 = (first..key.0).map(|pulse| stretch.ignored(pulse)).sum();
-                        if cost < idle + 8.0 {
+                        if cost < stretch.usual[key.0] - stretch.usual[first] + 8.0 {
                             let found = found.get(&key).copied().unwrap_or(f64::INFINITY);
                             prop_assert!((found - cost).abs() < 1e-9, "{:?}: {} for {}", key, found, cost);
                         }
