@@ -55,13 +55,19 @@ pub struct Facts {
 }
 
 impl Facts {
-    /// Of samples at increasing times.
+    /// Of samples at increasing times, which come at a rate or else at that of the median interval.
     ///
     /// # Errors
     /// If there are too few samples or only equal ones.
-    pub(super) fn of(samples: &[Sample], has_gravity: bool) -> Result<Self, RecordingProblem> {
+    pub(super) fn of(
+        samples: &[Sample],
+        has_gravity: bool,
+        rate: Option<f64>,
+    ) -> Result<Self, RecordingProblem> {
         let [first, .., last] = samples else {
-            return Err(RecordingProblem::TooFew(samples.len() as u64));
+            let rule = "must have at least 2 readings of the acceleration at different times";
+            let remedy = "choose another column with --time or --acceleration";
+            return Err(RecordingProblem::must(rule, samples.len(), remedy));
         };
         let (mut low, mut high) = (Extreme::of(first), Extreme::of(first));
         let (mut repeats, mut longest) = (0, Gap::default());
@@ -80,7 +86,9 @@ impl Facts {
             high.add(sample.acceleration, sample.acceleration > high.value);
         }
         if low.value == high.value {
-            return Err(RecordingProblem::AllEqual(low.value));
+            let rule = "readings of the acceleration must differ";
+            let remedy = "choose another column with --acceleration";
+            return Err(RecordingProblem::must(rule, low.value, remedy));
         }
         let middle = (intervals.len() - 1) / 2;
         let median = *intervals.select_nth_unstable_by(middle, f64::total_cmp).1;
@@ -104,7 +112,7 @@ impl Facts {
             samples: samples.len() as u64,
             start: first.time,
             end: last.time,
-            rate: 1.0 / median,
+            rate: rate.unwrap_or(1.0 / median),
             jitter: moments(usual.map(|length| length / median)).1,
             gaps: intervals
                 .iter()
@@ -205,7 +213,7 @@ mod tests {
                 acceleration: 0.0,
             });
         }
-        Facts::of(&samples, false).unwrap()
+        Facts::of(&samples, false, None).unwrap()
     }
 
     #[test]

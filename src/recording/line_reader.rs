@@ -2,8 +2,8 @@
 //! the drum turns: 0 or 1.
 
 use super::cell::shorten;
-use super::error::RecordingProblem;
-use super::head::is_remark;
+use super::error::{Located, RecordingProblem};
+use super::head::Kept;
 use super::layout::Input;
 use super::lines::Lines;
 use super::parser::Parser;
@@ -36,7 +36,7 @@ pub struct LineReader<R> {
     has_drum: bool,
     parser: Option<Parser>,
     /// Rows that were read with the first.
-    ahead: VecDeque<(u64, Vec<u8>)>,
+    ahead: VecDeque<Kept>,
     number: u64,
 }
 
@@ -100,46 +100,41 @@ impl<R: BufRead> LineReader<R> {
     /// If a line is too long or is not a reading, or the reader fails.
     #[expect(clippy::should_implement_trait, reason = "an error does not end it")]
     pub fn next(&mut self) -> Result<Option<LineReading>, LineError> {
-        let read = self.advance();
-        read.map_err(|problem| LineError {
-            line: self.number,
-            problem,
+        self.advance().map_err(|(line, problem)| {
+            self.number = line.unwrap_or(self.number);
+            LineError {
+                line: self.number,
+                problem,
+            }
         })
     }
 
-    fn advance(&mut self) -> Result<Option<LineReading>, RecordingProblem> {
+    fn advance(&mut self) -> Result<Option<LineReading>, Located> {
         let (has_drum, options) = (self.has_drum, &self.options);
         if self.parser.is_none() {
-            let input = Input::Stream { has_drum };
-            match Parser::begin(&mut self.lines, "", options, input) {
-                Err((_, RecordingProblem::Empty)) => return Ok(None),
-                Err((line, problem)) => {
-                    self.number = line.unwrap_or(self.lines.number());
-                    return Err(problem);
+            match Parser::begin(&mut self.lines, "", options, Input::Stream { has_drum }) {
+                Err((_, RecordingProblem::Empty | RecordingProblem::HeaderOnly)) => {
+                    return Ok(None);
                 }
-                Ok((parser, rows)) => {
-                    self.ahead = rows
-                        .into_iter()
-                        .map(|row| (row.number, row.bytes))
-                        .collect();
-                    self.parser = Some(parser);
+                begun => {
+                    let (parser, rows) = begun?;
+                    (self.parser, self.ahead) = (Some(parser), rows.into());
                 }
             }
         }
         let parser = self.parser.as_mut().expect("it has begun");
-        if let Some((number, line)) = self.ahead.pop_front() {
-            self.number = number;
-            return reading(parser, &line, has_drum, options).map(Some);
-        }
-        loop {
-            self.number = self.lines.number() + 1;
-            match self.lines.next() {
-                Ok(Some(line)) if is_remark(line.bytes) => {}
-                Ok(Some(line)) => return reading(parser, line.bytes, has_drum, options).map(Some),
-                Ok(None) => return Ok(None),
-                Err(reason) => return Err(reason.into()),
-            }
-        }
+        let ahead = self.ahead.pop_front();
+        let line = match &ahead {
+            Some(ahead) => Some(ahead.line()),
+            None => self.lines.next()?,
+        };
+        let Some(line) = line else {
+            return Ok(None);
+        };
+        self.number = line.number;
+        let read = reading(parser, line.bytes, has_drum, options);
+        read.map(Some)
+            .map_err(|problem| (Some(line.number), problem))
     }
 }
 
@@ -168,6 +163,8 @@ fn reading(
     })
 }
 
+const DRUM: &str = "must end with a cell for the drum, 0 or 1";
+
 /// The line before its last cell, and whether that says that the drum turns.
 fn without_drum<'a>(
     parser: &mut Parser,
@@ -176,11 +173,14 @@ fn without_drum<'a>(
     let line = line.trim_ascii_end();
     let cells = parser.splitter.split(line);
     let cell = parser.splitter.cell(line, cells - 1);
-    let refused = || RecordingProblem::Drum(shorten(cell));
-    let turns = match std::str::from_utf8(cell)
+    let refused = || {
+        let got = format!("\"{}\"", shorten(cell));
+        RecordingProblem::must(DRUM, got, "leave out --expected-moving")
+    };
+    let number = std::str::from_utf8(cell)
         .ok()
-        .and_then(|cell| cell.parse::<f64>().ok())
-    {
+        .and_then(|cell| cell.parse().ok());
+    let turns = match number {
         Some(0.0) => false,
         Some(1.0) => true,
         _ => return Err(refused()),

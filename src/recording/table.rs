@@ -1,11 +1,10 @@
 //! The rows of a file as columns in memory, in one pass.
 
 use super::clock::Clock;
-use super::error::{RecordingError, RecordingProblem};
-use super::head::is_remark;
+use super::error::{Located, RecordingError, RecordingProblem};
 use super::layout::{Input, Layout};
-use super::lines::Lines;
-use super::parser::{Parser, Row};
+use super::lines::{Line, Lines};
+use super::parser::Parser;
 use super::reading::Reading;
 use super::source::Source;
 use super::unit::TimeUnit;
@@ -24,10 +23,8 @@ pub(super) struct Columns {
     pub skipped: Skipped,
     /// Rows seen, kept or not.
     rows: u64,
-    /// The last time seen, kept or not, s.
-    last: Option<f64>,
-    /// The first time seen, s.
-    first: f64,
+    /// The first and the last time seen, kept or not, s.
+    seen: Option<(f64, f64)>,
 }
 
 /// Rows that gave no sample.
@@ -52,11 +49,13 @@ impl Columns {
         if let Some(rate) = reading.rate
             && !(1e-3..=1e7).contains(&rate)
         {
-            return Err(source.error(None, RecordingProblem::RowRate(rate)));
+            let rule = "rate must lie in [0.001, 1e7] Hz";
+            return Err(source.error(None, RecordingProblem::must(rule, rate, "--rate HZ")));
         }
         let mut lines = Lines::new(source.text()?);
+        let blame = |(line, problem)| source.error(line, problem);
         let begun = Parser::begin(&mut lines, source.name(), reading, Input::File);
-        let (mut parser, kept) = begun.map_err(|(line, problem)| source.error(line, problem))?;
+        let (mut parser, kept) = begun.map_err(blame)?;
         let mut columns = Self {
             clock: Clock::default(),
             times: Vec::new(),
@@ -64,43 +63,25 @@ impl Columns {
             layout: parser.layout.clone(),
             skipped: Skipped::default(),
             rows: 0,
-            last: None,
-            first: 0.0,
+            seen: None,
         };
-        let is_part = reading.from.is_some() || reading.to.is_some();
-        if let (Some(row), false) = (kept.last(), is_part) {
-            let rows = source.size() as f64 / (row.bytes.len() + 1) as f64;
-            columns
-                .check_memory(rows)
-                .map_err(|problem| source.error(None, problem))?;
+        if reading.from.or(reading.to).is_none() {
+            let bytes = kept.last().map_or(1, |row| row.bytes.len() + 1);
+            let fits = columns.check_memory(source.size() as f64 / bytes as f64);
+            fits.map_err(|problem| source.error(None, problem))?;
         }
         let mut goes_on = true;
-        for line in &kept {
-            let taken = columns.take(
-                &mut parser,
-                &line.bytes,
-                line.is_ended,
-                line.number,
-                reading,
-            );
-            goes_on &= taken.map_err(|problem| source.error(Some(line.number), problem))?;
+        for kept in &kept {
+            goes_on &= columns
+                .take(&mut parser, kept.line(), reading)
+                .map_err(blame)?;
         }
-        while goes_on {
-            let number = lines.number() + 1;
-            let taken = match lines.next() {
-                Ok(Some(line)) if is_remark(line.bytes) => Ok(true),
-                Ok(Some(line)) => {
-                    columns.take(&mut parser, line.bytes, line.is_ended, number, reading)
-                }
-                Ok(None) => Ok(false),
-                Err(reason) => Err(reason.into()),
-            };
-            goes_on = taken.map_err(|problem| source.error(Some(number), problem))?;
+        while goes_on && let Some(line) = lines.next().map_err(blame)? {
+            goes_on = columns.take(&mut parser, line, reading).map_err(blame)?;
         }
         columns.clock = parser.clock;
-        columns
-            .check(reading)
-            .map_err(|problem| source.error(None, problem))?;
+        let checked = columns.check(reading);
+        checked.map_err(|problem| source.error(None, problem))?;
         Ok(columns)
     }
 
@@ -109,54 +90,47 @@ impl Columns {
     fn take(
         &mut self,
         parser: &mut Parser,
-        line: &[u8],
-        is_ended: bool,
-        number: u64,
+        line: Line,
         reading: &Reading,
-    ) -> Result<bool, RecordingProblem> {
-        let Some(row) = parser.read(line, is_ended)? else {
-            self.skipped.cut = Some(number);
+    ) -> Result<bool, Located> {
+        let located = |problem| (Some(line.number), problem);
+        let Some(row) = parser.read(line.bytes, line.is_ended).map_err(located)? else {
+            self.skipped.cut = Some(line.number);
             return Ok(false);
         };
-        let Row {
-            axes, is_missing, ..
-        } = row;
         let time = match reading.rate {
             Some(rate) => Some(self.rows as f64 / rate),
             None => row.time,
         };
         self.rows += 1;
-        if self.last.is_none() {
-            self.first = time.unwrap_or(0.0);
-        }
-        let is_empty = axes.iter().all(Option::is_none);
-        self.skipped.missing += u64::from(is_missing && is_empty);
-        self.skipped.blank += u64::from(!is_missing && (is_empty || time.is_none()));
+        let is_empty = row.axes.iter().all(Option::is_none);
+        self.skipped.missing += u64::from(row.is_missing && is_empty);
+        self.skipped.blank += u64::from(!row.is_missing && (is_empty || time.is_none()));
         let Some(time) = time else {
             return Ok(true);
         };
-        self.last = Some(time);
+        self.seen = Some((self.seen.map_or(time, |(first, _)| first), time));
         if reading.to.is_some_and(|to| time > to) {
             return Ok(false);
         }
         if is_empty || reading.from.is_some_and(|from| time < from) {
             return Ok(true);
         }
-        match self.times.last() {
-            Some(&from) if time < from => {
-                return Err(RecordingProblem::TimeBack { from, to: time });
+        if let Some(&from) = self.times.last() {
+            if time < from {
+                return Err(located(RecordingProblem::TimeBack { from, to: time }));
             }
-            Some(&from) if time == from => {
-                self.skipped.first_repeat.get_or_insert(number);
+            if time == from {
+                self.skipped.first_repeat.get_or_insert(line.number);
             }
-            _ => {}
         }
         self.times.push(time);
-        for (column, value) in self.axes.iter_mut().zip(axes) {
+        for (column, value) in self.axes.iter_mut().zip(row.axes) {
             column.push(value.unwrap_or(f64::NAN));
         }
         if self.times.len().is_power_of_two() {
-            self.check_memory(self.times.len() as f64)?;
+            self.check_memory(self.times.len() as f64)
+                .map_err(located)?;
         }
         Ok(true)
     }
@@ -190,21 +164,17 @@ impl Columns {
 
     fn check(&self, reading: &Reading) -> Result<(), RecordingProblem> {
         let got = self.times.len() as u64;
-        if self.rows == 0 && self.skipped.cut.is_none() {
-            return Err(RecordingProblem::HeaderOnly);
-        }
-        if got < 2
-            && let (Some(last), true) = (self.last, reading.from.or(reading.to).is_some())
-        {
-            return Err(RecordingProblem::NothingLeft {
-                from: reading.from.unwrap_or(self.first),
+        let is_part = reading.from.or(reading.to).is_some();
+        match self.seen {
+            Some((first, last)) if got < 2 && is_part => Err(RecordingProblem::NothingLeft {
+                from: reading.from.unwrap_or(first),
                 to: reading.to.unwrap_or(last),
                 got,
-                first: self.first,
+                first,
                 last,
-            });
+            }),
+            _ => Ok(()),
         }
-        Ok(())
     }
 }
 
