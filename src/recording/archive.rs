@@ -67,7 +67,7 @@ pub(super) fn table(
         let table = source.with_member(candidate)?;
         let mut lines = Lines::new(table.text()?);
         let begun = Parser::begin(&mut lines, table.name(), reading, Input::File);
-        if let Ok((parser, _)) = begun {
+        if let Ok(parser) = begun {
             tables.push((parser.layout.includes_gravity(table.name()), table));
         }
     }

@@ -2,7 +2,7 @@
 
 use super::cell::{Cell, DecimalMark};
 use super::error::{Located, RecordingProblem};
-use super::lines::{Line, Lines};
+use super::lines::{Kept, Lines};
 use super::names::{Column, Role};
 use super::splitter::{Delimiter, Splitter};
 use super::stamp;
@@ -13,24 +13,6 @@ const MOST_LINES: usize = 200;
 const MOST_BYTES: usize = 1 << 21;
 
 const NO_ROWS: &str = "no row of numbers in the first 200 lines (export a table of numbers)";
-
-/// A line that was read ahead.
-#[derive(Clone, Debug)]
-pub(super) struct Kept {
-    pub number: u64,
-    pub bytes: Vec<u8>,
-    pub is_ended: bool,
-}
-
-impl Kept {
-    pub fn line(&self) -> Line<'_> {
-        Line {
-            number: self.number,
-            bytes: &self.bytes,
-            is_ended: self.is_ended,
-        }
-    }
-}
 
 /// The lines up to the first row, which is the last of them.
 #[derive(Debug)]
@@ -67,11 +49,7 @@ impl Head {
                 return Err((Some(line.number), problem));
             }
             let above = head.len();
-            head.push(Kept {
-                number: line.number,
-                bytes: line.bytes.to_vec(),
-                is_ended: line.is_ended,
-            });
+            head.push(line.keep());
             let (above, row) = head.split_at(above);
             let splitters = Delimiter::ALL.map(|delimiter| Splitter::new(delimiter, &row[0].bytes));
             let mut splitters = splitters.into_iter();

@@ -115,6 +115,10 @@ impl<'de> Visitor<'de> for &mut Tables {
             if self.0.len() < MOST_COLUMNS || self.0.contains_key(sensor) {
                 let table = self.0.entry(sensor.to_owned()).or_default();
                 table.row(number, &object).map_err(A::Error::custom)?;
+                let size: usize = self.0.values().map(|table| table.rows.size()).sum();
+                if size > LARGEST {
+                    return Err(A::Error::custom(too_large()));
+                }
             }
         }
         Ok(())

@@ -3,13 +3,11 @@
 
 use super::cell::shorten;
 use super::error::{Located, RecordingProblem};
-use super::head::Kept;
 use super::layout::Input;
 use super::lines::Lines;
 use super::parser::Parser;
 use super::reading::Reading;
 use super::unit::Unit;
-use std::collections::VecDeque;
 use std::io::BufRead;
 
 /// Reads each line as soon as it is complete, in constant memory.
@@ -35,8 +33,6 @@ pub struct LineReader<R> {
     /// Whether the last cell is the drum.
     has_drum: bool,
     parser: Option<Parser>,
-    /// Rows that were read with the first.
-    ahead: VecDeque<Kept>,
     number: u64,
 }
 
@@ -76,7 +72,6 @@ impl<R: BufRead> LineReader<R> {
             options: options.clone(),
             has_drum: false,
             parser: None,
-            ahead: VecDeque::new(),
             number: 0,
         }
     }
@@ -116,19 +111,11 @@ impl<R: BufRead> LineReader<R> {
                 Err((_, RecordingProblem::Empty | RecordingProblem::HeaderOnly)) => {
                     return Ok(None);
                 }
-                begun => {
-                    let (parser, rows) = begun?;
-                    (self.parser, self.ahead) = (Some(parser), rows.into());
-                }
+                begun => self.parser = Some(begun?),
             }
         }
         let parser = self.parser.as_mut().expect("it has begun");
-        let ahead = self.ahead.pop_front();
-        let line = match &ahead {
-            Some(ahead) => Some(ahead.line()),
-            None => self.lines.next()?,
-        };
-        let Some(line) = line else {
+        let Some(line) = self.lines.next()? else {
             return Ok(None);
         };
         self.number = line.number;

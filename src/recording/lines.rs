@@ -4,6 +4,7 @@
 //! before it fills the memory.
 
 use super::error::{Located, RecordingProblem};
+use std::collections::VecDeque;
 use std::io::{self, BufRead};
 
 /// The longest line, bytes. A table of sensor readings needs some hundred.
@@ -17,6 +18,8 @@ pub(super) struct Lines<R> {
     reader: R,
     buffer: Vec<u8>,
     number: u64,
+    /// Lines that were given back.
+    ahead: VecDeque<Kept>,
     /// Whether the rest of a refused line must be skipped.
     is_inside: bool,
 }
@@ -31,19 +34,51 @@ pub(super) struct Line<'a> {
     pub is_ended: bool,
 }
 
+/// A line that was read ahead.
+#[derive(Clone, Debug)]
+pub(super) struct Kept {
+    pub number: u64,
+    pub bytes: Vec<u8>,
+    is_ended: bool,
+}
+
+impl Line<'_> {
+    pub fn keep(&self) -> Kept {
+        Kept {
+            number: self.number,
+            bytes: self.bytes.to_vec(),
+            is_ended: self.is_ended,
+        }
+    }
+}
+
 impl<R: BufRead> Lines<R> {
     pub fn new(reader: R) -> Self {
         Self {
             reader,
             buffer: Vec::new(),
             number: 0,
+            ahead: VecDeque::new(),
             is_inside: false,
         }
+    }
+
+    /// Gives lines back, which are read once more.
+    pub fn give_back(&mut self, lines: Vec<Kept>) {
+        self.ahead = lines.into();
     }
 
     /// The next line that says something, as soon as its end has been read; `None` after the last. The next call
     /// skips the rest of a refused line.
     pub fn next(&mut self) -> Result<Option<Line<'_>>, Located> {
+        if let Some(kept) = self.ahead.pop_front() {
+            self.buffer = kept.bytes;
+            return Ok(Some(Line {
+                number: kept.number,
+                bytes: &self.buffer,
+                is_ended: kept.is_ended,
+            }));
+        }
         loop {
             let read = self.advance();
             let number = self.number;

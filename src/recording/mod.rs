@@ -139,7 +139,7 @@ impl Recording {
         reading: &Reading,
     ) -> Result<Self, RecordingProblem> {
         let mut windows = Windows::of(&columns);
-        let assumed = assumed::unit(&columns.layout, &windows)?;
+        let assumed = assumed::unit(&columns.parser.layout, &windows)?;
         let unit = assumed.unit;
         windows.convert(unit, columns.axes.len());
         let is_reversed = assumed.is_reversed;
@@ -162,7 +162,7 @@ impl Recording {
         let whole_rows = samples.len() as u64;
         let repeats = spread::spread(&mut samples);
         let facts = Facts {
-            clock_offset: columns.clock.offset(),
+            clock_offset: columns.parser.clock.offset(),
             ..Facts::of(&samples, windows.has_gravity(), reading.rate)?
         };
         columns.check_clock(facts.rate)?;
@@ -174,7 +174,7 @@ impl Recording {
             check_resample(rate, &facts)?;
             samples = resample::resample(&samples, rate, facts.gap());
         }
-        let layout = &columns.layout;
+        let layout = &columns.parser.layout;
         let names = layout.acceleration_names().into_iter().zip(0..);
         let read = names.filter(|(_, place)| vertical.column.is_none_or(|column| column == *place));
         Ok(Self {
@@ -185,7 +185,10 @@ impl Recording {
             format: layout.format,
             member,
             time: match layout.time {
-                Some(time) => (layout.columns[time].name.clone(), columns.clock.unit()),
+                Some(time) => (
+                    layout.columns[time].name.clone(),
+                    columns.parser.clock.unit(),
+                ),
                 None => ("--rate".to_owned(), TimeUnit::Seconds),
             },
             accelerations: read.map(|(name, _)| name.to_owned()).collect(),

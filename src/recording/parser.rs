@@ -3,7 +3,7 @@
 use super::cell::{Cell, DecimalMark, shorten};
 use super::clock::Clock;
 use super::error::{Located, RecordingProblem};
-use super::head::{Head, Kept};
+use super::head::Head;
 use super::layout::{Input, Layout};
 use super::lines::Lines;
 use super::reading::Reading;
@@ -50,7 +50,7 @@ pub(super) struct Row {
 }
 
 impl Parser {
-    /// Reads up to the first row, and returns the rows that were read with it.
+    /// Reads up to the first row, which is read next.
     ///
     /// # Errors
     /// If there is no table, or a column cannot be found, with the line to blame.
@@ -59,10 +59,11 @@ impl Parser {
         owner: &str,
         reading: &Reading,
         input: Input,
-    ) -> Result<(Self, Vec<Kept>), Located> {
+    ) -> Result<Self, Located> {
         let mut head = Head::read(lines, owner)?;
         let (layout, first) = Layout::of(&mut head, owner, reading, input)?;
-        let parser = Self {
+        lines.give_back(head.lines.split_off(first));
+        Ok(Self {
             clock: match input {
                 Input::File => Clock::of_file(layout.time_unit),
                 Input::Stream { .. } => Clock::of_stream(layout.time_unit),
@@ -71,8 +72,7 @@ impl Parser {
             splitter: head.splitter,
             marks: Default::default(),
             had_exponent: false,
-        };
-        Ok((parser, head.lines.split_off(first)))
+        })
     }
 
     /// Reads a row; `None` where the file was cut off within it, which only a line without an end can be.

@@ -1,8 +1,7 @@
 //! The rows of a file as columns in memory, in one pass.
 
-use super::clock::Clock;
 use super::error::{Located, RecordingError, RecordingProblem};
-use super::layout::{Input, Layout};
+use super::layout::Input;
 use super::lines::{Line, Lines};
 use super::parser::Parser;
 use super::reading::Reading;
@@ -15,8 +14,7 @@ const MOST_MEMORY: f64 = 2e9;
 /// What was read of a file: times in s, accelerations in the unit of the file.
 #[derive(Debug)]
 pub(super) struct Columns {
-    pub layout: Layout,
-    pub clock: Clock,
+    pub parser: Parser,
     pub times: Vec<f64>,
     /// In the order of the layout; NaN where nothing was read.
     pub axes: Vec<Vec<f64>>,
@@ -55,31 +53,26 @@ impl Columns {
         let mut lines = Lines::new(source.text()?);
         let blame = |(line, problem)| source.error(line, problem);
         let begun = Parser::begin(&mut lines, source.name(), reading, Input::File);
-        let (mut parser, kept) = begun.map_err(blame)?;
+        let parser = begun.map_err(blame)?;
         let mut columns = Self {
-            clock: Clock::default(),
             times: Vec::new(),
             axes: vec![Vec::new(); parser.layout.axes.len()],
-            layout: parser.layout.clone(),
+            parser,
             skipped: Skipped::default(),
             rows: 0,
             seen: None,
         };
-        if reading.from.or(reading.to).is_none() {
-            let bytes = kept.last().map_or(1, |row| row.bytes.len() + 1);
-            let fits = columns.check_memory(source.size() as f64 / bytes as f64);
-            fits.map_err(|problem| source.error(None, problem))?;
+        let is_part = reading.from.or(reading.to).is_some();
+        while let Some(line) = lines.next().map_err(blame)? {
+            if columns.rows == 0 && !is_part {
+                let rows = source.size() as f64 / (line.bytes.len() + 1) as f64;
+                let fits = columns.check_memory(rows);
+                fits.map_err(|problem| source.error(None, problem))?;
+            }
+            if !columns.take(line, reading).map_err(blame)? {
+                break;
+            }
         }
-        let mut goes_on = true;
-        for kept in &kept {
-            goes_on &= columns
-                .take(&mut parser, kept.line(), reading)
-                .map_err(blame)?;
-        }
-        while goes_on && let Some(line) = lines.next().map_err(blame)? {
-            goes_on = columns.take(&mut parser, line, reading).map_err(blame)?;
-        }
-        columns.clock = parser.clock;
         let checked = columns.check(reading);
         checked.map_err(|problem| source.error(None, problem))?;
         Ok(columns)
@@ -87,14 +80,13 @@ impl Columns {
 
     /// Takes a line; returns whether there may be more to take.
     #[inline]
-    fn take(
-        &mut self,
-        parser: &mut Parser,
-        line: Line,
-        reading: &Reading,
-    ) -> Result<bool, Located> {
+    fn take(&mut self, line: Line, reading: &Reading) -> Result<bool, Located> {
         let located = |problem| (Some(line.number), problem);
-        let Some(row) = parser.read(line.bytes, line.is_ended).map_err(located)? else {
+        let Some(row) = self
+            .parser
+            .read(line.bytes, line.is_ended)
+            .map_err(located)?
+        else {
             self.skipped.cut = Some(line.number);
             return Ok(false);
         };
@@ -143,22 +135,25 @@ impl Columns {
     /// Checks the rate of the clock. If no unit is stated, seconds are assumed, and a rate that no such sensor has
     /// is refused. A stated unit is refused only for impossible rates.
     pub fn check_clock(&self, rate: f64) -> Result<(), RecordingProblem> {
-        let Some(time) = self.layout.time else {
+        let Some(time) = self.parser.layout.time else {
             return Ok(());
         };
-        let is_stated = self.clock.is_unit_stated();
+        let is_stated = self.parser.clock.is_unit_stated();
         let believed = if is_stated { 1e-3..=1e7 } else { 2.0..=5e4 };
         if believed.contains(&rate) {
             return Ok(());
         }
-        let unit = self.clock.unit();
+        let unit = self.parser.clock.unit();
         let a_tick = rate / unit.per_second();
         let is_usual = |unit: &TimeUnit| (2.0..=5e4).contains(&(a_tick * unit.per_second()));
         Err(RecordingProblem::Rate {
-            column: self.layout.columns[time].name.clone(),
+            column: self.parser.layout.columns[time].name.clone(),
             unit,
             rate,
-            likely: TimeUnit::ALL.into_iter().find(is_usual),
+            likely: TimeUnit::NAMES
+                .map(|(unit, _)| unit)
+                .into_iter()
+                .find(is_usual),
         })
     }
 

@@ -81,6 +81,11 @@ impl TextTable {
         (self.row + 1, self.column)
     }
 
+    /// Bytes.
+    pub fn size(&self) -> usize {
+        self.text.len()
+    }
+
     pub fn into_text(self) -> Vec<u8> {
         self.text
     }

@@ -19,7 +19,7 @@ pub enum TimeUnit {
 
 impl TimeUnit {
     /// From the coarsest to the finest, with their names, the shown one first.
-    const NAMES: [(Self, &[&str]); 4] = [
+    pub(super) const NAMES: [(Self, &[&str]); 4] = [
         (Self::Seconds, &["s", "sec", "secs", "second", "seconds"]),
         (
             Self::Milliseconds,
@@ -30,13 +30,6 @@ impl TimeUnit {
             &["us", "\u{b5}s", "\u{3bc}s", "micros", "microseconds"],
         ),
         (Self::Nanoseconds, &["ns", "nanos", "nanoseconds"]),
-    ];
-
-    pub(super) const ALL: [Self; 4] = [
-        Self::Seconds,
-        Self::Milliseconds,
-        Self::Microseconds,
-        Self::Nanoseconds,
     ];
 
     /// The number of units in a second. Dividing by it turns 20 ms into the double nearest to 0.02 s, which

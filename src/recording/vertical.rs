@@ -124,7 +124,7 @@ pub(super) fn find(
     axis: Axis,
     is_reversed: bool,
 ) -> Result<Vertical, RecordingProblem> {
-    let (axes, is_given) = (&columns.layout.axes, columns.layout.is_given);
+    let (axes, is_given) = (&columns.parser.layout.axes, columns.parser.layout.is_given);
     let (is_one, has_gravity) = (axes.len() == 1, windows.has_gravity());
     let can_project = axes.len() == 3 && windows.together >= 0.9;
     if axis == Axis::Gravity && !is_one && !(has_gravity && can_project) {

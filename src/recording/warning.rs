@@ -108,7 +108,7 @@ pub(super) const BEYOND_GRAVITY: f64 = 20.0;
 
 /// The warnings about a table and its rows, of which `samples` were not blank.
 pub(super) fn of_rows(columns: &Columns, repeats: Repeats, samples: u64) -> Vec<Warning> {
-    let (layout, skipped) = (&columns.layout, &columns.skipped);
+    let (layout, skipped) = (&columns.parser.layout, &columns.skipped);
     let mut warnings = Vec::new();
     if layout.is_guessed {
         warnings.push(Warning::NoNames(if layout.time.is_some() {
@@ -130,8 +130,8 @@ pub(super) fn of_rows(columns: &Columns, repeats: Repeats, samples: u64) -> Vec<
         (Repeats::Spread(rows), _) => warnings.push(Warning::Spread { rows }),
         _ => {}
     }
-    if columns.clock.wraps > 0 {
-        warnings.push(Warning::Wrapped(columns.clock.wraps));
+    if columns.parser.clock.wraps > 0 {
+        warnings.push(Warning::Wrapped(columns.parser.clock.wraps));
     }
     if skipped.blank > 0 {
         let count = skipped.blank;
