@@ -2,11 +2,12 @@
 
 use super::cell::shorten;
 use super::error::{Located, Names, RecordingError, RecordingProblem};
-use super::lines::Lines;
+use super::lines::{LONGEST_LINE, Lines};
 use super::reading::Reading;
 use super::source::Source;
-use super::text_table::{LARGEST, MOST_COLUMNS, TextTable, too_large};
+use super::text_table::{LARGEST, MOST_COLUMNS, MOST_LETTERS, TextTable, too_large};
 use serde::de::{DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
+use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -109,8 +110,9 @@ impl<'de> Visitor<'de> for &mut Tables {
     }
     fn visit_seq<A: SeqAccess<'de>>(self, mut array: A) -> Result<(), A::Error> {
         let mut number = 0;
-        while let Some(object) = array.next_element::<Map<String, Value>>()? {
+        while let Some(text) = array.next_element::<Box<RawValue>>()? {
             number += 1;
+            let object = object(text.get().as_bytes()).map_err(A::Error::custom)?;
             let sensor = object.get("sensor").and_then(Value::as_str).unwrap_or("");
             if self.0.len() < MOST_COLUMNS || self.0.contains_key(sensor) {
                 let table = self.0.entry(sensor.to_owned()).or_default();
@@ -125,12 +127,22 @@ impl<'de> Visitor<'de> for &mut Tables {
     }
 }
 
+/// An object, of a size that bounds the memory it takes.
+fn object(text: &[u8]) -> Result<Map<String, Value>, String> {
+    if text.len() > LONGEST_LINE {
+        return Err(format!(
+            "a reading must be at most {LONGEST_LINE} bytes long"
+        ));
+    }
+    serde_json::from_slice(text).map_err(|error| error.to_string())
+}
+
 fn of_lines(text: impl BufRead) -> Result<Vec<u8>, Located> {
     let mut lines = Lines::new(text);
     let mut table = Table::default();
     while let Some(line) = lines.next()? {
         let refused = |error: String| (Some(line.number), damaged(error));
-        match serde_json::from_slice(line.bytes) {
+        match object(line.bytes) {
             Ok(object) => table.row(line.number as usize, &object).map_err(refused)?,
             Err(_) if !line.is_ended && line.number > 1 => {
                 table.rows.cut_off(line.number as usize).map_err(refused)?;
@@ -180,8 +192,8 @@ impl Table {
 /// Numbers and texts with the keys on the way to them, joined by points.
 fn flatten(path: &str, object: &Map<String, Value>, cells: &mut Vec<(String, String)>) {
     for (key, value) in object {
-        let key = key.replace(|c: char| c.is_control() || c == '"', " ");
-        let path = format!("{path}{key}");
+        let path: String = format!("{path}{key}").chars().take(MOST_LETTERS).collect();
+        let path = path.replace(|c: char| c.is_control() || c == '"', " ");
         let cell = match value {
             Value::Object(inner) => {
                 flatten(&format!("{path}."), inner, cells);

@@ -5,7 +5,7 @@ pub(super) const LARGEST: usize = 1 << 30;
 
 /// The most columns, and letters in a cell.
 pub(super) const MOST_COLUMNS: usize = 64;
-const MOST_LETTERS: usize = 200;
+pub(super) const MOST_LETTERS: usize = 200;
 
 /// Lines of cells separated by tabs.
 #[derive(Debug, Default)]

@@ -371,6 +371,14 @@ fn json() {
             .contains("ride.csv:2: column \"t\": must be a number")
     );
     assert!(refused_at("[1, 2]").contains("JSON: invalid type"));
+    let bomb = format!(
+        "[{{\"{}\":{{{}\"b\":1}}}}]",
+        "k".repeat(500_000),
+        "\"a\":1,".repeat(70_000)
+    );
+    assert!(refused_at(&bomb).contains("no column looks like"));
+    let array = format!("[{{\"a\":[{}0]}}]", "0,".repeat(600_000));
+    assert!(refused_at(&array).contains("a reading must be at most 1048576 bytes long"));
     assert!(refused_at("[{\"sensor\":\"Gyroscope\"}]").contains("no sensor is an accelerometer"));
 }
 
