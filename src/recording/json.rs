@@ -46,8 +46,8 @@ pub(super) fn table(source: Source, reading: &Reading) -> Result<Source, Recordi
             Ok(source.converted(table, None, 1))
         }
         (_, Some(member)) if source.part().is_none() => {
-            let got = format!("--member \"{}\"", shorten(member.as_bytes()));
-            let problem = RecordingProblem::must("has no members", got, "leave it out");
+            let got = format!("\"{}\"", shorten(member.as_bytes()));
+            let problem = RecordingProblem::must("has no members", got, "leave out --member");
             Err(source.error(None, problem))
         }
         _ => Ok(source),

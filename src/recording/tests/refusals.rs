@@ -182,7 +182,7 @@ fn options_that_cannot_be() {
         ..Reading::default()
     };
     assert!(
-        refused_as(text, &member).contains("has no members, got --member \"a.csv\" (leave it out)")
+        refused_as(text, &member).contains("has no members, got \"a.csv\" (leave out --member)")
     );
 }
 
