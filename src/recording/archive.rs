@@ -10,8 +10,11 @@ use super::lines::Lines;
 use super::parser::Parser;
 use super::reading::Reading;
 use super::source::{Member, Packing, Source};
-use std::io::Read;
+use std::io::{self, Read};
+use zip::result::ZipError;
 use zip::{CompressionMethod, ZipArchive};
+
+const NOT_A_ZIP: &str = "ends in .zip, but is not a zip archive (download it again)";
 
 /// The members of an archive, or none if the source is no archive.
 ///
@@ -22,14 +25,14 @@ pub(super) fn members(source: &Source) -> Result<Option<Vec<Member>>, RecordingE
         return directory(source).map(Some);
     }
     if source.name().to_lowercase().ends_with(".zip") {
-        return Err(source.error(None, RecordingProblem::NotAZip));
+        return Err(source.error(None, RecordingProblem::Simple(NOT_A_ZIP)));
     }
     Ok(None)
 }
 
 fn is_archive(source: &Source) -> Result<bool, RecordingError> {
     let mut start = Vec::new();
-    let unreadable = |error| source.error(None, RecordingProblem::Unreadable(error));
+    let unreadable = |error| source.error(None, io::Error::into(error));
     let mut bytes = source.bytes()?.take(4);
     bytes.read_to_end(&mut start).map_err(unreadable)?;
     // A file header, or the end of an archive without files.
@@ -45,12 +48,11 @@ pub(super) fn table(
     members: &[Member],
     reading: &Reading,
 ) -> Result<Source, RecordingError> {
-    let open = |member: &Member| source.with_member(member.clone());
-    let names: Vec<String> = members.iter().map(|member| member.name.clone()).collect();
+    let names = || members.iter().map(|member| &*member.name);
     if let Some(wanted) = &reading.member {
         let found = members.iter().find(|member| member.name == *wanted);
-        let unknown = || source.error(None, RecordingProblem::unknown_member(wanted, names));
-        return open(found.ok_or_else(unknown)?);
+        let unknown = || source.error(None, RecordingProblem::unknown("member", wanted, names()));
+        return source.with_member(found.ok_or_else(unknown)?);
     }
     let candidates: Vec<&Member> = members
         .iter()
@@ -58,14 +60,14 @@ pub(super) fn table(
         .collect();
     if let [only] = candidates[..] {
         // An error of the only table is more helpful than "no table".
-        return open(only);
+        return source.with_member(only);
     }
     let mut tables = Vec::new();
     for candidate in candidates {
-        let table = open(candidate)?;
+        let table = source.with_member(candidate)?;
         let mut lines = Lines::new(table.text()?);
         let begun = Parser::begin(&mut lines, table.name(), reading, Input::File);
-        if let Ok((parser, _)) = begun {
+        if let Ok(parser) = begun {
             tables.push((parser.layout.includes_gravity(table.name()), table));
         }
     }
@@ -73,15 +75,21 @@ pub(super) fn table(
     if with_gravity == 1 {
         tables.retain(|(gravity, _)| *gravity);
     }
-    let problem = match &mut tables[..] {
-        [_] => return Ok(tables.remove(0).1),
-        [] => RecordingProblem::NoTable(Names(names)),
-        several => RecordingProblem::SeveralTables(Names(
-            several
-                .iter()
-                .filter_map(|(_, table)| table.member().map(str::to_owned))
-                .collect(),
-        )),
+    if let [_] = tables[..] {
+        return Ok(tables.remove(0).1);
+    }
+    let found = tables.iter().filter_map(|(_, table)| table.part());
+    let (what, names, remedy) = if tables.is_empty() {
+        let what = "zip archive: no member is a table of accelerations, it holds";
+        (what, Names::of(names()), "export as CSV")
+    } else {
+        let what = "zip archive: several members are tables of accelerations:";
+        (what, Names::of(found), "--member NAME")
+    };
+    let problem = RecordingProblem::Among {
+        what,
+        names,
+        remedy,
     };
     Err(source.error(None, problem))
 }
@@ -97,7 +105,14 @@ fn may_be_table(member: &Member) -> bool {
 }
 
 fn directory(source: &Source) -> Result<Vec<Member>, RecordingError> {
-    let damaged = |error| source.error(None, RecordingProblem::Archive(error));
+    let damaged = |error: ZipError| {
+        let problem = RecordingProblem::Damaged {
+            what: "zip archive",
+            error: error.to_string(),
+            remedy: "export it anew",
+        };
+        source.error(None, problem)
+    };
     let mut archive = ZipArchive::new(source.bytes()?).map_err(damaged)?;
     let mut members = Vec::new();
     for index in 0..archive.len() {

@@ -1,10 +1,10 @@
 //! The unit of accelerations where neither the file nor the reader says it: assumed aloud, or refused.
 
 use super::error::RecordingProblem;
-use super::layout::{Format, Layout};
+use super::layout::Layout;
 use super::unit::{GRAVITY, Unit};
-use super::vertical::Windows;
 use super::warning::{BEYOND_GRAVITY, Warning};
+use super::windows::Windows;
 
 /// Counts per g of the usual digital sensors, and mg.
 const PER_G: [f64; 8] = [
@@ -29,71 +29,57 @@ pub(super) struct Assumed {
 /// If the mean is that of no known unit.
 pub(super) fn unit(layout: &Layout, windows: &Windows) -> Result<Assumed, RecordingProblem> {
     let mean = windows.length();
-    let is_near = |unit: f64| (mean / unit - 1.0).abs() <= OFF;
-    let assumed = |unit, warning| Assumed {
-        unit,
-        warning,
-        is_reversed: false,
-    };
-    let by_mean = |unit, name: &str| {
-        let unit_name = name.to_owned();
-        let warning = Warning::UnitAssumed {
-            mean,
-            unit: unit_name,
-        };
-        Ok(assumed(unit, Some(warning)))
-    };
-    if let Some(unit) = layout.unit {
-        let is_ios = layout.format == Format::SensorLogger && unit == Unit::Gravity;
+    let distance = |unit: f64| (mean / unit - 1.0).abs();
+    let is_logger = layout.format == "Sensor Logger";
+    let (unit, name) = if let Some(unit) = layout.unit {
         return Ok(Assumed {
-            is_reversed: is_ios && !is_near(1.0),
-            ..assumed(unit, None)
+            unit,
+            warning: None,
+            is_reversed: is_logger && unit == Unit::Gravity && distance(1.0) > OFF,
         });
-    }
-    if is_near(1.0) {
-        return by_mean(Unit::Gravity, "readings in g");
-    }
-    if mean > BEYOND_GRAVITY {
-        let distance = |unit: &&f64| (mean / **unit - 1.0).abs();
-        let nearest = PER_G
-            .iter()
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        return match nearest.filter(|unit| is_near(**unit)) {
-            Some(1000.0) => by_mean(Unit::Milligravity, "readings in mg"),
-            Some(unit) => {
-                let scale = GRAVITY / unit;
-                by_mean(
-                    Unit::Counts { scale, offset: 0.0 },
-                    &format!("{unit} counts per g"),
-                )
-            }
-            None => Err(RecordingProblem::UnknownCounts {
-                mean,
-                scale: GRAVITY / mean,
-            }),
+    } else if distance(1.0) <= OFF {
+        (Unit::Gravity, Some("readings in g".to_owned()))
+    } else if mean > BEYOND_GRAVITY {
+        let nearest = (PER_G.into_iter()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+        let Some(counts) = nearest.filter(|counts| distance(*counts) <= OFF) else {
+            let scale = GRAVITY / mean;
+            return Err(RecordingProblem::UnknownCounts { mean, scale });
         };
-    }
-    if layout.format == Format::SensorLogger && mean < 0.5 {
+        let (scale, offset) = (GRAVITY / counts, 0.0);
+        match counts {
+            1000.0 => (Unit::Milligravity, Some("readings in mg".to_owned())),
+            _ => (
+                Unit::Counts { scale, offset },
+                Some(format!("{counts} counts per g")),
+            ),
+        }
+    } else if is_logger && mean < 0.5 {
         return Ok(sensor_logger(windows.strength()));
-    }
-    Ok(assumed(Unit::MetresPerSecondSquared, None))
+    } else {
+        (Unit::MetresPerSecondSquared, None)
+    };
+    Ok(Assumed {
+        unit,
+        warning: name.map(|unit| Warning::UnitAssumed { mean, unit }),
+        is_reversed: false,
+    })
 }
 
 /// On Android it writes m/s², on iOS g with up negative. Lifts accelerate by 0.3 to 1.5 m/s², 0.03 to 0.15 g.
 fn sensor_logger(strength: f64) -> Assumed {
     let (metres, g) = (Unit::MetresPerSecondSquared, Unit::Gravity);
     let is_ios = strength < 0.2;
-    let (unit, other) = if is_ios { (g, metres) } else { (metres, g) };
+    let (unit, other, platform) = if is_ios {
+        (g, metres, "iOS, with up negative")
+    } else {
+        (metres, g, "Android")
+    };
     Assumed {
         unit,
         warning: Some(Warning::PlatformAssumed {
             unit,
             other,
-            platform: if is_ios {
-                "iOS, with up negative"
-            } else {
-                "Android"
-            },
+            platform,
         }),
         is_reversed: is_ios,
     }

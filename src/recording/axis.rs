@@ -1,6 +1,5 @@
 //! The choice of the vertical axis.
 
-use super::unknown_name::UnknownName;
 use std::fmt;
 use std::str::FromStr;
 
@@ -52,5 +51,20 @@ impl fmt::Display for Axis {
                 write!(f, "{}{}", if *is_down { "-" } else { "" }, AXES[*index])
             }
         }
+    }
+}
+
+/// A name that is not one of several known ones.
+#[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
+#[error("must be {known}, got \"{got}\"")]
+pub struct UnknownName {
+    known: &'static str,
+    got: String,
+}
+
+impl UnknownName {
+    pub(super) fn new(known: &'static str, got: &str) -> Self {
+        let got = got.to_owned();
+        Self { known, got }
     }
 }

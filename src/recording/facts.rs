@@ -55,69 +55,67 @@ pub struct Facts {
 }
 
 impl Facts {
-    /// Of samples at increasing times.
+    /// Of samples at increasing times, which come at a rate or else at that of the median interval.
     ///
     /// # Errors
     /// If there are too few samples or only equal ones.
-    pub(super) fn of(samples: &[Sample], has_gravity: bool) -> Result<Self, RecordingProblem> {
+    pub(super) fn of(
+        samples: &[Sample],
+        has_gravity: bool,
+        rate: Option<f64>,
+    ) -> Result<Self, RecordingProblem> {
         let [first, .., last] = samples else {
-            return Err(RecordingProblem::TooFew(samples.len() as u64));
+            let rule = "must have at least 2 readings of the acceleration at different times";
+            let remedy = "choose another column with --time or --acceleration";
+            return Err(RecordingProblem::must(rule, samples.len(), remedy));
         };
-        let (mut low, mut high) = (Extreme::of(first), Extreme::of(first));
-        let (mut repeats, mut longest) = (0, Gap::default());
+        let accelerations = || samples.iter().map(|sample| sample.acceleration);
+        let least = accelerations().fold(f64::INFINITY, f64::min);
+        let greatest = accelerations().fold(f64::NEG_INFINITY, f64::max);
+        if least == greatest {
+            let rule = "readings of the acceleration must differ";
+            let remedy = "choose another column with --acceleration";
+            return Err(RecordingProblem::must(rule, least, remedy));
+        }
+        let (mut repeats, mut longest_gap) = (0, Gap::default());
         let mut intervals = Vec::with_capacity(samples.len() - 1);
         for (before, sample) in samples.iter().zip(&samples[1..]) {
-            let length = sample.time - before.time;
+            let (start, length) = (before.time, sample.time - before.time);
             intervals.push(length);
-            if length > longest.length {
-                longest = Gap {
-                    start: before.time,
-                    length,
-                };
+            if length > longest_gap.length {
+                longest_gap = Gap { start, length };
             }
             repeats += u64::from(sample.acceleration == before.acceleration);
-            low.add(sample.acceleration, sample.acceleration < low.value);
-            high.add(sample.acceleration, sample.acceleration > high.value);
-        }
-        if low.value == high.value {
-            return Err(RecordingProblem::AllEqual(low.value));
         }
         let middle = (intervals.len() - 1) / 2;
         let median = *intervals.select_nth_unstable_by(middle, f64::total_cmp).1;
         let count = samples.len() as f64;
-        let (mean, deviation) = moments(samples.iter().map(|sample| sample.acceleration));
+        let (mean, deviation) = moments(accelerations());
         let usual = 0.5 * median..=1.5 * median;
         let usual = intervals.iter().filter(|length| usual.contains(length));
-        let looked_at = samples
-            .iter()
-            .take(LOOKED_AT)
-            .map(|sample| sample.acceleration);
-        let steps = Steps::of(looked_at.collect());
+        let steps = Steps::of(accelerations().take(LOOKED_AT).collect());
         let step = steps.quantum.unwrap_or(0.0);
-        let is_fine = steps.levels > FEW_LEVELS;
-        let at_limits: u64 = [&low, &high]
-            .into_iter()
-            .filter(|extreme| is_fine && extreme.is_limit(mean, step))
-            .map(|extreme| extreme.count)
-            .sum();
+        let at_limits = if steps.levels > FEW_LEVELS {
+            at_limit(samples, least, mean, step) + at_limit(samples, greatest, mean, step)
+        } else {
+            0
+        };
+        let is_gap = |length: &&f64| **length > GAP * median;
         Ok(Self {
             samples: samples.len() as u64,
             start: first.time,
             end: last.time,
-            rate: 1.0 / median,
+            rate: rate.unwrap_or(1.0 / median),
             jitter: moments(usual.map(|length| length / median)).1,
-            gaps: intervals
-                .iter()
-                .filter(|length| **length > GAP * median)
-                .count() as u64,
-            longest_gap: longest,
+            gaps: intervals.iter().filter(is_gap).count() as u64,
+            longest_gap,
             quantum: steps.quantum,
             repeats: repeats as f64 / count,
             saturated: (at_limits > 0).then(|| at_limits as f64 / count),
             mean,
             deviation,
-            least: low.value,
-            greatest: high.value,
+            least,
+            greatest,
             has_gravity,
             clock_offset: None,
         })
@@ -149,42 +147,18 @@ fn moments(values: impl Iterator<Item = f64>) -> (f64, f64) {
 /// The number of levels that the noise at rest may cover on a sensor with coarse steps.
 const FEW_LEVELS: usize = 20;
 
-/// The least or the greatest reading, how often it occurred, and how often in a row.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Extreme {
-    value: f64,
-    count: u64,
-    run: u64,
-    longest_run: u64,
-}
-
-impl Extreme {
-    fn of(sample: &Sample) -> Self {
-        Self {
-            value: sample.acceleration,
-            count: 1,
-            run: 1,
-            longest_run: 1,
-        }
-    }
-
-    fn add(&mut self, value: f64, is_new: bool) {
-        if is_new {
-            *self = Self {
-                value,
-                ..Self::default()
-            };
-        }
-        self.run = if value == self.value { self.run + 1 } else { 0 };
-        self.count += u64::from(value == self.value);
-        self.longest_run = self.longest_run.max(self.run);
-    }
-
-    /// Whether the extreme is a limit of the sensor. A signal stays at its extreme for three readings if it is
-    /// clipped there. By chance this happens only if the steps are so coarse that rest covers few levels, and then
-    /// the extreme is only a few steps from the mean.
-    fn is_limit(&self, mean: f64, step: f64) -> bool {
-        self.longest_run >= 3 && (self.value - mean).abs() > FEW_LEVELS as f64 * step
+/// How many samples are at `extreme`, if that is a limit of the sensor. A signal stays at its extreme for three
+/// readings if it is clipped there. By chance this happens only if the steps are so coarse that rest covers few
+/// levels, and then the extreme is only a few steps from the mean.
+fn at_limit(samples: &[Sample], extreme: f64, mean: f64, step: f64) -> u64 {
+    let is_at = |sample: &&Sample| sample.acceleration == extreme;
+    let mut runs = samples.chunk_by(|a, b| a.acceleration == b.acceleration);
+    let is_limit = runs.any(|run| run.len() >= 3 && is_at(&&run[0]))
+        && (extreme - mean).abs() > FEW_LEVELS as f64 * step;
+    if is_limit {
+        samples.iter().filter(is_at).count() as u64
+    } else {
+        0
     }
 }
 
@@ -205,7 +179,7 @@ mod tests {
                 acceleration: 0.0,
             });
         }
-        Facts::of(&samples, false).unwrap()
+        Facts::of(&samples, false, None).unwrap()
     }
 
     #[test]

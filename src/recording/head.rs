@@ -1,35 +1,24 @@
 //! What stands before the first row: preamble, header and units.
 
 use super::cell::{Cell, DecimalMark};
-use super::error::RecordingProblem;
-use super::lines::Lines;
+use super::error::{Located, RecordingProblem};
+use super::lines::{Kept, Lines};
 use super::names::{Column, Role};
 use super::splitter::{Delimiter, Splitter};
 use super::stamp;
 use std::io::BufRead;
-use std::ops::Range;
 
-/// The most lines before the first row.
+/// The most lines before the first row, and the most bytes of them.
 const MOST_LINES: usize = 200;
-
-/// The most bytes of them.
 const MOST_BYTES: usize = 1 << 21;
 
-/// A line that was read ahead.
-#[derive(Clone, Debug)]
-pub(super) struct Kept {
-    pub number: u64,
-    pub bytes: Vec<u8>,
-    pub is_ended: bool,
-}
+const NO_ROWS: &str = "no row of numbers in the first 200 lines (export a table of numbers)";
 
-/// The lines up to the first row.
+/// The lines up to the first row, which is the last of them.
 #[derive(Debug)]
 pub(super) struct Head {
     pub lines: Vec<Kept>,
     pub splitter: Splitter,
-    /// The number of cells in the first row, if there is one.
-    pub width: Option<usize>,
 }
 
 impl Head {
@@ -37,91 +26,85 @@ impl Head {
     /// an acceleration. The delimiter is the one under which that row is first found.
     ///
     /// # Errors
-    /// The line and what is wrong with it.
-    pub fn read<R: BufRead>(
-        lines: &mut Lines<R>,
-        owner: &str,
-    ) -> Result<Self, (Option<u64>, RecordingProblem)> {
+    /// If there is none.
+    pub fn read<R: BufRead>(lines: &mut Lines<R>, owner: &str) -> Result<Self, Located> {
         let mut head: Vec<Kept> = Vec::new();
         let mut bytes = 0;
-        loop {
-            let number = lines.number() + 1;
-            let line = match lines.next() {
-                Ok(Some(line)) => line,
-                Ok(None) if head.is_empty() => return Err((None, RecordingProblem::Empty)),
-                Ok(None) => return Ok(Self::without_row(head, owner)),
-                Err(reason) => return Err((Some(number), reason.into())),
+        while let Some(line) = lines.next()? {
+            bytes += line.bytes.len();
+            let is_long = head.len() == MOST_LINES || bytes > MOST_BYTES;
+            let problem = if line
+                .bytes
+                .iter()
+                .any(|&c| c.is_ascii_control() && c != b'\t')
+            {
+                Some(RecordingProblem::BINARY)
+            } else if line.bytes.starts_with(b"{") {
+                // A file of JSON is a table by now.
+                Some(no_stream(false))
+            } else {
+                is_long.then_some(RecordingProblem::Simple(NO_ROWS))
             };
-            let text = line.bytes;
-            if text.iter().any(|&c| c.is_ascii_control() && c != b'\t') {
-                return Err((Some(number), RecordingProblem::Binary));
+            if let Some(problem) = problem {
+                return Err((Some(line.number), problem));
             }
-            if is_remark(text) {
-                continue;
-            }
-            // A file of JSON is a table by now.
-            if text.starts_with(b"{") {
-                let has_drum = false;
-                return Err((Some(number), RecordingProblem::Stream { has_drum }));
-            }
-            bytes += text.len();
-            if head.len() == MOST_LINES || bytes > MOST_BYTES {
-                return Err((Some(number), RecordingProblem::NoRows));
-            }
-            let kept = Kept {
-                number,
-                bytes: text.to_vec(),
-                is_ended: line.is_ended,
-            };
-            let row = Delimiter::ALL.into_iter().find_map(|delimiter| {
-                let mut splitter = Splitter::new(delimiter, &kept.bytes);
-                is_row(&mut splitter, &kept.bytes, &head, owner).then_some(splitter)
-            });
-            if let Some(mut splitter) = row {
-                let width = splitter.split(&kept.bytes);
-                head.push(kept);
+            let above = head.len();
+            head.push(line.keep());
+            let (above, row) = head.split_at(above);
+            let splitters = Delimiter::ALL.map(|delimiter| Splitter::new(delimiter, &row[0].bytes));
+            let mut splitters = splitters.into_iter();
+            let found =
+                splitters.find_map(|splitter| is_row(splitter, &row[0].bytes, above, owner));
+            if let Some(splitter) = found {
                 return Ok(Self {
                     lines: head,
                     splitter,
-                    width: Some(width),
                 });
             }
-            head.push(kept);
         }
+        Self::of_words(head, owner)
     }
 
-    /// Only words: a header without rows, or no table.
-    fn without_row(lines: Vec<Kept>, owner: &str) -> Self {
-        let splitters = Delimiter::ALL.map(|delimiter| Splitter::new(delimiter, b""));
-        let has_header = |splitter: &&Splitter| {
-            let named = |line: &Kept| names(&mut (*splitter).clone(), &line.bytes, owner);
-            lines.iter().any(|line| is_header(&named(line)))
-        };
-        let has_cells = |splitter: &&Splitter| (*splitter).clone().split(&lines[0].bytes) > 1;
-        let mut found = splitters.iter().filter(has_header);
-        let found = found.next().or(splitters.iter().find(has_cells));
-        Self {
-            splitter: found.unwrap_or(&splitters[2]).clone(),
-            lines,
-            width: None,
+    /// Of lines that are no rows: below a header any line with a number is meant to be one.
+    fn of_words(mut lines: Vec<Kept>, owner: &str) -> Result<Self, Located> {
+        for delimiter in Delimiter::ALL {
+            let mut splitter = Splitter::new(delimiter, b"");
+            let mut is_header = |line: &Kept| is_header(&names(&mut splitter, &line.bytes, owner));
+            let Some(header) = lines.iter().position(&mut is_header) else {
+                continue;
+            };
+            let mut below = lines.iter().skip(header + 1);
+            let Some(row) = below.position(|line| has_number(&mut splitter, &line.bytes)) else {
+                return Err((None, RecordingProblem::HeaderOnly));
+            };
+            lines.truncate(header + 1 + row + 1);
+            return Ok(Self { lines, splitter });
         }
+        let is_empty = lines.is_empty();
+        let no_rows = RecordingProblem::Simple(NO_ROWS);
+        Err((
+            None,
+            if is_empty {
+                RecordingProblem::Empty
+            } else {
+                no_rows
+            },
+        ))
     }
 
     /// The columns as named by the header, and its place among the lines.
     ///
     /// Of the lines with as many cells as the first row, the first that names a time or an acceleration; else
     /// the first of them; else any that names both, which will not fit the rows.
-    pub fn header(&self, owner: &str) -> Option<(Vec<Column>, usize)> {
-        let mut splitter = self.splitter.clone();
-        let rows = usize::from(self.width.is_some());
-        let (words, row) = self.lines.split_at(self.lines.len() - rows);
-        let mut named = |line: &Kept| names(&mut splitter, &line.bytes, owner);
-        let fitting = match (row, self.width) {
-            ([row], Some(width)) => named(row).len()..=width,
-            _ => 0..=usize::MAX,
-        };
-        let named: Vec<_> = words.iter().map(named).zip(0..).collect();
-        let fits = |(columns, _): &&(Vec<Column>, usize)| fitting.contains(&columns.len());
+    pub fn header(&mut self, owner: &str) -> Option<(Vec<Column>, usize)> {
+        let (row, words) = self.lines.split_last()?;
+        let width = self.splitter.split(&row.bytes);
+        let used = names(&mut self.splitter, &row.bytes, owner).len();
+        let named: Vec<_> = (words.iter())
+            .map(|line| names(&mut self.splitter, &line.bytes, owner))
+            .zip(0..)
+            .collect();
+        let fits = |(columns, _): &&(Vec<Column>, usize)| (used..=width).contains(&columns.len());
         let knows = |(columns, _): &&(Vec<Column>, usize)| {
             columns.iter().any(|column| column.role != Role::Other)
         };
@@ -131,29 +114,36 @@ impl Head {
         found.cloned()
     }
 
-    /// Gives columns without a unit the first that stands in one of these lines.
-    pub fn units(&self, lines: Range<usize>, columns: &mut [Column]) {
-        let mut splitter = self.splitter.clone();
-        for line in &self.lines[lines] {
-            splitter.split(&line.bytes);
-            for (column, cell) in columns.iter_mut().zip(splitter.cells(&line.bytes)) {
+    /// The number of cells of the first row.
+    pub fn width(&mut self) -> usize {
+        let row = self.lines.last();
+        row.map_or(0, |row| self.splitter.split(&row.bytes))
+    }
+
+    /// Reads the lines below the names at `place`: units and the like, the first of which a column without a unit
+    /// is given. A line with a number is a row; returns the place of the first.
+    pub fn units(&mut self, place: usize, columns: &mut [Column]) -> usize {
+        let mut first = place + 1;
+        for line in &self.lines[first..] {
+            if has_number(&mut self.splitter, &line.bytes) {
+                break;
+            }
+            first += 1;
+            for (column, cell) in columns.iter_mut().zip(self.splitter.cells(&line.bytes)) {
                 column.unit_below(&String::from_utf8_lossy(cell));
             }
         }
-    }
-
-    /// Whether a line holds a number or a time.
-    pub fn has_number(&self, line: &Kept) -> bool {
-        let mut splitter = self.splitter.clone();
-        splitter.split(&line.bytes);
-        splitter.cells(&line.bytes).any(is_number)
+        first.min(self.lines.len() - 1)
     }
 }
 
-/// Whether a line is blank, a comment, or tells a spreadsheet the delimiter.
-pub(super) fn is_remark(line: &[u8]) -> bool {
-    let line = line.trim_ascii_start();
-    matches!(line.first(), None | Some(b'#' | b'%')) || line.starts_with(b"sep=")
+/// A stream whose lines are not understood.
+pub(super) fn no_stream(has_drum: bool) -> RecordingProblem {
+    RecordingProblem::Simple(if has_drum {
+        "must be `acceleration,drum` or `time,acceleration,drum`, the drum 0 or 1"
+    } else {
+        "must be `acceleration` or `time,acceleration`"
+    })
 }
 
 /// The cells of a line as names of columns, without blank ones at its end.
@@ -174,30 +164,34 @@ fn is_header(columns: &[Column]) -> bool {
         && has(|role| matches!(role, Role::Along { .. } | Role::Acceleration))
 }
 
-/// Whether a line is a row: every cell is a number, a time or blank; or those are that a header above names.
-fn is_row(splitter: &mut Splitter, line: &[u8], above: &[Kept], owner: &str) -> bool {
+/// The splitter, if by it a line is a row: every cell is a number, a time or blank; or those are that a header
+/// above names.
+fn is_row(mut splitter: Splitter, line: &[u8], above: &[Kept], owner: &str) -> Option<Splitter> {
     let width = splitter.split(line);
     if width == 1 && splitter.delimiter != Delimiter::Comma {
-        return false;
+        return None;
     }
     let cells: Vec<&[u8]> = splitter.cells(line).collect();
     let is_strict = cells.iter().all(|cell| is_value(cell));
     if cells.iter().any(|cell| is_number(cell)) && is_strict {
-        return true;
+        return Some(splitter);
     }
-    let is_row_under = |header: &Kept| {
+    let is_header = above.iter().any(|header| {
         let columns = names(&mut splitter.clone(), &header.bytes, owner);
-        let used = columns
-            .iter()
-            .zip(&cells)
-            .filter(|(column, _)| column.role != Role::Other);
-        let mut used = used.map(|(_, cell)| *cell);
+        let used = columns.iter().zip(&cells);
+        let mut used =
+            used.filter_map(|(column, cell)| (column.role != Role::Other).then_some(*cell));
         columns.len() == width
             && is_header(&columns)
             && used.clone().all(is_value)
             && used.any(is_number)
-    };
-    above.iter().any(is_row_under)
+    });
+    is_header.then_some(splitter)
+}
+
+fn has_number(splitter: &mut Splitter, line: &[u8]) -> bool {
+    splitter.split(line);
+    splitter.cells(line).any(is_number)
 }
 
 fn is_number(cell: &[u8]) -> bool {

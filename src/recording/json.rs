@@ -1,204 +1,208 @@
 //! JSON as a table of text: an array of readings, as Sensor Logger exports, or one object a line.
 
 use super::cell::shorten;
-use super::error::{Names, RecordingError, RecordingProblem};
-use super::lines::Lines;
+use super::error::{Located, Names, RecordingError, RecordingProblem};
+use super::lines::{LONGEST_LINE, Lines};
 use super::reading::Reading;
 use super::source::Source;
-use serde::de::{DeserializeSeed, Deserializer, SeqAccess, Visitor};
+use super::text_table::{LARGEST, MOST_COLUMNS, MOST_LETTERS, TextTable, too_large};
+use serde::de::{DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
+use serde_json::value::RawValue;
 use serde_json::{Map, Value};
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::fmt;
 use std::io::BufRead;
 
-/// The largest JSON, bytes, of which its numbers are a part.
-const LARGEST: u64 = 1 << 30;
-
-/// The most keys of an object, and the most sensors.
-const MOST: usize = 64;
+/// The sensors to be read, the best first: the one with gravity shows which way is up.
+const SENSORS: [&str; 4] = [
+    "TotalAcceleration",
+    "Accelerometer",
+    "AccelerometerUncalibrated",
+    "",
+];
 
 /// The source itself, unless it is JSON.
 ///
 /// # Errors
 /// If it is JSON of another kind, or has no accelerometer.
 pub(super) fn table(source: Source, reading: &Reading) -> Result<Source, RecordingError> {
-    let unreadable = |error| source.error(None, RecordingProblem::Unreadable(error));
     let mut text = source.text()?;
-    let start = text.fill_buf().map_err(unreadable)?.trim_ascii_start();
-    let is_array = start.starts_with(b"[");
-    if !is_array && !start.starts_with(b"{") {
-        return match &reading.member {
-            Some(member) if source.member().is_none() => {
-                Err(source.error(None, RecordingProblem::NotAnArchive(member.clone())))
-            }
-            _ => Ok(source),
-        };
+    let start = text
+        .fill_buf()
+        .map_err(|error| source.error(None, error.into()))?;
+    let start = start.trim_ascii_start().first().copied();
+    match (start, &reading.member) {
+        (Some(b'[' | b'{'), _) if source.size() > LARGEST as u64 => {
+            Err(source.error(None, damaged(too_large())))
+        }
+        (Some(b'['), member) => {
+            let (sensor, table) =
+                of_array(text, member.as_deref()).map_err(|problem| source.error(None, problem))?;
+            let part = Some(&*sensor).filter(|sensor| !sensor.is_empty());
+            Ok(source.converted(table, part, 1))
+        }
+        (Some(b'{'), _) => {
+            let table = of_lines(text).map_err(|(line, problem)| source.error(line, problem))?;
+            Ok(source.converted(table, None, 1))
+        }
+        (_, Some(member)) if source.part().is_none() => {
+            let got = format!("\"{}\"", shorten(member.as_bytes()));
+            let problem = RecordingProblem::must("has no members", got, "leave out --member");
+            Err(source.error(None, problem))
+        }
+        _ => Ok(source),
     }
-    if source.size() > LARGEST {
-        return Err(source.error(None, too_large()));
-    }
-    if is_array {
-        return of_array(&source, reading);
-    }
-    let table = of_lines(text).map_err(|(line, problem)| source.error(line, problem))?;
-    Ok(source.converted(table, None, 1))
 }
 
-fn too_large() -> RecordingProblem {
-    RecordingProblem::Json("must be at most 1 GB large, as a table too".to_owned())
+fn damaged(error: String) -> RecordingProblem {
+    RecordingProblem::Damaged {
+        what: "JSON",
+        error,
+        remedy: "export as CSV",
+    }
 }
 
-/// Messages name the element of the array where they name a line.
-fn of_array(source: &Source, reading: &Reading) -> Result<Source, RecordingError> {
-    let sensor = |object: &Map<String, Value>| match object.get("sensor") {
-        Some(Value::String(sensor)) => sensor.clone(),
-        _ => String::new(),
-    };
-    let refused = |problem| source.error(None, problem);
-    let mut sensors = BTreeSet::new();
-    each(source, |object| {
-        if sensors.len() < MOST {
-            sensors.insert(sensor(&object));
-        }
-    })?;
-    let wanted = match &reading.member {
-        Some(member) => sensors.get(member),
-        // The one with gravity shows which way is up.
-        None => [
-            "TotalAcceleration",
-            "Accelerometer",
-            "AccelerometerUncalibrated",
-            "",
-        ]
-        .iter()
-        .find_map(|name| sensors.get(*name)),
-    };
-    let Some(wanted) = wanted else {
-        let names = Names(sensors.into_iter().collect());
-        return Err(refused(RecordingProblem::NoSensor(names)));
-    };
-    let mut table = Table::default();
-    each(source, |object| {
-        if sensor(&object) == *wanted {
-            table.row(&object);
-        } else {
-            table.text.push(b'\n');
-        }
-    })?;
-    let member = Some(&**wanted).filter(|name| !name.is_empty());
-    let table = table.whole().map_err(refused)?;
-    Ok(source.converted(table, member, 1))
-}
-
-/// Hands every object of an array over as it is read.
-fn each(source: &Source, mut take: impl FnMut(Map<String, Value>)) -> Result<(), RecordingError> {
-    struct Objects<'a>(&'a mut dyn FnMut(Map<String, Value>));
-    impl<'de> DeserializeSeed<'de> for Objects<'_> {
-        type Value = ();
-        fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
-            deserializer.deserialize_seq(self)
-        }
-    }
-    impl<'de> Visitor<'de> for Objects<'_> {
-        type Value = ();
-        fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-            f.write_str("an array of readings")
-        }
-        fn visit_seq<A: SeqAccess<'de>>(self, mut array: A) -> Result<(), A::Error> {
-            while let Some(object) = array.next_element()? {
-                (self.0)(object);
-            }
-            Ok(())
-        }
-    }
-    let mut json = serde_json::Deserializer::from_reader(source.text()?);
-    let read = Objects(&mut take)
+/// The table of one sensor of an array, and its name. Messages name the element where they name a line.
+fn of_array(
+    text: impl BufRead,
+    member: Option<&str>,
+) -> Result<(String, Vec<u8>), RecordingProblem> {
+    let mut tables = Tables::default();
+    let mut json = serde_json::Deserializer::from_reader(text);
+    (&mut tables)
         .deserialize(&mut json)
-        .and_then(|()| json.end());
-    read.map_err(|error| source.error(None, RecordingProblem::Json(error.to_string())))
+        .and_then(|()| json.end())
+        .map_err(|error| damaged(error.to_string()))?;
+    let mut tables = tables.0;
+    let wanted = match member {
+        Some(member) => Some(member),
+        None => SENSORS.into_iter().find(|name| tables.contains_key(*name)),
+    };
+    if let Some((sensor, table)) = wanted.and_then(|sensor| tables.remove_entry(sensor)) {
+        return Ok((sensor, table.whole()));
+    }
+    let names = tables.keys().map(String::as_str);
+    Err(match member {
+        Some(member) => RecordingProblem::unknown("member", member, names),
+        None => RecordingProblem::Among {
+            what: "JSON: no sensor is an accelerometer, there are",
+            names: Names::of(names),
+            remedy: "--member NAME",
+        },
+    })
 }
 
-fn of_lines(text: impl BufRead) -> Result<Vec<u8>, (Option<u64>, RecordingProblem)> {
+/// The tables of all sensors, which are filled as the array is read.
+#[derive(Default)]
+struct Tables(BTreeMap<String, Table>);
+
+impl<'de> DeserializeSeed<'de> for &mut Tables {
+    type Value = ();
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
+        deserializer.deserialize_seq(self)
+    }
+}
+
+impl<'de> Visitor<'de> for &mut Tables {
+    type Value = ();
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("an array of readings")
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, mut array: A) -> Result<(), A::Error> {
+        let mut number = 0;
+        while let Some(text) = array.next_element::<Box<RawValue>>()? {
+            number += 1;
+            let object = object(text.get().as_bytes()).map_err(A::Error::custom)?;
+            let sensor = object.get("sensor").and_then(Value::as_str).unwrap_or("");
+            if self.0.len() < MOST_COLUMNS || self.0.contains_key(sensor) {
+                let table = self.0.entry(sensor.to_owned()).or_default();
+                table.row(number, &object).map_err(A::Error::custom)?;
+                let size: usize = self.0.values().map(|table| table.rows.size()).sum();
+                if size > LARGEST {
+                    return Err(A::Error::custom(too_large()));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// An object, of a size that bounds the memory it takes.
+fn object(text: &[u8]) -> Result<Map<String, Value>, String> {
+    if text.len() > LONGEST_LINE {
+        return Err(format!(
+            "a reading must be at most {LONGEST_LINE} bytes long"
+        ));
+    }
+    serde_json::from_slice(text).map_err(|error| error.to_string())
+}
+
+fn of_lines(text: impl BufRead) -> Result<Vec<u8>, Located> {
     let mut lines = Lines::new(text);
     let mut table = Table::default();
-    loop {
-        let number = lines.number() + 1;
-        let line = match lines.next() {
-            Ok(Some(line)) => line,
-            Ok(None) => return table.whole().map_err(|problem| (None, problem)),
-            Err(reason) => return Err((Some(number), reason.into())),
-        };
-        if line.bytes.trim_ascii().is_empty() {
-            table.text.push(b'\n');
-            continue;
-        }
-        match serde_json::from_slice(line.bytes) {
-            Ok(object) => table.row(&object),
-            // The file was cut off; a line with too few cells says so.
-            Err(_) if !line.is_ended && number > 2 => table.text.extend(b"{"),
+    while let Some(line) = lines.next()? {
+        let refused = |error: String| (Some(line.number), damaged(error));
+        match object(line.bytes) {
+            Ok(object) => table.row(line.number as usize, &object).map_err(refused)?,
+            Err(_) if !line.is_ended && line.number > 1 => {
+                table.rows.cut_off(line.number as usize).map_err(refused)?;
+            }
             Err(error) => {
                 let got = shorten(line.bytes);
-                let problem = RecordingProblem::Json(format!("{error}, got \"{got}\""));
-                return Err((Some(number), problem));
+                return Err(refused(format!("{error}, got \"{got}\"")));
             }
         }
     }
+    Ok(table.whole())
 }
 
 /// A table whose columns are the keys of the first object.
 #[derive(Default)]
 struct Table {
     keys: Vec<String>,
-    text: Vec<u8>,
+    rows: TextTable,
 }
 
 impl Table {
-    fn row(&mut self, object: &Map<String, Value>) {
-        // Short objects may stand for many blank cells; `whole` refuses what is cut here.
-        if self.text.len() as u64 > LARGEST {
-            return;
-        }
+    fn row(&mut self, number: usize, object: &Map<String, Value>) -> Result<(), String> {
         let mut cells = Vec::new();
         flatten("", object, &mut cells);
         if self.keys.is_empty() {
-            self.keys = cells
-                .iter()
-                .take(MOST)
-                .map(|(key, _)| key.clone())
-                .collect();
+            let keys = cells.iter().take(MOST_COLUMNS);
+            self.keys = keys.map(|(key, _)| key.clone()).collect();
         }
+        self.rows.begin_row(number)?;
         for (place, key) in self.keys.iter().enumerate() {
-            if place > 0 {
-                self.text.push(b'\t');
-            }
             let cell = cells.iter().find(|(name, _)| name == key);
-            self.text
-                .extend(cell.map_or("", |(_, cell)| cell).as_bytes());
+            self.rows.cell(place, cell.map_or("", |(_, cell)| cell))?;
         }
-        self.text.push(b'\n');
+        self.rows.end_row(0);
+        Ok(())
     }
 
     /// With the line of names.
-    fn whole(mut self) -> Result<Vec<u8>, RecordingProblem> {
-        if self.text.len() as u64 > LARGEST {
-            return Err(too_large());
-        }
+    fn whole(self) -> Vec<u8> {
+        let mut text = self.rows.into_text();
         let names = self.keys.join("\t") + "\n";
-        self.text.splice(..0, names.into_bytes());
-        Ok(self.text)
+        text.splice(..0, names.into_bytes());
+        text
     }
 }
 
 /// Numbers and texts with the keys on the way to them, joined by points.
 fn flatten(path: &str, object: &Map<String, Value>, cells: &mut Vec<(String, String)>) {
-    let clean = |text: &str| text.replace(|c: char| c.is_control() || c == '"', " ");
     for (key, value) in object {
-        let path = format!("{path}{}", clean(key));
-        match value {
-            Value::Object(inner) => flatten(&format!("{path}."), inner, cells),
-            Value::String(text) => cells.push((path, clean(text))),
-            Value::Number(number) => cells.push((path, number.to_string())),
-            Value::Null | Value::Bool(_) | Value::Array(_) => cells.push((path, String::new())),
-        }
+        let path: String = format!("{path}{key}").chars().take(MOST_LETTERS).collect();
+        let path = path.replace(|c: char| c.is_control() || c == '"', " ");
+        let cell = match value {
+            Value::Object(inner) => {
+                flatten(&format!("{path}."), inner, cells);
+                continue;
+            }
+            Value::String(text) => text.clone(),
+            Value::Number(number) => number.to_string(),
+            Value::Null | Value::Bool(_) | Value::Array(_) => String::new(),
+        };
+        cells.push((path, cell));
     }
 }

@@ -1,40 +1,11 @@
 //! The columns of a table: which are read, and in which units.
 
 use super::axis::Axis;
-use super::error::{Names, RecordingProblem};
-use super::head::Head;
-use super::names::{Column, Gravity, Role};
+use super::error::{Located, Names, RecordingProblem};
+use super::head::{Head, no_stream};
+use super::names::{self, Column, Gravity, Role};
 use super::reading::Reading;
 use super::unit::{TimeUnit, Unit};
-use crate::suggest::nearest;
-use std::fmt;
-
-/// The app or the logger that wrote a table.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-#[allow(missing_docs, reason = "what a name says is not said again")]
-pub enum Format {
-    Phyphox,
-    ScienceJournal,
-    SensorLogger,
-    PhysicsToolbox,
-    Xsens,
-    Campbell,
-    Plain,
-}
-
-impl fmt::Display for Format {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Phyphox => "phyphox",
-            Self::ScienceJournal => "Science Journal",
-            Self::SensorLogger => "Sensor Logger",
-            Self::PhysicsToolbox => "Physics Toolbox",
-            Self::Xsens => "Xsens DOT",
-            Self::Campbell => "TOA5",
-            Self::Plain => "plain",
-        })
-    }
-}
 
 /// Where a table comes from.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -45,10 +16,20 @@ pub(super) enum Input {
     Stream { has_drum: bool },
 }
 
+const STREAM_OF_AXES: &str = "a stream must have one acceleration, got several axes (choose one: --axis x, y or z, or \
+    --acceleration COLUMN)";
+
+/// The direction of gravity cannot be found.
+pub(super) fn no_gravity(got: &str) -> RecordingProblem {
+    let rule = "vertical along gravity: needs x, y and z in the same rows and a length of 8.5 to 11.5 m/s^2";
+    RecordingProblem::must(rule, got, "--axis x, y or z")
+}
+
 /// The columns of time and acceleration, and their units.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
-    pub format: Format,
+    /// The app that wrote it.
+    pub format: &'static str,
     pub columns: Vec<Column>,
     /// None if the rows have a rate instead.
     pub time: Option<usize>,
@@ -65,34 +46,33 @@ pub(super) struct Layout {
 }
 
 impl Layout {
+    /// The layout of the columns, and the place of the first row among the lines of `head`.
+    ///
     /// # Errors
     /// If a column cannot be found, with the line to blame.
     pub fn of(
-        head: &Head,
+        head: &mut Head,
         owner: &str,
         reading: &Reading,
         input: Input,
-    ) -> Result<(Self, usize), (Option<u64>, RecordingProblem)> {
-        let last = head.lines.len() - usize::from(head.width.is_some());
-        let Some((mut columns, place)) = head.header(owner) else {
-            let columns = numbered(head.width.unwrap_or(0), reading, input);
-            let layout = Self::choose(columns, false, reading, input);
-            let line = Some(head.lines[last].number);
-            return layout
-                .map(|layout| (layout, last))
-                .map_err(|problem| (line, problem));
-        };
-        // Units and the like stand below the names; a line with a number is a row.
-        let below = (place + 1..last).find(|&at| head.has_number(&head.lines[at]));
-        let first = below.unwrap_or(last);
-        head.units(place + 1..first, &mut columns);
-        if let Input::Stream { has_drum: true } = input {
-            columns.pop();
+    ) -> Result<(Self, usize), Located> {
+        let header = head.header(owner);
+        let is_headed = header.is_some();
+        let (mut columns, place) = header.unwrap_or_else(|| {
+            let columns = numbered(head.width(), reading, input);
+            (columns, head.lines.len() - 1)
+        });
+        let mut first = place;
+        if is_headed {
+            first = head.units(place, &mut columns);
+            if input == (Input::Stream { has_drum: true }) {
+                columns.pop();
+            }
         }
-        let mut layout = Self::choose(columns, true, reading, input)
-            .map_err(|problem| (Some(head.lines[place].number), problem))?;
+        let layout = Self::choose(columns, is_headed, reading, input);
+        let mut layout = layout.map_err(|problem| (Some(head.lines[place].number), problem))?;
         if head.lines[0].bytes.starts_with(b"\"TOA5\"") {
-            layout.format = Format::Campbell;
+            layout.format = "TOA5";
         }
         Ok((layout, first))
     }
@@ -111,7 +91,7 @@ impl Layout {
                 Input::File => RecordingProblem::Unnamed {
                     width: columns.len(),
                 },
-                Input::Stream { has_drum } => RecordingProblem::Stream { has_drum },
+                Input::Stream { has_drum } => no_stream(has_drum),
             });
         }
         let time = match (reading.rate, input) {
@@ -121,12 +101,12 @@ impl Layout {
         };
         let axes = accelerations(&columns, reading, time)?;
         if let (Input::Stream { .. }, true) = (input, axes.len() > 1) {
-            return Err(RecordingProblem::StreamOfAxes);
+            return Err(RecordingProblem::Simple(STREAM_OF_AXES));
         }
         let clock = time.map(|time| &columns[time]);
         let first = axes[0].1;
         Ok(Self {
-            format: format(&columns, clock),
+            format: names::format(&columns, clock),
             time,
             time_unit: reading
                 .time_unit
@@ -159,7 +139,7 @@ impl Layout {
             _ => false,
         };
         match self.format {
-            Format::SensorLogger => owner.to_lowercase().contains("totalacceleration"),
+            "Sensor Logger" => owner.to_lowercase().contains("totalacceleration"),
             _ => self.axes.iter().all(is_total),
         }
     }
@@ -192,29 +172,33 @@ fn numbered(width: usize, reading: &Reading, input: Input) -> Vec<Column> {
         .collect()
 }
 
-fn names(columns: &[Column]) -> Names {
-    Names(columns.iter().map(|column| column.name.clone()).collect())
+fn all_names(columns: &[Column]) -> impl Iterator<Item = &str> {
+    columns.iter().map(|column| &*column.name)
 }
 
 /// The column named by the user, in exact spelling or ignoring case.
-fn named(columns: &[Column], role: &'static str, got: &str) -> Result<usize, RecordingProblem> {
+fn named(columns: &[Column], what: &'static str, got: &str) -> Result<usize, RecordingProblem> {
     let wanted = got.trim();
     let exact = columns.iter().position(|column| column.name == wanted);
     let alike = |column: &Column| column.name.to_lowercase() == wanted.to_lowercase();
     exact
         .or_else(|| columns.iter().position(alike))
-        .ok_or_else(|| RecordingProblem::UnknownColumn {
-            role,
-            got: got.to_owned(),
-            hint: nearest(wanted, columns.iter().map(|column| &*column.name)).map(str::to_owned),
-            found: names(columns),
-        })
+        .ok_or_else(|| RecordingProblem::unknown(what, got, all_names(columns)))
+}
+
+fn no_column(columns: &[Column], what: &'static str, remedy: &'static str) -> RecordingProblem {
+    let names = Names::of(all_names(columns));
+    RecordingProblem::Among {
+        what,
+        names,
+        remedy,
+    }
 }
 
 /// The column named by the user, or else the best clock.
 fn time(columns: &[Column], reading: &Reading) -> Result<usize, RecordingProblem> {
     if let Some(name) = &reading.time {
-        return named(columns, "time", name);
+        return named(columns, "time column", name);
     }
     let clocks = columns
         .iter()
@@ -224,7 +208,9 @@ fn time(columns: &[Column], reading: &Reading) -> Result<usize, RecordingProblem
             _ => None,
         });
     let best = clocks.min().map(|(_, index)| index);
-    best.ok_or_else(|| RecordingProblem::NoTime(names(columns)))
+    let what = "no column looks like time, the columns are";
+    let remedy = "--time COLUMN, or --rate HZ where rows are evenly spaced";
+    best.ok_or_else(|| no_column(columns, what, remedy))
 }
 
 /// The column named by the user, or else the axes, or else the only one.
@@ -234,7 +220,7 @@ fn accelerations(
     time: Option<usize>,
 ) -> Result<Vec<(Option<usize>, usize)>, RecordingProblem> {
     if let Some(name) = &reading.acceleration {
-        return Ok(vec![(None, named(columns, "acceleration", name)?)]);
+        return Ok(vec![(None, named(columns, "acceleration column", name)?)]);
     }
     let axes: Vec<(Option<usize>, usize)> = (0..3)
         .filter_map(|axis| Some((Some(axis), along(columns, axis)?)))
@@ -245,12 +231,11 @@ fn accelerations(
                 column.role == Role::Acceleration && Some(*index) != time
             };
             let one = columns.iter().zip(0..).find(is_one);
-            let none = || RecordingProblem::NoAcceleration(names(columns));
+            let what = "no column looks like an acceleration, the columns are";
+            let none = || no_column(columns, what, "--acceleration COLUMN");
             one.map(|(_, index)| vec![(None, index)]).ok_or_else(none)
         }
-        Axis::Gravity if axes.len() < 3 => {
-            Err(RecordingProblem::NoGravity("fewer than three axes"))
-        }
+        Axis::Gravity if axes.len() < 3 => Err(no_gravity("fewer than three axes")),
         Axis::Auto | Axis::Gravity => Ok(axes),
         Axis::Along { index, .. } => {
             let found = axes.into_iter().find(|(axis, _)| *axis == Some(index));
@@ -258,7 +243,7 @@ fn accelerations(
                 .map(|found| vec![found])
                 .ok_or_else(|| RecordingProblem::NoAxis {
                     axis: reading.axis,
-                    found: names(columns),
+                    found: Names::of(all_names(columns)),
                 })
         }
     }
@@ -274,21 +259,4 @@ fn along(columns: &[Column], wanted: usize) -> Option<usize> {
             _ => None,
         });
     found.min().map(|(_, index)| index)
-}
-
-fn format(columns: &[Column], clock: Option<&Column>) -> Format {
-    let is = |column: &Column, name: &str| column.name.eq_ignore_ascii_case(name);
-    let has = |name: &str| columns.iter().any(|column| is(column, name));
-    let in_brackets = |column: &Column| column.name.ends_with(')');
-    let has_units = |column: &Column| column.unit.is_some() && in_brackets(column);
-    let is_phyphox = clock.is_some_and(|clock| clock.time_unit.is_some() && in_brackets(clock))
-        && columns.iter().any(has_units);
-    match () {
-        () if has("seconds_elapsed") => Format::SensorLogger,
-        () if has("relative_time") || (has("timestamp") && has("AccX")) => Format::ScienceJournal,
-        () if has("gFx") => Format::PhysicsToolbox,
-        () if has("SampleTimeFine") => Format::Xsens,
-        () if is_phyphox && !has("address") => Format::Phyphox,
-        () => Format::Plain,
-    }
 }

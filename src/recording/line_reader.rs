@@ -2,14 +2,12 @@
 //! the drum turns: 0 or 1.
 
 use super::cell::shorten;
-use super::error::RecordingProblem;
-use super::head::is_remark;
+use super::error::{Located, RecordingProblem};
 use super::layout::Input;
 use super::lines::Lines;
 use super::parser::Parser;
 use super::reading::Reading;
 use super::unit::Unit;
-use std::collections::VecDeque;
 use std::io::BufRead;
 
 /// Reads each line as soon as it is complete, in constant memory.
@@ -35,8 +33,6 @@ pub struct LineReader<R> {
     /// Whether the last cell is the drum.
     has_drum: bool,
     parser: Option<Parser>,
-    /// Rows that were read with the first.
-    ahead: VecDeque<(u64, Vec<u8>)>,
     number: u64,
 }
 
@@ -76,7 +72,6 @@ impl<R: BufRead> LineReader<R> {
             options: options.clone(),
             has_drum: false,
             parser: None,
-            ahead: VecDeque::new(),
             number: 0,
         }
     }
@@ -100,46 +95,33 @@ impl<R: BufRead> LineReader<R> {
     /// If a line is too long or is not a reading, or the reader fails.
     #[expect(clippy::should_implement_trait, reason = "an error does not end it")]
     pub fn next(&mut self) -> Result<Option<LineReading>, LineError> {
-        let read = self.advance();
-        read.map_err(|problem| LineError {
-            line: self.number,
-            problem,
+        self.advance().map_err(|(line, problem)| {
+            self.number = line.unwrap_or(self.number);
+            LineError {
+                line: self.number,
+                problem,
+            }
         })
     }
 
-    fn advance(&mut self) -> Result<Option<LineReading>, RecordingProblem> {
+    fn advance(&mut self) -> Result<Option<LineReading>, Located> {
         let (has_drum, options) = (self.has_drum, &self.options);
         if self.parser.is_none() {
-            let input = Input::Stream { has_drum };
-            match Parser::begin(&mut self.lines, "", options, input) {
-                Err((_, RecordingProblem::Empty)) => return Ok(None),
-                Err((line, problem)) => {
-                    self.number = line.unwrap_or(self.lines.number());
-                    return Err(problem);
+            match Parser::begin(&mut self.lines, "", options, Input::Stream { has_drum }) {
+                Err((_, RecordingProblem::Empty | RecordingProblem::HeaderOnly)) => {
+                    return Ok(None);
                 }
-                Ok((parser, rows)) => {
-                    self.ahead = rows
-                        .into_iter()
-                        .map(|row| (row.number, row.bytes))
-                        .collect();
-                    self.parser = Some(parser);
-                }
+                begun => self.parser = Some(begun?),
             }
         }
         let parser = self.parser.as_mut().expect("it has begun");
-        if let Some((number, line)) = self.ahead.pop_front() {
-            self.number = number;
-            return reading(parser, &line, has_drum, options).map(Some);
-        }
-        loop {
-            self.number = self.lines.number() + 1;
-            match self.lines.next() {
-                Ok(Some(line)) if is_remark(line.bytes) => {}
-                Ok(Some(line)) => return reading(parser, line.bytes, has_drum, options).map(Some),
-                Ok(None) => return Ok(None),
-                Err(reason) => return Err(reason.into()),
-            }
-        }
+        let Some(line) = self.lines.next()? else {
+            return Ok(None);
+        };
+        self.number = line.number;
+        let read = reading(parser, line.bytes, has_drum, options);
+        read.map(Some)
+            .map_err(|problem| (Some(line.number), problem))
     }
 }
 
@@ -168,6 +150,8 @@ fn reading(
     })
 }
 
+const DRUM: &str = "must end with a cell for the drum, 0 or 1";
+
 /// The line before its last cell, and whether that says that the drum turns.
 fn without_drum<'a>(
     parser: &mut Parser,
@@ -176,11 +160,14 @@ fn without_drum<'a>(
     let line = line.trim_ascii_end();
     let cells = parser.splitter.split(line);
     let cell = parser.splitter.cell(line, cells - 1);
-    let refused = || RecordingProblem::Drum(shorten(cell));
-    let turns = match std::str::from_utf8(cell)
+    let refused = || {
+        let got = format!("\"{}\"", shorten(cell));
+        RecordingProblem::must(DRUM, got, "leave out --expected-moving")
+    };
+    let number = std::str::from_utf8(cell)
         .ok()
-        .and_then(|cell| cell.parse::<f64>().ok())
-    {
+        .and_then(|cell| cell.parse().ok());
+    let turns = match number {
         Some(0.0) => false,
         Some(1.0) => true,
         _ => return Err(refused()),

@@ -3,10 +3,14 @@
 //! All lines share one buffer, and a line without end, as in a damaged file or from a wrong device, is refused
 //! before it fills the memory.
 
+use super::error::{Located, RecordingProblem};
+use std::collections::VecDeque;
 use std::io::{self, BufRead};
 
 /// The longest line, bytes. A table of sensor readings needs some hundred.
 pub(super) const LONGEST_LINE: usize = 1 << 20;
+
+const TOO_LONG: &str = "must be at most 1048576 bytes long (write one row of numbers a line)";
 
 /// A source of numbered lines.
 #[derive(Debug)]
@@ -14,6 +18,8 @@ pub(super) struct Lines<R> {
     reader: R,
     buffer: Vec<u8>,
     number: u64,
+    /// Lines that were given back.
+    ahead: VecDeque<Kept>,
     /// Whether the rest of a refused line must be skipped.
     is_inside: bool,
 }
@@ -21,18 +27,29 @@ pub(super) struct Lines<R> {
 /// A line without its line end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Line<'a> {
+    /// From 1.
+    pub number: u64,
     pub bytes: &'a [u8],
     /// Whether it had a line end, as opposed to the end of the input.
     pub is_ended: bool,
 }
 
-/// Why a line cannot be read.
-#[derive(Debug)]
-pub(super) enum NoLine {
-    /// It is longer than [`LONGEST_LINE`].
-    TooLong,
-    /// The reader failed.
-    Io(io::Error),
+/// A line that was read ahead.
+#[derive(Clone, Debug)]
+pub(super) struct Kept {
+    pub number: u64,
+    pub bytes: Vec<u8>,
+    is_ended: bool,
+}
+
+impl Line<'_> {
+    pub fn keep(&self) -> Kept {
+        Kept {
+            number: self.number,
+            bytes: self.bytes.to_vec(),
+            is_ended: self.is_ended,
+        }
+    }
 }
 
 impl<R: BufRead> Lines<R> {
@@ -41,75 +58,95 @@ impl<R: BufRead> Lines<R> {
             reader,
             buffer: Vec::new(),
             number: 0,
+            ahead: VecDeque::new(),
             is_inside: false,
         }
     }
 
-    /// The number of the line read last, from 1.
-    pub fn number(&self) -> u64 {
-        self.number
+    /// Gives lines back, which are read once more.
+    pub fn give_back(&mut self, lines: Vec<Kept>) {
+        self.ahead = lines.into();
     }
 
-    /// The next line as soon as its end has been read; `None` after the last. The next call skips the rest of a
-    /// refused line.
-    pub fn next(&mut self) -> Result<Option<Line<'_>>, NoLine> {
-        if self.is_inside {
-            self.pass_over()?;
+    /// The next line that says something, as soon as its end has been read; `None` after the last. The next call
+    /// skips the rest of a refused line.
+    pub fn next(&mut self) -> Result<Option<Line<'_>>, Located> {
+        if let Some(kept) = self.ahead.pop_front() {
+            self.buffer = kept.bytes;
+            return Ok(Some(Line {
+                number: kept.number,
+                bytes: &self.buffer,
+                is_ended: kept.is_ended,
+            }));
+        }
+        loop {
+            let read = self.advance();
+            let number = self.number;
+            match read.map_err(|problem| (Some(number), problem))? {
+                None => return Ok(None),
+                Some(_) if is_remark(&self.buffer) => {}
+                Some(is_ended) => {
+                    let bytes = self.buffer.strip_suffix(b"\r").unwrap_or(&self.buffer);
+                    return Ok(Some(Line {
+                        number,
+                        bytes,
+                        is_ended,
+                    }));
+                }
+            }
+        }
+    }
+
+    /// Reads a line into the buffer; returns whether it had an end.
+    fn advance(&mut self) -> Result<Option<bool>, RecordingProblem> {
+        while self.is_inside {
+            let chunk = available(&mut self.reader)?;
+            let end = memchr::memchr(b'\n', chunk);
+            self.is_inside = end.is_none() && !chunk.is_empty();
+            let taken = end.map_or(chunk.len(), |end| end + 1);
+            self.reader.consume(taken);
         }
         self.buffer.clear();
         self.number += 1;
-        let is_ended = loop {
+        loop {
             let chunk = available(&mut self.reader)?;
             if chunk.is_empty() {
-                break false;
+                let is_line = !self.buffer.is_empty();
+                self.number -= u64::from(!is_line);
+                return Ok(is_line.then_some(false));
             }
             let end = memchr::memchr(b'\n', chunk);
             let taken = end.unwrap_or(chunk.len());
             if self.buffer.len() + taken > LONGEST_LINE {
                 self.is_inside = true;
                 self.buffer.clear();
-                return Err(NoLine::TooLong);
+                return Err(RecordingProblem::Simple(TOO_LONG));
             }
             self.buffer.extend_from_slice(&chunk[..taken]);
             self.reader.consume(taken + usize::from(end.is_some()));
             if end.is_some() {
-                break true;
-            }
-        };
-        if !is_ended && self.buffer.is_empty() {
-            self.number -= 1;
-            return Ok(None);
-        }
-        let bytes = self.buffer.strip_suffix(b"\r").unwrap_or(&self.buffer);
-        Ok(Some(Line { bytes, is_ended }))
-    }
-
-    fn pass_over(&mut self) -> Result<(), NoLine> {
-        loop {
-            let chunk = available(&mut self.reader)?;
-            let end = memchr::memchr(b'\n', chunk);
-            let (taken, is_last) = (end.map_or(chunk.len(), |end| end + 1), chunk.is_empty());
-            self.reader.consume(taken);
-            if end.is_some() || is_last {
-                self.is_inside = false;
-                return Ok(());
+                return Ok(Some(true));
             }
         }
     }
 }
 
+/// Whether a line is blank, a comment, or tells a spreadsheet the delimiter.
+fn is_remark(line: &[u8]) -> bool {
+    let line = line.trim_ascii_start();
+    matches!(line.first(), None | Some(b'#' | b'%')) || line.starts_with(b"sep=")
+}
+
 /// The bytes available in the reader; empty at its end.
-fn available(reader: &mut impl BufRead) -> Result<&[u8], NoLine> {
+fn available(reader: &mut impl BufRead) -> io::Result<&[u8]> {
     // Called twice because the borrow checker refuses to return a borrow from inside the loop; the second call
     // is answered from the reader's buffer.
-    loop {
-        match reader.fill_buf() {
-            Ok(_) => break,
-            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-            Err(error) => return Err(NoLine::Io(error)),
+    while let Err(error) = reader.fill_buf() {
+        if error.kind() != io::ErrorKind::Interrupted {
+            return Err(error);
         }
     }
-    reader.fill_buf().map_err(NoLine::Io)
+    reader.fill_buf()
 }
 
 #[cfg(test)]
@@ -121,8 +158,7 @@ mod tests {
         let mut lines = Lines::new(BufReader::with_capacity(capacity, text));
         let mut found = Vec::new();
         while let Some(line) = lines.next().unwrap() {
-            let (bytes, is_ended) = (line.bytes.to_vec(), line.is_ended);
-            found.push((lines.number(), bytes, is_ended));
+            found.push((line.number, line.bytes.to_vec(), line.is_ended));
         }
         found
     }
@@ -130,13 +166,9 @@ mod tests {
     #[test]
     fn splits_at_any_buffer() {
         for capacity in [1, 2, 3, 64] {
-            let found = all(b"a\r\n\nbcd\ne", capacity);
-            let expected: [(u64, &[u8], bool); 4] = [
-                (1, b"a", true),
-                (2, b"", true),
-                (3, b"bcd", true),
-                (4, b"e", false),
-            ];
+            let found = all(b"a\r\n\nbcd\n# x\n \ne", capacity);
+            let expected: [(u64, &[u8], bool); 3] =
+                [(1, b"a", true), (3, b"bcd", true), (6, b"e", false)];
             assert_eq!(
                 found,
                 expected.map(|(n, line, end)| (n, line.to_vec(), end))
@@ -152,10 +184,9 @@ mod tests {
         let text = b"1\n".chain(endless).chain(&b"\n2\n"[..]);
         let mut lines = Lines::new(BufReader::new(text));
         assert!(lines.next().unwrap().is_some());
-        assert!(matches!(lines.next(), Err(NoLine::TooLong)));
-        assert_eq!(lines.number(), 2);
-        assert_eq!(lines.next().unwrap().unwrap().bytes, b"2");
-        assert_eq!(lines.number(), 3);
+        assert!(matches!(lines.next(), Err((Some(2), _))));
+        let line = lines.next().unwrap().unwrap();
+        assert_eq!((line.number, line.bytes), (3, &b"2"[..]));
         assert!(lines.buffer.capacity() <= 2 * LONGEST_LINE);
         assert!(lines.next().unwrap().is_none());
     }

@@ -59,29 +59,30 @@ mod steps;
 mod table;
 #[cfg(test)]
 mod tests;
+mod text_table;
 mod unit;
-mod unknown_name;
 mod vertical;
 mod warning;
+mod windows;
 mod xml;
 
-pub use axis::Axis;
+pub use axis::{Axis, UnknownName};
 pub use error::{Names, RecordingError, RecordingProblem};
 pub use facts::{Facts, Gap};
-pub use layout::Format;
+
 pub use line_reader::{LineError, LineReader, LineReading};
 pub use reading::Reading;
 pub use sample::Sample;
 pub use unit::{GRAVITY, TimeUnit, Unit, UnitError};
-pub use unknown_name::UnknownName;
-pub use vertical::{Direction, Reason, Sign, Vertical};
+
+pub use vertical::{Reason, Vertical};
 pub use warning::Warning;
 
 use source::Source;
 use std::path::Path;
 use std::sync::Arc;
 use table::Columns;
-use vertical::Windows;
+use windows::Windows;
 
 /// A recording in memory.
 #[derive(Clone, Debug)]
@@ -91,7 +92,7 @@ pub struct Recording {
     facts: Facts,
     warnings: Vec<Warning>,
     vertical: Vertical,
-    format: Format,
+    format: &'static str,
     member: Option<String>,
     /// The name of the column, and its unit.
     time: (String, TimeUnit),
@@ -128,70 +129,70 @@ impl Recording {
         };
         let source = json::table(source, reading)?;
         let columns = Columns::read(&source, reading)?;
-        let mut recording =
-            Self::of_columns(columns, reading).map_err(|problem| source.error(None, problem))?;
-        recording.member = source.member().map(str::to_owned);
-        Ok(recording)
+        let recording = Self::of_columns(columns, source.part().map(str::to_owned), reading);
+        recording.map_err(|problem| source.error(None, problem))
     }
 
-    fn of_columns(mut columns: Columns, reading: &Reading) -> Result<Self, RecordingProblem> {
+    fn of_columns(
+        mut columns: Columns,
+        member: Option<String>,
+        reading: &Reading,
+    ) -> Result<Self, RecordingProblem> {
         let mut windows = Windows::of(&columns);
-        let assumed = assumed::unit(&columns.layout, &windows)?;
+        let assumed = assumed::unit(&columns.parser.layout, &windows)?;
         let unit = assumed.unit;
         windows.convert(unit, columns.axes.len());
-        let vertical = vertical::find(&columns, &windows, reading.axis, assumed.is_reversed);
-        let mut vertical = vertical.map_err(RecordingProblem::NoGravity)?;
+        let is_reversed = assumed.is_reversed;
+        let mut vertical = vertical::find(&columns, &windows, reading.axis, is_reversed)?;
         let along = vertical::project(&columns, &windows, unit, &vertical);
         columns.axes.clear();
-        let times = std::mem::take(&mut columns.times);
-        let rows = times.len();
         let sign = if reading.invert { -1.0 } else { 1.0 };
-        let mut samples: Vec<Sample> = (times.into_iter().zip(along))
+        if reading.invert {
+            vertical = vertical.inverted();
+        }
+        let mut samples: Vec<Sample> = (columns.times.iter().zip(along))
             .filter(|(_, along)| !along.is_nan())
-            .map(|(time, along)| Sample {
+            .map(|(&time, along)| Sample {
                 time,
                 acceleration: sign * along,
             })
             .collect();
-        if reading.invert {
-            vertical = vertical.inverted();
-        }
-        let (layout, clock) = (&columns.layout, &columns.clock);
-        columns.skipped.blank += (rows - samples.len()) as u64;
-        let number = samples.len() as u64;
+        columns.skipped.blank += (columns.times.len() - samples.len()) as u64;
+        columns.times = Vec::new();
+        let whole_rows = samples.len() as u64;
         let repeats = spread::spread(&mut samples);
-        let mut facts = Facts::of(&samples, windows.has_gravity())?;
-        facts.clock_offset = clock.offset();
-        facts.rate = reading.rate.unwrap_or(facts.rate);
+        let facts = Facts {
+            clock_offset: columns.parser.clock.offset(),
+            ..Facts::of(&samples, windows.has_gravity(), reading.rate)?
+        };
         columns.check_clock(facts.rate)?;
-        let mut warnings = warning::of_rows(layout, &columns.skipped, clock.wraps, repeats, number);
+        let mut warnings = warning::of_rows(&columns, repeats, whole_rows);
         warnings.extend(assumed.warning);
-        let is_reversed = assumed.is_reversed && vertical.sign == Sign::Assumed;
-        warnings.extend(warning::of_signal(&facts, &vertical, is_reversed));
-        let time = match layout.time {
-            Some(time) => (layout.columns[time].name.clone(), clock.unit()),
-            None => ("--rate".to_owned(), TimeUnit::Seconds),
-        };
-        let names = layout.acceleration_names();
-        let accelerations = match vertical.direction {
-            Direction::Along { place, .. } => vec![names[place].to_owned()],
-            Direction::Projected(_) => names.into_iter().map(str::to_owned).collect(),
-        };
-        let rate = reading.resample.unwrap_or(facts.rate);
-        if reading.resample.is_some() {
+        let is_doubtful = is_reversed && !vertical.is_sign_known;
+        warnings.extend(warning::of_signal(&facts, &vertical, is_doubtful));
+        if let Some(rate) = reading.resample {
             check_resample(rate, &facts)?;
             samples = resample::resample(&samples, rate, facts.gap());
         }
+        let layout = &columns.parser.layout;
+        let names = layout.acceleration_names().into_iter().zip(0..);
+        let read = names.filter(|(_, place)| vertical.column.is_none_or(|column| column == *place));
         Ok(Self {
             samples,
-            rate,
+            rate: reading.resample.unwrap_or(facts.rate),
             facts,
             warnings,
-            vertical,
             format: layout.format,
-            member: None,
-            time,
-            accelerations,
+            member,
+            time: match layout.time {
+                Some(time) => (
+                    layout.columns[time].name.clone(),
+                    columns.parser.clock.unit(),
+                ),
+                None => ("--rate".to_owned(), TimeUnit::Seconds),
+            },
+            accelerations: read.map(|(name, _)| name.to_owned()).collect(),
+            vertical,
             unit,
         })
     }
@@ -217,7 +218,7 @@ impl Recording {
     }
 
     /// The app that wrote it.
-    pub fn format(&self) -> Format {
+    pub fn format(&self) -> &'static str {
         self.format
     }
 

@@ -64,41 +64,46 @@ const CLOCKS: [(&str, Option<TimeUnit>); 18] = [
 ];
 
 /// Names of an acceleration, before an axis or alone.
-const ACCELERATIONS: [&str; 9] = [
-    "a",
-    "acc",
-    "accel",
-    "acceleration",
-    "accelerometer",
-    "accelerometeracceleration",
-    "totalacceleration",
-    "verticalacceleration",
-    "gf",
-];
+const ACCELERATIONS: &str = "a acc accel acceleration accelerometer accelerometeracceleration \
+    totalacceleration verticalacceleration gf";
 
 /// Names of an acceleration without gravity.
-const LINEAR: [&str; 7] = [
-    "linearacceleration",
-    "linearaccelerometer",
-    "linearaccel",
-    "linacc",
-    "linaccel",
-    "useracceleration",
-    "freeacc",
-];
+const LINEAR: &str = "linearacceleration linearaccelerometer linearaccel linacc linaccel \
+    useracceleration freeacc";
 
 /// Words in the names of files whose x, y and z are not accelerations.
-const OTHER_SENSORS: [&str; 9] = [
-    "gyro",
-    "magnet",
-    "gravity",
-    "orient",
-    "rotation",
-    "attitude",
-    "location",
-    "baro",
-    "pedometer",
+const OTHER_SENSORS: &str = "gyro magnet gravity orient rotation attitude location baro pedometer";
+
+/// The apps and loggers that are known, each by columns that only it writes.
+const FORMATS: [(&str, &[&str]); 6] = [
+    ("Sensor Logger", &["seconds_elapsed"]),
+    ("Science Journal", &["relative_time"]),
+    ("Science Journal", &["timestamp", "AccX"]),
+    ("Physics Toolbox", &["gFx"]),
+    ("Xsens DOT", &["SampleTimeFine"]),
+    // Witmotion's units stand in brackets as those of phyphox.
+    ("plain", &["address"]),
 ];
+
+/// The app that wrote these columns, of which `clock` is the time.
+pub(super) fn format(columns: &[Column], clock: Option<&Column>) -> &'static str {
+    let is = |mark: &str| {
+        columns
+            .iter()
+            .any(|column| column.name.eq_ignore_ascii_case(mark))
+    };
+    if let Some((name, _)) = (FORMATS.iter()).find(|(_, marks)| marks.iter().all(|mark| is(mark))) {
+        return name;
+    }
+    let in_brackets = |column: &Column| column.name.ends_with(')');
+    let is_timed = clock.is_some_and(|clock| clock.time_unit.is_some() && in_brackets(clock));
+    let mut columns = columns.iter();
+    if is_timed && columns.any(|column| column.unit.is_some() && in_brackets(column)) {
+        "phyphox"
+    } else {
+        "plain"
+    }
+}
 
 impl Column {
     /// Reads a name. `owner`, the name of the file, decides the meaning of columns called only x, y and z.
@@ -176,18 +181,25 @@ fn role(word: &str, time_unit: Option<TimeUnit>, unit: Option<Unit>, owner: &str
     }
     if let Some((axis, stem)) = along(word) {
         let is_bare = stem.is_empty() && !is_of_another_sensor(owner);
-        let is_named = ACCELERATIONS.contains(&stem) || LINEAR.contains(&stem);
-        if is_bare || is_named || is_stated {
-            let is_out = LINEAR.contains(&stem) || stem.contains("lin");
+        if is_bare || is_acceleration(stem) || is_stated {
+            let is_out = is_one_of(LINEAR, stem) || stem.contains("lin");
             let gravity = if is_out { Gravity::Out } else { Gravity::In };
             return Role::Along { axis, gravity };
         }
     }
-    if is_stated || ACCELERATIONS.contains(&word) || LINEAR.contains(&word) {
+    if is_stated || is_acceleration(word) {
         Role::Acceleration
     } else {
         Role::Other
     }
+}
+
+fn is_acceleration(word: &str) -> bool {
+    is_one_of(ACCELERATIONS, word) || is_one_of(LINEAR, word)
+}
+
+fn is_one_of(words: &str, word: &str) -> bool {
+    words.split(' ').any(|one| one == word)
 }
 
 /// The axis at the end of a word, and the part before it.
@@ -201,7 +213,7 @@ fn along(word: &str) -> Option<(usize, &str)> {
 fn is_of_another_sensor(owner: &str) -> bool {
     let file = owner.rsplit(['/', '\\', ':']).next().unwrap_or(owner);
     let file = file.to_lowercase();
-    OTHER_SENSORS.iter().any(|sensor| file.contains(sensor))
+    OTHER_SENSORS.split(' ').any(|sensor| file.contains(sensor))
 }
 
 /// A name without its unit, and the unit: `Time (s)`, `acc [mg]`, `time_ms`.

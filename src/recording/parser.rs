@@ -2,8 +2,8 @@
 
 use super::cell::{Cell, DecimalMark, shorten};
 use super::clock::Clock;
-use super::error::RecordingProblem;
-use super::head::{Head, Kept};
+use super::error::{Located, RecordingProblem};
+use super::head::Head;
 use super::layout::{Input, Layout};
 use super::lines::Lines;
 use super::reading::Reading;
@@ -11,12 +11,23 @@ use super::splitter::{Delimiter, Splitter};
 use super::unit::Unit;
 use std::io::BufRead;
 
-/// What a cell must do. No recording of a lift has times or accelerations beyond these: 30 000 years, and ten
-/// thousand times the range of a shock sensor.
-const NUMBER: &str = "be a number";
-const FINITE: &str = "be finite";
-const LATEST: &str = "lie within 1e12 s";
-const STRONGEST: &str = "lie within 1e9 m/s^2";
+/// What a cell must do, and else the user. No recording of a lift has times or accelerations beyond these: 30 000
+/// years, and ten thousand times the range of a shock sensor.
+type Rule = (&'static str, &'static str);
+const NUMBER: Rule = ("be a number", "correct it, or leave the row out");
+const TIME: Rule = (
+    "be a number",
+    "write times as numbers, or as 2013-11-25 12:30:00.005",
+);
+const FINITE: Rule = ("be finite", "leave the row out where nothing was read");
+const LATEST: Rule = (
+    "lie within 1e12 s",
+    "check the unit: --time-unit s, ms, us or ns",
+);
+const STRONGEST: Rule = (
+    "lie within 1e9 m/s^2",
+    "check the unit: --unit m/s^2, g, mg or counts",
+);
 
 /// Reads the rows of one table.
 #[derive(Debug)]
@@ -39,7 +50,7 @@ pub(super) struct Row {
 }
 
 impl Parser {
-    /// Reads up to the first row, and returns the rows that were read with it.
+    /// Reads up to the first row, which is read next.
     ///
     /// # Errors
     /// If there is no table, or a column cannot be found, with the line to blame.
@@ -48,10 +59,11 @@ impl Parser {
         owner: &str,
         reading: &Reading,
         input: Input,
-    ) -> Result<(Self, Vec<Kept>), (Option<u64>, RecordingProblem)> {
+    ) -> Result<Self, Located> {
         let mut head = Head::read(lines, owner)?;
-        let (layout, first) = Layout::of(&head, owner, reading, input)?;
-        let parser = Self {
+        let (layout, first) = Layout::of(&mut head, owner, reading, input)?;
+        lines.give_back(head.lines.split_off(first));
+        Ok(Self {
             clock: match input {
                 Input::File => Clock::of_file(layout.time_unit),
                 Input::Stream { .. } => Clock::of_stream(layout.time_unit),
@@ -60,8 +72,7 @@ impl Parser {
             splitter: head.splitter,
             marks: Default::default(),
             had_exponent: false,
-        };
-        Ok((parser, head.lines.split_off(first)))
+        })
     }
 
     /// Reads a row; `None` where the file was cut off within it, which only a line without an end can be.
@@ -102,13 +113,6 @@ impl Parser {
     #[inline]
     fn values(&mut self, line: &[u8]) -> Result<Row, RecordingProblem> {
         let mut row = Row::default();
-        let rule = |refused| {
-            if refused == Cell::Infinite {
-                FINITE
-            } else {
-                NUMBER
-            }
-        };
         if let Some(column) = self.layout.time {
             let cell = self.splitter.cell(line, column);
             row.time = match self.clock.read(cell) {
@@ -116,61 +120,48 @@ impl Parser {
                     return Err(self.refused(column, cell, LATEST));
                 }
                 Ok(time) => time,
-                Err(refused) => return Err(self.refused(column, cell, rule(refused))),
+                Err(Cell::Infinite) => return Err(self.refused(column, cell, FINITE)),
+                Err(_) => return Err(self.refused(column, cell, TIME)),
             };
         }
         let unit = self.layout.unit.unwrap_or(Unit::MetresPerSecondSquared);
         for (place, (_, column)) in self.layout.axes.iter().enumerate() {
             let cell = self.splitter.cell(line, *column);
-            row.axes[place] = match self.marks[place].read(cell) {
+            let read = self.marks[place].read(cell);
+            row.is_missing |= read == Cell::Missing;
+            row.axes[place] = match read {
                 Cell::Number(number) if unit.convert(number).abs() > 1e9 => {
                     return Err(self.refused(*column, cell, STRONGEST));
                 }
                 Cell::Number(number) => Some(number),
-                Cell::Blank => None,
-                Cell::Missing => {
-                    row.is_missing = true;
-                    None
-                }
-                refused => return Err(self.refused(*column, cell, rule(refused))),
+                Cell::Blank | Cell::Missing => None,
+                Cell::Infinite => return Err(self.refused(*column, cell, FINITE)),
+                Cell::Text => return Err(self.refused(*column, cell, NUMBER)),
             };
         }
         Ok(row)
     }
 
-    fn refused(&self, column: usize, cell: &[u8], rule: &'static str) -> RecordingProblem {
+    fn refused(&self, column: usize, cell: &[u8], (rule, remedy): Rule) -> RecordingProblem {
         if cell.iter().any(u8::is_ascii_control) {
-            return RecordingProblem::Binary;
+            return RecordingProblem::BINARY;
         }
-        let is_clock = self.layout.time == Some(column);
         RecordingProblem::Cell {
             column: self.layout.columns[column].name.clone(),
             got: match cell {
                 [] => "nothing".to_owned(),
                 cell => format!("\"{}\"", shorten(cell)),
             },
-            remedy: match (rule, is_clock) {
-                (LATEST, _) => "check the unit: --time-unit s, ms, us or ns",
-                (STRONGEST, _) => "check the unit: --unit m/s^2, g, mg or counts",
-                (NUMBER, true) => "write times as numbers, or as 2013-11-25 12:30:00.005",
-                (NUMBER, false) => "correct it, or leave the row out",
-                _ => "leave the row out where nothing was read",
-            },
             rule,
+            remedy,
         }
     }
 
     /// Refuses a row of a stream that lacks the time or the acceleration.
     pub fn check_whole(&self, line: &[u8], row: &Row) -> Result<(), RecordingProblem> {
-        let axis = self.layout.axes[0].1;
-        let blank = match (self.layout.time, row) {
-            (Some(time), Row { time: None, .. }) => time,
-            (
-                _,
-                Row {
-                    axes: [None, ..], ..
-                },
-            ) => axis,
+        let blank = match self.layout.time {
+            Some(time) if row.time.is_none() => time,
+            _ if row.axes[0].is_none() => self.layout.axes[0].1,
             _ => return Ok(()),
         };
         Err(self.refused(blank, self.splitter.cell(line, blank), FINITE))
@@ -179,7 +170,7 @@ impl Parser {
     /// The error for a line with a different number of cells than the first.
     fn wrong_cells(&self, line: &[u8], got: usize) -> RecordingProblem {
         if line.iter().any(|&c| c.is_ascii_control() && c != b'\t') {
-            return RecordingProblem::Binary;
+            return RecordingProblem::BINARY;
         }
         let (expected, delimiter) = (self.layout.columns.len(), self.splitter.delimiter);
         let fits = |other: &Delimiter| {
@@ -198,8 +189,11 @@ impl Parser {
         RecordingProblem::Cells {
             expected,
             got,
-            hint: is_comma_mark
-                .then_some(" (write decimal points, or quote cells with decimal commas)"),
+            hint: if is_comma_mark {
+                " (write decimal points, or quote cells with decimal commas)"
+            } else {
+                ""
+            },
         }
     }
 }

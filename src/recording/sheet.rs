@@ -7,19 +7,19 @@
 use super::error::{RecordingError, RecordingProblem};
 use super::reading::Reading;
 use super::source::{Member, Source};
+use super::text_table::{MOST_COLUMNS, TextTable, too_large};
 use super::xml::{self, Piece, attribute};
 use quick_xml::events::BytesStart;
 use std::collections::BTreeSet;
 
 const BOOK: &str = "xl/workbook.xml";
 
-/// The largest workbook, packed, and table made of it, bytes: a few bytes of a workbook may stand for any number.
-const LARGEST: (u64, usize) = (200 << 20, 1 << 30);
+/// The largest workbook, packed, bytes.
+const LARGEST: u64 = 200 << 20;
 
-/// The most rows and shared texts, the most columns, and the most letters in a cell.
+/// The most rows, shared texts and styles.
 const MOST_ROWS: usize = 1 << 20;
-const MOST_COLUMNS: usize = 64;
-const MOST_LETTERS: usize = 200;
+const TOO_MANY: &str = "must have at most 1048576 rows and texts";
 
 /// Whether an archive is a workbook.
 pub(super) fn is_book(members: &[Member]) -> bool {
@@ -36,8 +36,16 @@ pub(super) fn table(
     reading: &Reading,
 ) -> Result<Source, RecordingError> {
     let book = Book { source, members };
-    let damaged = |error| source.error(None, RecordingProblem::Workbook(error));
-    if source.size() > LARGEST.0 {
+    let damaged = |error| {
+        let (what, remedy) = ("workbook", "export as CSV");
+        let problem = RecordingProblem::Damaged {
+            what,
+            error,
+            remedy,
+        };
+        source.error(None, problem)
+    };
+    if source.size() > LARGEST {
         return Err(damaged(too_large()));
     }
     let sheets = book.sheets().map_err(damaged)?;
@@ -46,16 +54,12 @@ pub(super) fn table(
         None => sheets.first(),
     };
     let Some((name, part)) = wanted else {
-        let names = sheets.into_iter().map(|(name, _)| name).collect();
+        let names = sheets.iter().map(|(name, _)| &**name);
         let got = reading.member.as_deref().unwrap_or_default();
-        return Err(source.error(None, RecordingProblem::unknown_member(got, names)));
+        return Err(source.error(None, RecordingProblem::unknown("sheet", got, names)));
     };
     let text = book.text(part).map_err(damaged)?;
     Ok(source.converted(text, Some(name), 0))
-}
-
-fn too_large() -> String {
-    "is too large".to_owned()
 }
 
 struct Book<'a> {
@@ -76,7 +80,7 @@ impl Book<'_> {
     ) -> Result<(), String> {
         let member = self.members.iter().find(|member| member.name == part);
         let member = member.ok_or_else(|| format!("there is no part {part}"))?;
-        let text = (self.source.with_member(member.clone()))
+        let text = (self.source.with_member(member))
             .and_then(|source| source.text())
             .map_err(|error| error.to_string())?;
         xml::read(text, take).map_err(|error| format!("{part}: {error}"))
@@ -164,29 +168,43 @@ impl Book<'_> {
     /// out, since people calculate beside their readings.
     fn text(&self, part: &str) -> Result<Vec<u8>, String> {
         let (shared, dates) = (self.shared()?, self.dates()?);
-        let (mut table, mut words) = (Table::default(), Words::default());
-        let mut cell = Cell::default();
+        let (mut table, mut words) = (TextTable::default(), Words::default());
+        let (mut cell, mut widest) = (Cell::default(), None);
         self.read(part, |piece| {
             words.take(&piece);
+            let (row, column) = table.next();
             match piece {
-                Piece::Start("row", tag) => table.begin_row(number(tag, "r")?),
-                Piece::End("row") => table.end_row(),
+                Piece::Start("row", tag) => match number(tag, "r")?.unwrap_or(row) {
+                    row @ ..=MOST_ROWS => table.begin_row(row)?,
+                    _ => return Err(TOO_MANY.to_owned()),
+                },
+                Piece::End("row") => {
+                    if column > 1 && widest.is_none() {
+                        widest = Some(column);
+                    }
+                    table.end_row(widest.unwrap_or(0));
+                }
                 Piece::Start("c", tag) => {
                     words.end();
                     cell = Cell::of(tag, &dates)?;
-                    Ok(())
                 }
-                Piece::End("c") => table.cell(cell.column, &cell.value(words.end(), &shared)?),
-                _ => Ok(()),
+                Piece::End("c") => {
+                    let column = cell.column.unwrap_or(column);
+                    if column < widest.unwrap_or(MOST_COLUMNS) {
+                        table.cell(column, &cell.value(words.end(), &shared)?)?;
+                    }
+                }
+                _ => {}
             }
+            Ok(())
         })?;
-        Ok(table.text)
+        Ok(table.into_text())
     }
 }
 
 fn push<T>(list: &mut Vec<T>, item: T) -> Result<(), String> {
     if list.len() == MOST_ROWS {
-        return Err(too_large());
+        return Err(TOO_MANY.to_owned());
     }
     list.push(item);
     Ok(())
@@ -235,12 +253,7 @@ impl Words {
             Piece::Start("rPh", _) => self.is_hint = true,
             Piece::End("rPh") => self.is_hint = false,
             Piece::Text("t" | "v", text) if !self.is_hint => {
-                let left = MOST_LETTERS - self.text.chars().count();
-                self.text.extend(
-                    text.chars()
-                        .take(left)
-                        .map(|c| if c.is_control() || c == '"' { ' ' } else { c }),
-                );
+                self.text.push_str(text);
             }
             _ => {}
         }
@@ -295,65 +308,5 @@ impl Cell {
             },
             _ => words,
         })
-    }
-}
-
-/// The text as it is made.
-#[derive(Default)]
-struct Table {
-    text: Vec<u8>,
-    /// Lines before this one, and cells in it.
-    row: usize,
-    column: usize,
-    widest: Option<usize>,
-}
-
-impl Table {
-    fn begin_row(&mut self, number: Option<usize>) -> Result<(), String> {
-        let number = number.unwrap_or(self.row + 1);
-        let blank = number.checked_sub(self.row + 1);
-        let blank =
-            blank.ok_or_else(|| format!("row {number} must stand after row {}", self.row))?;
-        if number > MOST_ROWS || self.text.len() > LARGEST.1 {
-            return Err(too_large());
-        }
-        self.text.resize(self.text.len() + blank, b'\n');
-        self.row += blank;
-        self.column = 0;
-        Ok(())
-    }
-
-    fn cell(&mut self, column: Option<usize>, words: &str) -> Result<(), String> {
-        let column = column.unwrap_or(self.column);
-        if column >= self.widest.unwrap_or(MOST_COLUMNS) {
-            return Ok(());
-        }
-        if column < self.column {
-            return Err(format!(
-                "the cells of row {} must stand in order",
-                self.row + 1
-            ));
-        }
-        self.tabs_to(column);
-        self.text.extend(words.as_bytes());
-        self.column = column + 1;
-        Ok(())
-    }
-
-    fn end_row(&mut self) -> Result<(), String> {
-        if self.column > 1 && self.widest.is_none() {
-            self.widest = Some(self.column);
-        }
-        if let (Some(widest), 1..) = (self.widest, self.column) {
-            self.tabs_to(widest - 1);
-        }
-        self.text.push(b'\n');
-        self.row += 1;
-        Ok(())
-    }
-
-    fn tabs_to(&mut self, column: usize) {
-        let tabs = column + 1 - self.column.max(1);
-        self.text.resize(self.text.len() + tabs, b'\t');
     }
 }

@@ -21,10 +21,10 @@ pub(super) type Text = Box<dyn BufRead + Send>;
 /// Bytes that can be opened.
 #[derive(Clone, Debug)]
 pub(super) struct Source {
-    name: Arc<str>,
+    name: String,
     bytes: Bytes,
     member: Option<Member>,
-    /// The sheet or the sensor that was converted.
+    /// The member, or the sheet or the sensor that was converted.
     part: Option<String>,
     /// Lines of the text that the file does not have.
     added_lines: u64,
@@ -63,29 +63,28 @@ impl Source {
     /// # Errors
     /// If there is no such file, or it cannot be read twice.
     pub fn file(path: &Path) -> Result<Self, RecordingError> {
-        let name = path.display().to_string();
-        let refused = |problem| RecordingError::new(&name, None, problem);
-        let unreadable = |error| refused(RecordingProblem::Unreadable(error));
-        let metadata = fs::metadata(path).map_err(unreadable)?;
-        match () {
-            () if metadata.is_dir() => Err(refused(RecordingProblem::NotAFile("a directory"))),
-            () if !metadata.is_file() => {
-                Err(refused(RecordingProblem::NotAFile("a pipe or a device")))
-            }
-            () => Ok(Self {
-                name: name.into(),
-                bytes: Bytes::File(path.to_owned()),
-                member: None,
-                part: None,
-                added_lines: 0,
-            }),
+        let source = Self::new(path.display().to_string(), Bytes::File(path.to_owned()));
+        let metadata = fs::metadata(path).map_err(|error| source.error(None, error.into()))?;
+        if metadata.is_file() {
+            return Ok(source);
         }
+        let got = if metadata.is_dir() {
+            "a directory"
+        } else {
+            "a pipe or a device"
+        };
+        let remedy = "a stream of readings is for `liftsim monitor`";
+        Err(source.error(None, RecordingProblem::must("must be a file", got, remedy)))
     }
 
     pub fn memory(name: &str, bytes: Arc<[u8]>) -> Self {
+        Self::new(name.to_owned(), Bytes::Memory(bytes))
+    }
+
+    fn new(name: String, bytes: Bytes) -> Self {
         Self {
-            name: name.into(),
-            bytes: Bytes::Memory(bytes),
+            name,
+            bytes,
             member: None,
             part: None,
             added_lines: 0,
@@ -94,14 +93,36 @@ impl Source {
 
     /// The same, converted into a table with so many lines above the first of the file.
     pub fn converted(&self, table: Vec<u8>, part: Option<&str>, added_lines: u64) -> Self {
-        let name = part.map_or(self.name.to_string(), |part| {
-            format!("{}:{part}", self.name)
-        });
+        let part = part.map(str::to_owned);
+        let name = part
+            .iter()
+            .fold(self.name.clone(), |name, part| format!("{name}:{part}"));
         Self {
             added_lines,
-            part: part.map(str::to_owned),
-            ..Self::memory(&name, table.into())
+            part: part.or(self.part.clone()),
+            ..Self::new(name, Bytes::Memory(table.into()))
         }
+    }
+
+    /// The same file, read at one of its members.
+    ///
+    /// # Errors
+    /// If it cannot be unpacked.
+    pub fn with_member(&self, member: &Member) -> Result<Self, RecordingError> {
+        let name = &member.name;
+        if member.packing == Packing::Unknown {
+            let problem = RecordingProblem::Damaged {
+                what: "zip archive",
+                error: format!("{name} is encrypted, or packed by another method than deflate"),
+                remedy: "unpack it",
+            };
+            return Err(self.error(None, problem));
+        }
+        Ok(Self {
+            member: Some(member.clone()),
+            part: Some(name.clone()),
+            ..Self::new(format!("{}:{name}", self.name), self.bytes.clone())
+        })
     }
 
     /// The size of its text, bytes.
@@ -113,40 +134,24 @@ impl Source {
         }
     }
 
-    /// The same file, read at one of its members.
-    ///
-    /// # Errors
-    /// If it cannot be unpacked.
-    pub fn with_member(&self, member: Member) -> Result<Self, RecordingError> {
-        if member.packing == Packing::Unknown {
-            return Err(self.error(None, RecordingProblem::Packing(member.name)));
-        }
-        Ok(Self {
-            name: format!("{}:{}", self.name, member.name).into(),
-            bytes: self.bytes.clone(),
-            member: Some(member),
-            part: None,
-            added_lines: 0,
-        })
-    }
-
     /// The name in messages.
     pub fn name(&self) -> &str {
         &self.name
     }
 
     /// The member, the sheet or the sensor that is read.
-    pub fn member(&self) -> Option<&str> {
-        let member = self.member.as_ref().map(|member| member.name.as_str());
-        member.or(self.part.as_deref())
+    pub fn part(&self) -> Option<&str> {
+        self.part.as_deref()
     }
 
     /// An error of this source, in a line if one is given.
     pub fn error(&self, line: Option<u64>, problem: RecordingProblem) -> RecordingError {
-        let line = line
-            .and_then(|line| line.checked_sub(self.added_lines))
-            .filter(|line| *line > 0);
-        RecordingError::new(&self.name, line, problem)
+        let line = line.and_then(|line| line.checked_sub(self.added_lines));
+        RecordingError {
+            file: self.name.clone(),
+            line: line.filter(|line| *line > 0),
+            problem: Box::new(problem),
+        }
     }
 
     /// Its bytes, which may be packed.
@@ -154,7 +159,7 @@ impl Source {
         match &self.bytes {
             Bytes::File(path) => match File::open(path) {
                 Ok(file) => Ok(Box::new(file)),
-                Err(error) => Err(self.error(None, RecordingProblem::Unreadable(error))),
+                Err(error) => Err(self.error(None, error.into())),
             },
             Bytes::Memory(bytes) => Ok(Box::new(Cursor::new(bytes.clone()))),
         }
@@ -168,7 +173,7 @@ impl Source {
         };
         bytes
             .seek(SeekFrom::Start(member.start))
-            .map_err(|error| self.error(None, RecordingProblem::Unreadable(error)))?;
+            .map_err(|error| self.error(None, error.into()))?;
         let packed = BufReader::with_capacity(BUFFER, bytes).take(member.packed);
         let checksum = member.checksum;
         Ok(if member.packing == Packing::Deflated {

@@ -1,6 +1,6 @@
 //! Units of time and of acceleration.
 
-use super::unknown_name::UnknownName;
+use super::axis::UnknownName;
 use std::fmt;
 use std::str::FromStr;
 
@@ -17,49 +17,42 @@ pub enum TimeUnit {
     Nanoseconds,
 }
 
-impl FromStr for TimeUnit {
-    type Err = UnknownName;
-
-    fn from_str(name: &str) -> Result<Self, UnknownName> {
-        match name.trim().to_lowercase().as_str() {
-            "s" | "sec" | "secs" | "second" | "seconds" => Ok(Self::Seconds),
-            "ms" | "msec" | "millis" | "milliseconds" => Ok(Self::Milliseconds),
-            "us" | "\u{b5}s" | "\u{3bc}s" | "micros" | "microseconds" => Ok(Self::Microseconds),
-            "ns" | "nanos" | "nanoseconds" => Ok(Self::Nanoseconds),
-            _ => Err(UnknownName::new("s, ms, us or ns", name)),
-        }
-    }
-}
-
 impl TimeUnit {
-    /// From the coarsest to the finest.
-    pub(super) const ALL: [Self; 4] = [
-        Self::Seconds,
-        Self::Milliseconds,
-        Self::Microseconds,
-        Self::Nanoseconds,
+    /// From the coarsest to the finest, with their names, the shown one first.
+    pub(super) const NAMES: [(Self, &[&str]); 4] = [
+        (Self::Seconds, &["s", "sec", "secs", "second", "seconds"]),
+        (
+            Self::Milliseconds,
+            &["ms", "msec", "millis", "milliseconds"],
+        ),
+        (
+            Self::Microseconds,
+            &["us", "\u{b5}s", "\u{3bc}s", "micros", "microseconds"],
+        ),
+        (Self::Nanoseconds, &["ns", "nanos", "nanoseconds"]),
     ];
 
     /// The number of units in a second. Dividing by it turns 20 ms into the double nearest to 0.02 s, which
     /// multiplying by 0.001 would not.
     pub(super) fn per_second(self) -> f64 {
-        match self {
-            Self::Seconds => 1.0,
-            Self::Milliseconds => 1e3,
-            Self::Microseconds => 1e6,
-            Self::Nanoseconds => 1e9,
-        }
+        [1.0, 1e3, 1e6, 1e9][self as usize]
+    }
+}
+
+impl FromStr for TimeUnit {
+    type Err = UnknownName;
+
+    fn from_str(name: &str) -> Result<Self, UnknownName> {
+        let wanted = name.trim().to_lowercase();
+        let found = (Self::NAMES.iter()).find(|(_, names)| names.contains(&&*wanted));
+        let unknown = || UnknownName::new("s, ms, us or ns", name);
+        found.map(|(unit, _)| *unit).ok_or_else(unknown)
     }
 }
 
 impl fmt::Display for TimeUnit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Seconds => "s",
-            Self::Milliseconds => "ms",
-            Self::Microseconds => "us",
-            Self::Nanoseconds => "ns",
-        })
+        f.write_str(Self::NAMES[*self as usize].1[0])
     }
 }
 
@@ -89,29 +82,20 @@ pub enum Unit {
 
 /// Why a unit was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "what a message says is not said again")]
 pub enum UnitError {
-    /// An unknown name.
     #[error("unit: {0}")]
     Name(UnknownName),
-    /// Counts without a scale.
     #[error("unit: counts need a scale (say how many m/s^2 one count is)")]
     NoScale,
     /// A scale or an offset for another unit than counts.
     #[error("{key}: is for counts alone, the unit is {unit} (leave one of them out)")]
-    NotCounts {
-        /// Scale or offset.
-        key: &'static str,
-        /// The unit given.
-        unit: Unit,
-    },
+    NotCounts { key: &'static str, unit: Unit },
     /// A scale or an offset out of range.
     #[error("unit: {key} must be {rule}, got {got}")]
     Counts {
-        /// Scale or offset.
         key: &'static str,
-        /// The rule for it.
         rule: &'static str,
-        /// The value given.
         got: f64,
     },
 }
@@ -137,26 +121,21 @@ impl Unit {
         offset: Option<f64>,
     ) -> Result<Option<Self>, UnitError> {
         let of_counts = scale.map(|_| "scale").or(offset.map(|_| "offset"));
-        let is_counts = |name: &str| name.trim().eq_ignore_ascii_case("counts");
-        match (name.filter(|name| !is_counts(name)), of_counts) {
-            (None, None) if name.is_none() => Ok(None),
-            (None, _) => {
-                let counts = Self::Counts {
-                    scale: scale.ok_or(UnitError::NoScale)?,
-                    offset: offset.unwrap_or(0.0),
-                };
-                counts.check().map(|()| Some(counts))
-            }
-            (Some(name), of_counts) => {
-                let known = "m/s^2, g, mg or counts";
-                let unknown = || UnitError::Name(UnknownName::new(known, name));
-                let unit = Self::from_name(name).ok_or_else(unknown)?;
-                match of_counts {
-                    Some(key) => Err(UnitError::NotCounts { key, unit }),
-                    None => Ok(Some(unit)),
-                }
-            }
+        let is_counts = |name: &&str| name.trim().eq_ignore_ascii_case("counts");
+        if let Some(name) = name.filter(|name| !is_counts(name)) {
+            let unknown = || UnitError::Name(UnknownName::new("m/s^2, g, mg or counts", name));
+            let unit = Self::from_name(name).ok_or_else(unknown)?;
+            return match of_counts {
+                Some(key) => Err(UnitError::NotCounts { key, unit }),
+                None => Ok(Some(unit)),
+            };
         }
+        if name.or(of_counts).is_none() {
+            return Ok(None);
+        }
+        let (scale, offset) = (scale.ok_or(UnitError::NoScale)?, offset.unwrap_or(0.0));
+        let counts = Self::Counts { scale, offset };
+        counts.check().map(|()| Some(counts))
     }
 
     /// The unit with this name: m/s^2, g or mg, in the usual spellings.
@@ -189,16 +168,14 @@ impl Unit {
         let Self::Counts { scale, offset } = self else {
             return Ok(());
         };
-        let refused = |key, rule, got| Err(UnitError::Counts { key, rule, got });
-        match () {
-            () if !(1e-12..=1e12).contains(&scale.abs()) => {
-                refused("scale", "between 1e-12 and 1e12 in size", scale)
-            }
-            () if offset.is_nan() || offset.abs() > 1e15 => {
-                refused("offset", "at most 1e15 in size", offset)
-            }
-            () => Ok(()),
-        }
+        let (key, rule, got) = if !(1e-12..=1e12).contains(&scale.abs()) {
+            ("scale", "between 1e-12 and 1e12 in size", scale)
+        } else if offset.is_nan() || offset.abs() > 1e15 {
+            ("offset", "at most 1e15 in size", offset)
+        } else {
+            return Ok(());
+        };
+        Err(UnitError::Counts { key, rule, got })
     }
 }
 
@@ -209,10 +186,15 @@ impl fmt::Display for Unit {
             Self::Gravity => f.write_str("g"),
             Self::Milligravity => f.write_str("mg"),
             Self::Counts { scale, offset } => {
+                let [scale, offset] = [scale, offset].map(|number| six_digits(*number));
                 write!(f, "counts of {scale} m/s^2, zero at {offset}")
             }
         }
     }
+}
+
+fn six_digits(number: f64) -> f64 {
+    format!("{number:.5e}").parse().unwrap_or(number)
 }
 
 #[cfg(test)]
@@ -228,6 +210,11 @@ mod tests {
             offset: 2048.0,
         };
         assert_eq!(counts.convert(2046.0), 1.0);
+        let counts = Unit::Counts {
+            scale: GRAVITY / 16384.0,
+            offset: 0.0,
+        };
+        assert_eq!(counts.to_string(), "counts of 0.00059855 m/s^2, zero at 0");
         assert_eq!(20.0 / TimeUnit::Milliseconds.per_second(), 0.02);
     }
 

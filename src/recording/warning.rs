@@ -1,12 +1,11 @@
 //! Warnings about the quality of a recording, and about what was assumed in reading it.
 
 use super::facts::{Facts, Gap};
-use super::layout::Layout;
 use super::names::Role;
 use super::spread::Repeats;
-use super::table::Skipped;
+use super::table::Columns;
 use super::unit::Unit;
-use super::vertical::{Direction, Reason, Vertical};
+use super::vertical::{Reason, Vertical};
 
 /// A warning about the quality of a recording, or about an assumption.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -107,78 +106,80 @@ const TILTED: f64 = 25.0;
 /// A mean that no recording of a lift has, m/s²: twice gravity.
 pub(super) const BEYOND_GRAVITY: f64 = 20.0;
 
-/// The warnings about a table and its rows.
-pub(super) fn of_rows(
-    layout: &Layout,
-    skipped: &Skipped,
-    wraps: u64,
-    repeats: Repeats,
-    samples: u64,
-) -> Vec<Warning> {
-    let nameless = match (layout.is_guessed, layout.time) {
-        (true, Some(_)) => Some("time, x, y and z"),
-        (true, None) => Some("x, y and z"),
-        _ => None,
-    };
-    let mut columns = layout
+/// The warnings about a table and its rows, of which `samples` were not blank.
+pub(super) fn of_rows(columns: &Columns, repeats: Repeats, samples: u64) -> Vec<Warning> {
+    let (layout, skipped) = (&columns.parser.layout, &columns.skipped);
+    let mut warnings = Vec::new();
+    if layout.is_guessed {
+        warnings.push(Warning::NoNames(if layout.time.is_some() {
+            "time, x, y and z"
+        } else {
+            "x, y and z"
+        }));
+    }
+    let mut read = layout
         .axes
         .iter()
         .map(|(_, column)| &layout.columns[*column]);
-    let magnitude = columns.find(|column| column.role == Role::Magnitude);
-    let repeated = match (repeats, skipped.first_repeat) {
-        (Repeats::LeftOut(count @ 1..), Some(line)) => Some(Warning::RepeatedTimes { count, line }),
-        (Repeats::Spread(rows), _) => Some(Warning::Spread { rows }),
-        _ => None,
-    };
-    let count = skipped.blank;
-    [
-        nameless.map(Warning::NoNames),
-        magnitude.map(|column| Warning::Magnitude(column.name.clone())),
-        repeated,
-        (wraps > 0).then_some(Warning::Wrapped(wraps)),
-        (count > 0).then_some(Warning::BlankRows { count, samples }),
-        (skipped.missing > 0).then_some(Warning::MissingRows(skipped.missing)),
-        skipped.cut.map(|line| Warning::CutOff { line }),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+    let magnitude = read.find(|column| column.role == Role::Magnitude);
+    warnings.extend(magnitude.map(|column| Warning::Magnitude(column.name.clone())));
+    match (repeats, skipped.first_repeat) {
+        (Repeats::LeftOut(count @ 1..), Some(line)) => {
+            warnings.push(Warning::RepeatedTimes { count, line });
+        }
+        (Repeats::Spread(rows), _) => warnings.push(Warning::Spread { rows }),
+        _ => {}
+    }
+    if columns.parser.clock.wraps > 0 {
+        warnings.push(Warning::Wrapped(columns.parser.clock.wraps));
+    }
+    if skipped.blank > 0 {
+        let count = skipped.blank;
+        warnings.push(Warning::BlankRows { count, samples });
+    }
+    if skipped.missing > 0 {
+        warnings.push(Warning::MissingRows(skipped.missing));
+    }
+    warnings.extend(skipped.cut.map(|line| Warning::CutOff { line }));
+    warnings
 }
 
 /// The warnings about the vertical and the signal.
 pub(super) fn of_signal(facts: &Facts, vertical: &Vertical, is_reversed: bool) -> Vec<Warning> {
-    let tilt = match (&vertical.direction, vertical.reason) {
-        (Direction::Along { .. }, Reason::Gravity { from, .. }) if from > TILTED => Some(from),
-        _ => None,
-    };
+    let mut warnings = Vec::new();
     let is_turned = matches!(vertical.reason, Reason::Gravity { turned, .. } if turned > 0.0);
-    let is_doubtful = is_reversed || is_turned || vertical.reason == Reason::Nothing;
-    let repeats = facts.repeats;
+    if is_reversed || is_turned || vertical.reason == Reason::Nothing {
+        warnings.push(Warning::Vertical(vertical.clone()));
+    }
+    match (vertical.column, vertical.reason) {
+        (Some(_), Reason::Gravity { from, .. }) if from > TILTED => {
+            warnings.push(Warning::Tilted(from));
+        }
+        _ => {}
+    }
+    if facts.mean.abs() > BEYOND_GRAVITY {
+        warnings.push(Warning::PerhapsCounts(facts.mean));
+    }
+    if facts.jitter > UNEVEN {
+        let jitter = facts.jitter;
+        warnings.push(Warning::Uneven { jitter });
+    }
+    if facts.gaps > 0 {
+        let (count, longest) = (facts.gaps, facts.longest_gap);
+        warnings.push(Warning::Gaps { count, longest });
+    }
+    warnings.extend(facts.saturated.map(|share| Warning::Saturated {
+        share,
+        least: facts.least,
+        greatest: facts.greatest,
+    }));
     // Samples at a limit are equal too, but for another reason.
-    let is_held = repeats - facts.saturated.unwrap_or(0.0) >= COARSE;
-    let held = is_held.then_some(match facts.quantum {
-        Some(quantum) => Warning::CoarseStep { quantum, repeats },
-        None => Warning::Held { repeats },
-    });
-    [
-        is_doubtful.then(|| Warning::Vertical(vertical.clone())),
-        tilt.map(Warning::Tilted),
-        (facts.mean.abs() > BEYOND_GRAVITY).then_some(Warning::PerhapsCounts(facts.mean)),
-        (facts.jitter > UNEVEN).then_some(Warning::Uneven {
-            jitter: facts.jitter,
-        }),
-        (facts.gaps > 0).then_some(Warning::Gaps {
-            count: facts.gaps,
-            longest: facts.longest_gap,
-        }),
-        facts.saturated.map(|share| Warning::Saturated {
-            share,
-            least: facts.least,
-            greatest: facts.greatest,
-        }),
-        held,
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+    let repeats = facts.repeats;
+    if repeats - facts.saturated.unwrap_or(0.0) >= COARSE {
+        warnings.push(match facts.quantum {
+            Some(quantum) => Warning::CoarseStep { quantum, repeats },
+            None => Warning::Held { repeats },
+        });
+    }
+    warnings
 }

@@ -45,7 +45,9 @@ fn members_are_named() {
     let members = [("a.csv", TABLE), ("b.csv", TABLE), ("notes.md", "# none")];
     let error = open_archive(&members).unwrap_err().to_string();
     assert!(
-        error.contains("\"a.csv\", \"b.csv\" are tables of accelerations"),
+        error.contains(
+            "several members are tables of accelerations: \"a.csv\", \"b.csv\" (--member NAME)"
+        ),
         "{error}"
     );
     let open = |member: &str| {

@@ -61,7 +61,7 @@ fn cells_stand_in_their_columns() {
     let recording = open_sheet(with("", ""), None).unwrap();
     let expected = [(0.01, -0.15), (0.02, 0.25), (0.03, 0.5)];
     assert_eq!(read(&recording), expected);
-    assert_eq!(recording.format(), Format::Phyphox);
+    assert_eq!(recording.format(), "phyphox");
     assert_eq!(recording.member(), Some("Lift & rope"));
     let names = recording.acceleration_columns();
     assert_eq!(names, ["Acceleration z (m/s²)"]);
@@ -90,9 +90,9 @@ fn a_sheet_is_named() {
     let error = open_sheet(with("", ""), Some("Lift"))
         .unwrap_err()
         .to_string();
-    assert!(error.contains("no member \"Lift\""), "{error}");
+    assert!(error.contains("no sheet \"Lift\""), "{error}");
     assert!(
-        error.contains("(it holds \"Lift & rope\", \"Notes\")"),
+        error.contains("(there are \"Lift & rope\", \"Notes\")"),
         "{error}"
     );
     let error = open_sheet(with("", ""), Some("Notes"))
@@ -120,7 +120,7 @@ fn damage_is_refused() {
         ),
         ("<row r=\"0\"/>", "row 0 must stand after row 0"),
         ("<row r=\"x\"/>", "r=\"x\" is no number"),
-        ("<row r=\"1048577\"/>", "is too large"),
+        ("<row r=\"1048577\"/>", "at most 1048576 rows"),
         ("<row r=3/>", "attribute"),
         (&row("<c><v>&bomb;</v></c>"), "has an unknown entity &bomb;"),
         (&deep, "is nested more than 64 deep"),
@@ -136,11 +136,11 @@ fn damage_is_refused() {
     }
     let error = refused_part("xl/sharedStrings.xml", &texts);
     assert!(
-        error.contains("xl/sharedStrings.xml: is too large"),
+        error.contains("xl/sharedStrings.xml: must have at most 1048576 rows and texts"),
         "{error}"
     );
     let error = refused_part("xl/workbook.xml", "<workbook/>");
-    assert!(error.contains("no member \"\" (it holds none)"), "{error}");
+    assert!(error.contains("no sheet \"\" (there are none)"), "{error}");
 }
 
 #[test]
