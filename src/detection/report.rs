@@ -168,7 +168,11 @@ fn cell(value: &Value) -> String {
 impl Detection {
     /// The share of the time in which something that is no ride moves the sensor.
     fn shaken(&self) -> f64 {
-        let moved: f64 = self.events.iter().map(|event| event.to - event.from).sum();
+        let shakes = self
+            .events
+            .iter()
+            .filter(|event| matches!(event.what, What::Shock | What::Swing));
+        let moved: f64 = shakes.map(|event| event.to - event.from).sum();
         let columns = self.trace.columns();
         let ends = columns.first().zip(columns.last());
         ends.map_or(0.0, |(first, last)| moved / (last.times.1 - first.times.0))
