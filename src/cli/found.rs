@@ -150,7 +150,7 @@ fn undecided(stretches: &[Undecided]) -> String {
             it.log_odds
         )
     };
-    stretches.iter().map(told).collect()
+    stretches.iter().take(MOST_TIMES).map(told).collect()
 }
 
 fn briefly(trips: &[Brief]) -> String {

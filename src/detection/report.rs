@@ -90,6 +90,8 @@ pub enum Warning {
         to: f64,
         least: f64,
     },
+    #[error("{0} more stretches are undecided (--json lists them)")]
+    MoreUndecided(usize),
     #[error("from {from:.1} to {to:.1} s the record does not decide{remedy}")]
     Undecided {
         from: f64,
@@ -192,11 +194,16 @@ impl Detection {
             to: event.to,
             least: self.design.settings.monitor.least_speed,
         });
-        let undecided = self.undecided.iter().map(|it| Warning::Undecided {
-            from: it.from,
-            to: it.to,
-            remedy: it.remedy(),
-        });
+        let more = self.undecided.len().saturating_sub(MOST_SAID);
+        let undecided = self
+            .undecided
+            .iter()
+            .take(MOST_SAID)
+            .map(|it| Warning::Undecided {
+                from: it.from,
+                to: it.to,
+                remedy: it.remedy(),
+            });
         [
             self.high_pass.map(Warning::HighPass),
             ((rate / learnt - 1.0).abs() > 0.05).then_some(Warning::Rate { learnt, got: rate }),
@@ -210,9 +217,13 @@ impl Detection {
         .flatten()
         .chain(slow)
         .chain(undecided)
+        .chain((more > 0).then_some(Warning::MoreUndecided(more)))
         .collect()
     }
 }
+
+/// The most undecided stretches that are warned of one by one.
+const MOST_SAID: usize = 8;
 
 /// A record shaken for a larger share of the time shows little.
 const MOST_SHAKEN: f64 = 0.5;

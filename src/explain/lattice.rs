@@ -99,9 +99,8 @@ impl Lattice {
             moving: vec![(f64::INFINITY, None); pulses.len() + sections.len()],
             sections,
         };
-        for index in 0..lattice.sections.len() {
+        for (index, &(_, begin, end)) in stretches.iter().enumerate() {
             let section = lattice.sections[index].clone();
-            let (_, begin, end) = stretches[index];
             let stretch = Stretch::new(prior, &pulses[section.pulses.clone()], (begin, end));
             lattice.explain(&section, &stretch);
         }
