@@ -18,9 +18,9 @@ use std::process::ExitCode;
 ///
 /// RECORDING is a table as phyphox, Science Journal, Sensor Logger, Physics Toolbox, Xsens, Witmotion, Campbell
 /// loggers or an Arduino write it, or any with a column of times and one of acceleration; also in a zip archive,
-/// a workbook or JSON. What rest is like is learnt from the recording
-/// itself: the level, the whitening filter, and the sample X that every decision compares with. So
-/// there must be a few seconds of rest in it.
+/// a workbook or JSON. The record is explained as a whole: pulses of acceleration are a ride where their changes of
+/// speed sum to zero. Where two explanations are close the stretch is undecided, and both are printed. The whitening
+/// filter, and the sample X that every decision compares with, are learnt from the rest in the recording.
 ///
 /// Each decision keeps its level only if the whitened record at rest is exchangeable, and there are twenty a second.
 /// The result says how many decisions at rest were wrong in this recording.

@@ -60,7 +60,8 @@ impl Detection {
         let prior = Prior {
             least_speed: limits.least_speed,
             most_acceleration: limits.most_acceleration,
-            longest_motion: limits.longest_motion,
+            // A monitor must give up sooner than who has the whole record.
+            longest_motion: 4.0 * limits.longest_motion,
             begins_at_rest,
             ..Prior::default()
         };

@@ -82,7 +82,7 @@ pub enum Warning {
     Shaken(f64),
     #[error(
         "a motion of {speed:.2} m/s from {from:.1} to {to:.1} s is slower than a ride, {least} m/s \
-         (use --lift slow)"
+         (use --lift slow, or a lower --least-speed)"
     )]
     Slow {
         speed: f64,

@@ -56,6 +56,9 @@ pub struct Undecided {
     pub or: Vec<Brief>,
     /// How much likelier the first are: the logarithm of the odds.
     pub log_odds: f64,
+    /// Whether it begins with the record.
+    #[serde(skip)]
+    is_first: bool,
 }
 
 /// A trip in a few words.
@@ -94,7 +97,7 @@ pub enum What {
 pub(super) fn trips(explanation: &Explanation, decisions: &Decisions) -> Vec<Trip> {
     let doubted = |trip: &&explain::Trip| {
         let mut doubts = explanation.doubts.iter();
-        doubts.any(|doubt| doubt.trips.contains(trip) && other(doubt, trip).is_none())
+        doubts.any(|doubt| doubt.trips.contains(trip) && has_others(doubt))
     };
     let decided = explanation
         .reading
@@ -143,18 +146,19 @@ fn other<'a>(doubt: &'a Doubt, trip: &explain::Trip) -> Option<&'a explain::Trip
     doubt.instead.iter().find(|other| trip.is_like(other))
 }
 
+/// Whether the two explanations differ in more than one end of each trip.
+fn has_others(doubt: &Doubt) -> bool {
+    let is_new = |trip: &explain::Trip| !doubt.trips.iter().any(|other| other.is_like(trip));
+    doubt.trips.iter().any(|trip| other(doubt, trip).is_none()) || doubt.instead.iter().any(is_new)
+}
+
 /// The stretches that are not decided: where another explanation has other trips, and where a change of speed fits
 /// none.
 pub(super) fn undecided(explanation: &Explanation, prior: &Prior) -> Vec<Undecided> {
-    let has_others = |doubt: &&Doubt| {
-        let is_new = |trip: &explain::Trip| !doubt.trips.iter().any(|other| other.is_like(trip));
-        doubt.trips.iter().any(|trip| other(doubt, trip).is_none())
-            || doubt.instead.iter().any(is_new)
-    };
     let doubts = explanation
         .doubts
         .iter()
-        .filter(has_others)
+        .filter(|doubt| has_others(doubt))
         .map(|doubt| Undecided::of(explanation, doubt));
     let pushes = events(explanation, prior).into_iter();
     let pushes = pushes.filter(|it| it.what == What::Push && it.speed.abs() >= prior.least_speed);
@@ -164,6 +168,7 @@ pub(super) fn undecided(explanation: &Explanation, prior: &Prior) -> Vec<Undecid
         either: Vec::new(),
         or: Vec::new(),
         log_odds: 0.0,
+        is_first: false,
     });
     let mut undecided: Vec<Undecided> = doubts.chain(pushes).collect();
     undecided.sort_by(|a, b| a.from.total_cmp(&b.from));
@@ -195,7 +200,7 @@ impl Undecided {
             return " (record the whole ride, with rest before and after it)";
         }
         let begins = |trips: &[Brief]| trips.iter().any(|trip| trip.start.is_none());
-        if begins(&self.either) != begins(&self.or) {
+        if self.is_first && begins(&self.either) != begins(&self.or) {
             " (say how the record begins: --begins rest or --begins motion)"
         } else {
             " (record a few seconds of rest before and after the ride)"
@@ -218,6 +223,7 @@ impl Undecided {
             either: brief(&doubt.trips),
             or: brief(&doubt.instead),
             log_odds: doubt.margin,
+            is_first: place.start == 0,
         }
     }
 }
@@ -261,7 +267,7 @@ pub(super) fn events(explanation: &Explanation, prior: &Prior) -> Vec<Event> {
             to: pulses[pulses.len() - 1].to,
             what: match pulses.len() {
                 _ if is_shock => What::Shock,
-                1 => What::Push,
+                1 if !pulses[0].is_swing => What::Push,
                 _ => What::Swing,
             },
             speed: pulses.iter().map(|pulse| pulse.change).sum(),

@@ -59,6 +59,9 @@ pub const RIPPLE: f64 = 0.1;
 /// A change of speed that is half of a swing.
 pub const HALF: f64 = 1.0;
 
+/// The most a long swing costs, whatever speed it seems to leave.
+const MOST_SWING: f64 = 6.0;
+
 /// The cage creeps to the landing: once, and for every second.
 pub const CREEP: f64 = 1.0;
 pub const CREEP_SECOND: f64 = 0.2;
@@ -109,6 +112,9 @@ impl Prior {
 
     /// A pulse that changes no speed: something else shook the sensor.
     pub fn ignored(&self, pulse: &Pulse) -> f64 {
+        if pulse.is_swing {
+            return self.disturbance(pulse.change).min(MOST_SWING);
+        }
         let ratio = pulse.change.abs() / self.least_speed;
         let cost = if ratio < 1.0 {
             0.2 + 3.8 * ratio * ratio

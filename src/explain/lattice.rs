@@ -400,6 +400,7 @@ mod tests {
                 change,
                 deviation: 0.01,
                 peak: 1.0,
+                is_swing: false,
             };
             let pulses: Vec<Pulse> = changes.into_iter().enumerate().map(pulse).collect();
             let middle = pulses.len() / 2;

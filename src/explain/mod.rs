@@ -32,6 +32,12 @@ pub use trips::Motion;
 /// A record is hardly ever at its level where more than this share of its windows is off it.
 const OFTEN: f64 = 0.25;
 
+/// Why an explanation of any number of pulses cannot fail.
+const ANY: &str = "any number of pulses is explained";
+
+/// A restored record with more than so many times the pulses is none.
+const MORE_PULSES: usize = 3;
+
 /// A filter is looked for in so much of a record before and after its first pulse, s.
 const BEFORE: f64 = 30.0;
 const TELLING: f64 = 300.0;
@@ -95,7 +101,7 @@ impl Explanation {
         let explained = match high_pass {
             None => plain,
             Some((time_constant, offset)) => {
-                Explained::restored(record, prior, time_constant, offset)
+                Explained::restored(record, prior, time_constant, offset, usize::MAX).expect(ANY)
             }
         };
         explained.finish(high_pass.map(|it| it.0), prior)
@@ -110,7 +116,8 @@ fn high_pass(record: &Cut, prior: &Prior) -> Option<(f64, f64)> {
         let pairs = offsets.iter().filter(|offset| offset.abs() < NO_LEVEL);
         let pairs = pairs.flat_map(|offset| time_constants.iter().map(move |it| (*it, *offset)));
         let costs = pairs.filter_map(|(time_constant, offset)| {
-            let restored = Explained::restored(record, prior, time_constant, offset);
+            let most = MORE_PULSES * (plain.pulses.len() + 10);
+            let restored = Explained::restored(record, prior, time_constant, offset, most)?;
             let is_better = restored.cost() + HIGH_PASS < plain.cost()
                 && restored.lattice.cost() + SIMPLER < plain.lattice.cost()
                 && restored.has_whole_trip(prior);
@@ -136,12 +143,12 @@ struct Explained {
 impl Explained {
     /// As it is. Where the record is hardly ever at its level, the level may be its mean.
     fn plain(record: &Cut, prior: &Prior) -> Self {
-        let plain = Self::of(record.clone(), prior, 0.0);
+        let plain = Self::of(record.clone(), prior, 0.0, usize::MAX).expect(ANY);
         let windows = record.blocks.len() as f64 / record.blocks_in(0.5) as f64;
         if plain.levelled.level.cost < OFTEN * windows {
             return plain;
         }
-        let pulled = Self::of(record.clone(), prior, 1.0);
+        let pulled = Self::of(record.clone(), prior, 1.0, usize::MAX).expect(ANY);
         if pulled.cost() < plain.cost() {
             pulled
         } else {
@@ -150,16 +157,19 @@ impl Explained {
     }
 
     /// With a high-pass filter undone.
-    fn restored(record: &Cut, prior: &Prior, time_constant: f64, offset: f64) -> Self {
+    fn restored(
+        record: &Cut,
+        prior: &Prior,
+        time_constant: f64,
+        offset: f64,
+        most: usize,
+    ) -> Option<Self> {
         let prior = Prior {
             gain_error: RESTORED_ERROR,
             ..*prior
         };
-        Self::of(
-            restore::restored(record, time_constant, offset),
-            &prior,
-            0.0,
-        )
+        let cut = restore::restored(record, time_constant, offset);
+        Self::of(cut, &prior, 0.0, most)
     }
 
     /// The first minutes in which pulses show, long enough to tell whether there is a filter.
@@ -178,10 +188,14 @@ impl Explained {
         })
     }
 
-    fn of(cut: Cut, prior: &Prior, pull: f64) -> Self {
+    /// Nothing if it has more pulses than `most`.
+    fn of(cut: Cut, prior: &Prior, pull: f64, most: usize) -> Option<Self> {
         let level = Level::of(&cut, pull);
         let levelled = Levelled { cut, level };
         let pulses = levelled.pulses(prior.most_acceleration);
+        if pulses.len() > most {
+            return None;
+        }
         let blocks = &levelled.cut.blocks;
         let mut from = 0;
         let stretches = levelled.cut.ends.iter().map(|&end| {
@@ -195,12 +209,12 @@ impl Explained {
         if stretches.is_empty() {
             stretches.push((0, 0.0, 0.0));
         }
-        Self {
+        Some(Self {
             lattice: Lattice::new(prior, &pulses, &stretches),
             levelled,
             pulses,
             stretches,
-        }
+        })
     }
 
     fn cost(&self) -> f64 {

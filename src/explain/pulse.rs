@@ -13,6 +13,13 @@ const FOOT: f64 = 0.3;
 /// A pulse shorter than this that touches a shock is part of it, s.
 const SHORT: f64 = 1.0;
 
+/// A swing has so many pulses at least, with pauses no longer than this and each no longer than this, s; what is
+/// shorter carries the sensor no farther than this, m.
+const LEAST_IN_SWING: usize = 5;
+const PAUSE: f64 = 0.4;
+pub const LONGEST_SWING: f64 = 1.3;
+pub const FARTHEST_SWING: f64 = 0.5;
+
 /// The smallest change of speed, m/s, and in deviations of what noise adds up to.
 const LEAST_CHANGE: f64 = 0.015;
 const LEAST_DEVIATIONS: f64 = 5.0;
@@ -39,6 +46,8 @@ pub struct Pulse {
     pub deviation: f64,
     /// The largest distance of a block from the level, m/s².
     pub peak: f64,
+    /// Whether it is a long swing to and fro.
+    pub is_swing: bool,
 }
 
 /// The noise of a record around its level.
@@ -137,7 +146,45 @@ impl Levelled {
             }
             from = to;
         }
-        self.joined(pulses, violent, noise.walk)
+        self.swings(self.joined(pulses, violent, noise.walk), noise.walk)
+    }
+
+    /// A long swing to and fro is one pulse: a rope that bounces, somebody who walks. Its pulses are short, follow each
+    /// other closely and turn each time.
+    fn swings(&self, pulses: Vec<Pulse>, walk: f64) -> Vec<Pulse> {
+        let mut swings: Vec<Pulse> = Vec::new();
+        let mut rest = &pulses[..];
+        while let Some(first) = rest.first() {
+            let count = self.swing(rest);
+            if count >= LEAST_IN_SWING {
+                let blocks = first.blocks.start..rest[count - 1].blocks.end;
+                swings.push(Pulse {
+                    is_swing: true,
+                    ..self.pulse(blocks, walk)
+                });
+                rest = &rest[count..];
+            } else {
+                swings.push(first.clone());
+                rest = &rest[1..];
+            }
+        }
+        swings
+    }
+
+    /// How many pulses from the first on are one swing.
+    fn swing(&self, pulses: &[Pulse]) -> usize {
+        let mut count = 0;
+        for (index, pulse) in pulses.iter().enumerate() {
+            let before = index.checked_sub(1).map(|before| &pulses[before]);
+            let pause = before.map_or(0.0, |before| pulse.from - before.to);
+            let length = pulse.to - pulse.from;
+            let turns = before.is_none_or(|before| before.change * pulse.change < 0.0);
+            if pause > PAUSE || length > LONGEST_SWING || !turns {
+                break;
+            }
+            count = index + 1;
+        }
+        count
     }
 
     /// A pulse with the blocks on either side that still have its sign.
@@ -181,6 +228,7 @@ impl Levelled {
             from,
             to,
             peak,
+            is_swing: false,
         }
     }
 

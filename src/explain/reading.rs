@@ -58,26 +58,35 @@ impl Reading {
     /// Puts the parts of an explanation together.
     pub fn of(record: &Record, parts: &[&Part]) -> Self {
         let mut reading = Self::default();
-        let mut is_joined = false;
-        let mut is_open = true;
+        // Whether the latest trip goes on across the hole after it.
+        let (mut goes_on, mut is_joined) = (false, false);
         for part in parts {
             match part {
-                Part::Other(pulses) => reading.others.push(pulses.clone()),
-                Part::Hole { moves_on } => {
-                    (is_joined, is_open) = (*moves_on, true);
-                    continue;
+                Part::Hole { moves_on } => is_joined = goes_on && *moves_on,
+                Part::Other(pulses) => {
+                    reading.others.push(pulses.clone());
+                    goes_on = false;
                 }
-                Part::Through(_) => {}
+                Part::Through(pulses) => {
+                    reading
+                        .others
+                        .extend(pulses.clone().map(|pulse| pulse..pulse + 1));
+                    goes_on = is_joined;
+                }
                 Part::Motion(motion) => {
+                    let unused = motion
+                        .pulses
+                        .clone()
+                        .filter(|pulse| !motion.changes.contains(pulse));
+                    reading.others.extend(unused.map(|pulse| pulse..pulse + 1));
                     let mut trips = record.trips(motion).into_iter();
-                    if let Some(last) = reading.trips.last_mut().filter(|_| is_joined && is_open) {
+                    if let Some(last) = reading.trips.last_mut().filter(|_| is_joined) {
                         trips.next().into_iter().for_each(|trip| last.join(trip));
                     }
                     reading.trips.extend(trips);
+                    (goes_on, is_joined) = (motion.is_open.1, false);
                 }
             }
-            is_joined = false;
-            is_open = false;
         }
         reading
     }
@@ -199,12 +208,12 @@ impl Record<'_> {
         let levels = slow.filter(|place| motion.is_open.1 || *place < motion.changes.len());
         Trip {
             is_up: motion.top > 0.0,
-            start: (!motion.is_open.0 && !self.touches_hole(first.blocks.start))
+            start: (!motion.is_open.0 && !self.is_cut_off(first, first.blocks.start))
                 .then(|| self.leaves_zero(first)),
             inertial: fast.checked_sub(1).map(|place| change(place).to),
             braking: slow.map(|place| change(place - 1).from),
             levelling: levels.map(|place| change(place - 1).to),
-            stop: (!motion.is_open.1 && !self.touches_hole(last.blocks.end))
+            stop: (!motion.is_open.1 && !self.is_cut_off(last, last.blocks.end))
                 .then(|| self.reaches_zero(last)),
             speed: top,
             closing: motion.speed,
@@ -225,9 +234,23 @@ impl Record<'_> {
         speeds
     }
 
-    /// Whether a pulse is cut off here by a hole. At an end of the record it is not: its trip comes to zero.
-    fn touches_hole(&self, block: usize) -> bool {
-        block < self.levelled.cut.blocks.len() && self.levelled.cut.ends.contains(&block)
+    /// Whether a pulse is cut off at this end of its blocks: by a hole, or by an end of the record at which it is strong.
+    fn is_cut_off(&self, pulse: &Pulse, block: usize) -> bool {
+        let count = self.levelled.cut.blocks.len();
+        let is_end = block == 0 || block == count;
+        let outermost = if block == 0 {
+            0..2.min(count)
+        } else {
+            block.saturating_sub(2)..block
+        };
+        let length = outermost.len() as f64 * self.levelled.cut.seconds;
+        let strength = self.levelled.change(outermost).abs() / length;
+        let mean = pulse.change.abs() / (pulse.to - pulse.from);
+        if is_end {
+            strength > 0.7 * mean
+        } else {
+            self.levelled.cut.ends.contains(&block)
+        }
     }
 
     /// When a pulse begins to move the cage.

@@ -5,7 +5,7 @@
 //! record are those of the reversed record that go on after its end: reversed, braking is a start.
 
 use super::cost::{self, Prior};
-use super::pulse::Pulse;
+use super::pulse::{FARTHEST_SWING, LONGEST_SWING, Pulse};
 use std::collections::VecDeque;
 use std::ops::Range;
 
@@ -15,18 +15,18 @@ const WIDTH: usize = 24;
 /// A motion costs at most this much more than the usual explanation before it is given up.
 const HOPELESS: f64 = 24.0;
 
+/// A motion is followed over so many pulses: one that is shaken more than that is left undecided.
+const MOST_FOLLOWED: usize = 120;
+
 /// A usual trip has fewer pulses than this.
 const SHORT_TRIP: usize = 8;
 
 /// The share of its top speed to which a motion that crept gains speed again.
 const RESTARTED: f64 = 0.3;
 
-/// The most pulses in a disturbance, the longest pause in it and the longest of its pulses, s, and how far it
-/// carries the sensor, m.
-const MOST_IN_DISTURBANCE: usize = 24;
+/// The most pulses in a disturbance, since longer ones are one pulse already, and the longest pause in it, s.
+const MOST_IN_DISTURBANCE: usize = 4;
 const LONGEST_PAUSE: f64 = 0.4;
-const LONGEST_SWING: f64 = 1.3;
-const FARTHEST_SWING: f64 = 0.5;
 
 /// A motion as one explanation of pulses.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,7 +103,7 @@ impl<'a> Stretch<'a> {
             change: pulse.change,
             variance: pulse.deviation * pulse.deviation,
             ignored: prior.ignored(pulse),
-            violent: if prior.is_violent(pulse) {
+            violent: if prior.is_violent(pulse) || pulse.is_swing {
                 cost::VIOLENT
             } else {
                 0.0
@@ -197,15 +197,11 @@ impl<'a> Stretch<'a> {
     /// The motions that begin with a pulse: those that end within the stretch, and those that go on.
     pub fn motions(&self, first: usize, take: &mut impl FnMut(Motion, bool)) {
         let most = |first: usize, pulse: usize| self.usual[pulse] - self.usual[first] + HOPELESS;
-        self.follow(
-            first,
-            self.pulses.len(),
-            most,
-            &mut |motion, last, is_open, changes| {
-                let cost = motion.cost;
-                take(self.motion(motion, first..last + 1, cost, changes), is_open);
-            },
-        );
+        let far = self.pulses.len().min(first + MOST_FOLLOWED);
+        self.follow(first, far, most, &mut |motion, last, is_open, changes| {
+            let cost = motion.cost;
+            take(self.motion(motion, first..last + 1, cost, changes), is_open);
+        });
     }
 
     /// Follows the motions that begin with a pulse over those before `far`, while they cost less than `most` of the first
@@ -246,12 +242,13 @@ impl<'a> Stretch<'a> {
                     let cost = motion.cost + cost;
                     wait(after, Progress { cost, ..motion });
                 }
-                let latest = changes.len();
-                changes.push((Some(motion.latest), pulse));
                 let disturbances = self.disturbances[pulse].iter().map(|it| it.0);
                 for after in [pulse + 1].into_iter().chain(disturbances) {
-                    let changed = self.changed(&motion, pulse..after);
-                    let changed = Progress { latest, ..changed };
+                    let mut changed = self.changed(&motion, pulse..after);
+                    for change in pulse..after {
+                        changes.push((Some(changed.latest), change));
+                        changed.latest = changes.len() - 1;
+                    }
                     take(
                         &self.closed(&changed, first, after - 1),
                         after - 1,
@@ -467,6 +464,7 @@ mod tests {
                     change,
                     deviation: 0.01,
                     peak: 1.0,
+                    is_swing: false,
                 }
             });
             pulses.collect()
