@@ -127,6 +127,11 @@ impl Trip {
 /// Speeds of both signs beyond this share of the highest are two trips.
 const TURN: f64 = 0.2;
 
+/// A pulse at an end of the record is cut off there if in the outermost seconds it has more than this share of its mean
+/// acceleration: it does not rise or fall.
+const OUTERMOST: f64 = 0.3;
+const STRONG: f64 = 0.7;
+
 /// The share of the highest speed at which a motion counts as uniform; below it, it levels.
 const FAST: f64 = 0.6;
 
@@ -208,12 +213,12 @@ impl Record<'_> {
         let levels = slow.filter(|place| motion.is_open.1 || *place < motion.changes.len());
         Trip {
             is_up: motion.top > 0.0,
-            start: (!motion.is_open.0 && !self.is_cut_off(first, first.blocks.start))
+            start: (!motion.is_open.0 && !self.is_cut_off(first, first.blocks.start, top))
                 .then(|| self.leaves_zero(first)),
             inertial: fast.checked_sub(1).map(|place| change(place).to),
             braking: slow.map(|place| change(place - 1).from),
             levelling: levels.map(|place| change(place - 1).to),
-            stop: (!motion.is_open.1 && !self.is_cut_off(last, last.blocks.end))
+            stop: (!motion.is_open.1 && !self.is_cut_off(last, last.blocks.end, top))
                 .then(|| self.reaches_zero(last)),
             speed: top,
             closing: motion.speed,
@@ -234,23 +239,24 @@ impl Record<'_> {
         speeds
     }
 
-    /// Whether a pulse is cut off at this end of its blocks: by a hole, or by an end of the record at which it is strong.
-    fn is_cut_off(&self, pulse: &Pulse, block: usize) -> bool {
-        let count = self.levelled.cut.blocks.len();
-        let is_end = block == 0 || block == count;
+    /// Whether a pulse is cut off at this end of its blocks: by a hole, or by an end of the record at which it is
+    /// strong, if it changes a good part of the highest speed.
+    fn is_cut_off(&self, pulse: &Pulse, block: usize, top: f64) -> bool {
+        let cut = &self.levelled.cut;
+        let reach = cut.blocks_in(OUTERMOST);
         let outermost = if block == 0 {
-            0..2.min(count)
+            0..reach.min(pulse.blocks.end)
+        } else if block == cut.blocks.len() {
+            block.saturating_sub(reach).max(pulse.blocks.start)..block
         } else {
-            block.saturating_sub(2)..block
+            return cut.ends.contains(&block);
         };
-        let length = outermost.len() as f64 * self.levelled.cut.seconds;
-        let strength = self.levelled.change(outermost).abs() / length;
-        let mean = pulse.change.abs() / (pulse.to - pulse.from);
-        if is_end {
-            strength > 0.7 * mean
-        } else {
-            self.levelled.cut.ends.contains(&block)
-        }
+        let seconds = outermost.len() as f64 * cut.seconds;
+        let strength = self.levelled.change(outermost) / seconds;
+        let is_stage = pulse.change.abs() > TURN * top;
+        is_stage
+            && strength * pulse.change.signum()
+                > STRONG * pulse.change.abs() / (pulse.to - pulse.from)
     }
 
     /// When a pulse begins to move the cage.
