@@ -39,14 +39,14 @@ impl<'a> Decisions<'a> {
         explanation: &'a Explanation,
         reference: Option<&'a Reference>,
     ) -> Self {
-        let levelled = &explanation.levelled;
-        let blocks = levelled.cut.blocks.iter().zip(&levelled.level.at);
+        let record = &explanation.record;
+        let blocks = record.cut.blocks.iter().zip(&record.level.at);
         let centred: Vec<f64> = blocks.map(|(block, level)| block.mean - level).collect();
         // Without a filter it is shown as it is.
         let mut whitened = centred.clone();
         if let Some(reference) = reference {
             let mut from = 0;
-            for &to in &levelled.cut.ends {
+            for &to in &record.cut.ends {
                 let part = &mut whitened[from..to];
                 whiten::whiten(&reference.coefficients, &centred[from..to], 0, part);
                 from = to;
@@ -89,14 +89,14 @@ impl<'a> Decisions<'a> {
     }
 
     fn decision(&self, shift: Range<usize>, scale: Range<usize>) -> Option<Decision> {
-        let ends = &self.explanation.levelled.cut.ends;
+        let ends = &self.explanation.record.cut.ends;
         let stretch = |block: usize| ends.partition_point(|end| *end <= block);
         let (first, last) = (shift.start.min(scale.start), shift.end.max(scale.end) - 1);
         if last >= self.whitened.len() || stretch(first) != stretch(last) {
             return None;
         }
         let verdict = self.verdict(&mut Decider::new(self.design), shift.clone(), scale.clone())?;
-        let blocks = &self.explanation.levelled.cut.blocks;
+        let blocks = &self.explanation.record.cut.blocks;
         let span = |range: Range<usize>| (blocks[range.start].from, blocks[range.end - 1].to);
         Some(verdict.decision(
             self.design,
@@ -142,7 +142,7 @@ impl<'a> Decisions<'a> {
         let Some(reference) = self.reference else {
             return false;
         };
-        let blocks = &self.explanation.levelled.cut.blocks;
+        let blocks = &self.explanation.record.cut.blocks;
         let mut shown = 0;
         for (from, to) in motions {
             let place = |time: f64| blocks.partition_point(|block| block.to <= time);

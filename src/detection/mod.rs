@@ -71,6 +71,7 @@ impl Detection {
         let reference = reference.or_else(|| rests.learn(&explanation, design));
         let decisions = Decisions::new(design, &explanation, reference.as_ref());
         let trips = trip::trips(&explanation, &decisions);
+        let events = trip::events(&explanation);
         let uniform = trips
             .iter()
             .filter_map(|trip| trip.inertial.zip(trip.braking));
@@ -81,16 +82,16 @@ impl Detection {
                 motion_shows: decisions.motion_shows(uniform),
                 reference: reference.clone(),
             },
-            events: trip::events(&explanation, &prior),
             high_pass: explanation.high_pass,
             trace: Trace::of(
-                &explanation.levelled.cut.blocks,
+                &explanation.record.cut.blocks,
                 decisions.whitened(),
                 &explanation.course(),
             ),
             design: design.clone(),
             trips,
-            undecided: trip::undecided(&explanation, &prior),
+            undecided: trip::undecided(&explanation, &events, prior.least_speed),
+            events,
         }
     }
 }

@@ -182,7 +182,7 @@ impl Detection {
 
     /// The warnings for a recording with this rate, Hz.
     pub fn warnings(&self, rate: f64) -> Vec<Warning> {
-        let learnt = self.design.rate;
+        let (learnt, shaken) = (self.design.rate, self.shaken());
         let level = self.knowledge.reference.as_ref().map(|rest| rest.level);
         let slow = self
             .events
@@ -211,7 +211,7 @@ impl Detection {
                 .filter(|level| !is_level_of_rest(*level))
                 .map(Warning::Level),
             level.is_none().then_some(Warning::NoRest),
-            Some(Warning::Shaken(100.0 * self.shaken())).filter(|_| self.shaken() > MOST_SHAKEN),
+            (shaken > MOST_SHAKEN).then_some(Warning::Shaken(100.0 * shaken)),
         ]
         .into_iter()
         .flatten()

@@ -13,7 +13,7 @@ pub(super) struct Rests(Vec<Range<usize>>);
 
 impl Rests {
     pub fn of(explanation: &Explanation) -> Self {
-        let cut = &explanation.levelled.cut;
+        let cut = &explanation.record.cut;
         let mut is_rest = vec![true; cut.blocks.len()];
         let margin = cut.blocks_in(MARGIN);
         let mut clear = |blocks: Range<usize>| {
@@ -28,7 +28,7 @@ impl Rests {
             clear(explanation.blocks_of(trip));
         }
         for pulses in &explanation.reading.others {
-            let pulses = &explanation.pulses[pulses.clone()];
+            let pulses = &explanation.record.pulses[pulses.clone()];
             clear(pulses[0].blocks.start..pulses[pulses.len() - 1].blocks.end);
         }
         let mut rests: Vec<Range<usize>> = Vec::new();
@@ -54,7 +54,7 @@ impl Rests {
     pub fn learn(&self, explanation: &Explanation, design: &Design) -> Option<Reference> {
         let long = |rest: &&Range<usize>| rest.len() > MOST_ORDER + 2;
         let stretches = self.0.iter().filter(long).map(|rest| {
-            let blocks = &explanation.levelled.cut.blocks[rest.clone()];
+            let blocks = &explanation.record.cut.blocks[rest.clone()];
             blocks.iter().map(|block| block.mean).collect()
         });
         let stretches: Vec<Vec<f64>> = stretches.collect();

@@ -4,7 +4,7 @@
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
 use super::decisions::Decisions;
-use crate::explain::{self, Doubt, Explanation, Prior};
+use crate::explain::{self, Doubt, Explanation};
 use crate::monitor::{Decision, Direction};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -115,7 +115,7 @@ pub(super) fn trips(explanation: &Explanation, decisions: &Decisions) -> Vec<Tri
             ends.flatten()
                 .find(|time| !explain::is_near(Some(*time), end(trip)))
         };
-        let pulse = |place: usize| &explanation.pulses[trip.changes[place]];
+        let pulse = |place: usize| &explanation.record.pulses[trip.changes[place]];
         Trip {
             ride,
             direction: direction(trip),
@@ -154,14 +154,18 @@ fn has_others(doubt: &Doubt) -> bool {
 
 /// The stretches that are not decided: where another explanation has other trips, and where a change of speed fits
 /// none.
-pub(super) fn undecided(explanation: &Explanation, prior: &Prior) -> Vec<Undecided> {
+pub(super) fn undecided(
+    explanation: &Explanation,
+    events: &[Event],
+    least_speed: f64,
+) -> Vec<Undecided> {
     let doubts = explanation
         .doubts
         .iter()
         .filter(|doubt| has_others(doubt))
         .map(|doubt| Undecided::of(explanation, doubt));
-    let pushes = events(explanation, prior).into_iter();
-    let pushes = pushes.filter(|it| it.what == What::Push && it.speed.abs() >= prior.least_speed);
+    let pushes = events.iter();
+    let pushes = pushes.filter(|it| it.what == What::Push && it.speed.abs() >= least_speed);
     let pushes = pushes.map(|event| Undecided {
         from: event.from,
         to: event.to,
@@ -178,7 +182,7 @@ pub(super) fn undecided(explanation: &Explanation, prior: &Prior) -> Vec<Undecid
 /// The change with the main braking: the first of those that end the motion.
 fn braking(trip: &explain::Trip, explanation: &Explanation) -> usize {
     let begins = |place: &usize| {
-        let pulse = &explanation.pulses[trip.changes[*place]];
+        let pulse = &explanation.record.pulses[trip.changes[*place]];
         trip.braking.is_some_and(|time| pulse.from >= time)
     };
     let last = trip.changes.len() - 1;
@@ -209,7 +213,7 @@ impl Undecided {
 
     fn of(explanation: &Explanation, doubt: &Doubt) -> Self {
         let brief = |trips: &[explain::Trip]| trips.iter().map(Brief::of).collect();
-        let blocks = &explanation.levelled.cut.blocks;
+        let blocks = &explanation.record.cut.blocks;
         let places = doubt
             .trips
             .iter()
@@ -240,9 +244,9 @@ impl Brief {
 }
 
 /// What the pulses are that belong to no trip.
-pub(super) fn events(explanation: &Explanation, prior: &Prior) -> Vec<Event> {
+pub(super) fn events(explanation: &Explanation) -> Vec<Event> {
     let slow = explanation.slow.iter().map(|trip| {
-        let pulses = &explanation.pulses[trip.pulses.clone()];
+        let pulses = &explanation.record.pulses[trip.pulses.clone()];
         Event {
             from: trip.start.unwrap_or(pulses[0].from),
             to: trip.stop.unwrap_or(pulses[pulses.len() - 1].to),
@@ -260,8 +264,8 @@ pub(super) fn events(explanation: &Explanation, prior: &Prior) -> Vec<Event> {
         .iter()
         .filter(|pulses| !is_slow(pulses));
     let others = others.map(|pulses| {
-        let pulses = &explanation.pulses[pulses.clone()];
-        let is_shock = pulses.iter().any(|pulse| prior.is_violent(pulse));
+        let pulses = &explanation.record.pulses[pulses.clone()];
+        let is_shock = pulses.iter().any(|pulse| pulse.is_violent);
         Event {
             from: pulses[0].from,
             to: pulses[pulses.len() - 1].to,

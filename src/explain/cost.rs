@@ -121,7 +121,7 @@ impl Prior {
         } else {
             (4.0 + 5.0 * (ratio - 1.0)).min(14.0)
         };
-        if self.is_violent(pulse) {
+        if pulse.is_violent {
             0.5 + cost / 4.0
         } else {
             cost
@@ -131,11 +131,6 @@ impl Prior {
     /// Pulses in a row that together leave this speed: a jump, a swing of the rope, a push.
     pub fn disturbance(&self, speed: f64) -> f64 {
         1.5 + 3.0 * (speed / self.least_speed).powi(2)
-    }
-
-    /// Whether it is stronger than any acceleration of a lift.
-    pub fn is_violent(&self, pulse: &Pulse) -> bool {
-        pulse.peak > self.most_acceleration
     }
 
     /// A motion that is too slow, too short or too fast for a trip.

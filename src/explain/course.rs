@@ -15,9 +15,9 @@ pub struct Place {
 impl Explanation {
     /// The blocks of a trip, to the ends of its stretch where it is open.
     pub fn blocks_of(&self, trip: &Trip) -> Range<usize> {
-        let cut = &self.levelled.cut;
-        let first = self.pulses[trip.pulses.start].blocks.start;
-        let last = self.pulses[trip.pulses.end - 1].blocks.end;
+        let cut = &self.record.cut;
+        let first = self.record.pulses[trip.pulses.start].blocks.start;
+        let last = self.record.pulses[trip.pulses.end - 1].blocks.end;
         let before = cut.ends.iter().copied().rfind(|end| *end <= first);
         let after = cut.ends.iter().copied().find(|end| *end >= last);
         let from = if trip.start.is_some() {
@@ -36,13 +36,13 @@ impl Explanation {
     /// The place of the cage at every block. What a trip's changes of speed do not sum to is taken off evenly; a trip
     /// that is open at its start is summed from its stop backwards.
     pub fn course(&self) -> Vec<Place> {
-        let blocks = &self.levelled.cut.blocks;
+        let blocks = &self.record.cut.blocks;
         let mut speeds = vec![0.0; blocks.len()];
         for trip in &self.reading.trips {
             let range = self.blocks_of(trip);
             let mut speed = 0.0;
             for block in range.clone() {
-                speed += self.levelled.change(block..block + 1);
+                speed += self.record.change(block..block + 1);
                 speeds[block] = speed;
             }
             let is_open = (trip.start.is_none(), trip.stop.is_none());

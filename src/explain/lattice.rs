@@ -6,8 +6,10 @@
 //! cheapest with the cage at rest or in motion at any time, follow from one sum forwards and one backwards.
 
 use super::cost::{self, Prior};
+use super::path::Paths;
 use super::pulse::Pulse;
-use super::trips::{Motion, Stretch};
+use super::stretch::Stretch;
+use super::trips::{Motion, Motions};
 use std::ops::Range;
 
 /// An edge dearer than the usual explanation by this much cannot matter.
@@ -67,13 +69,8 @@ impl Section {
 pub struct Lattice {
     edges: Vec<Edge>,
     sections: Vec<Section>,
-    forwards: Vec<f64>,
-    backwards: Vec<f64>,
-    /// The last edge of the cheapest way to a node, and the first of the cheapest from it.
-    behind: Vec<Option<usize>>,
-    ahead: Vec<Option<usize>>,
-    /// Whether a node is on the cheapest path.
-    is_best: Vec<bool>,
+    nodes: usize,
+    paths: Paths,
     /// The cheapest path with motion in a gap: its cost and edge.
     moving: Vec<(f64, Option<usize>)>,
 }
@@ -91,18 +88,15 @@ impl Lattice {
         }
         let mut lattice = Self {
             edges: Vec::new(),
-            forwards: vec![f64::INFINITY; next.1 + 1],
-            backwards: vec![f64::INFINITY; next.1 + 1],
-            behind: vec![None; next.1 + 1],
-            ahead: vec![None; next.1 + 1],
-            is_best: vec![false; next.1 + 1],
+            nodes: next.1 + 1,
+            paths: Paths::default(),
             moving: vec![(f64::INFINITY, None); pulses.len() + sections.len()],
             sections,
         };
         for (index, &(_, begin, end)) in stretches.iter().enumerate() {
             let section = lattice.sections[index].clone();
             let stretch = Stretch::new(prior, &pulses[section.pulses.clone()], (begin, end));
-            lattice.explain(&section, &stretch);
+            lattice.explain(&section, stretch);
         }
         let holes = stretches.windows(2).map(|pair| pair[1].1 - pair[0].2);
         lattice.join(prior, &holes.collect::<Vec<_>>());
@@ -120,7 +114,7 @@ impl Lattice {
     }
 
     /// The edges within a stretch.
-    fn explain(&mut self, section: &Section, stretch: &Stretch) {
+    fn explain(&mut self, section: &Section, stretch: Stretch) {
         let offset = section.pulses.start;
         let shift = |range: Range<usize>| range.start + offset..range.end + offset;
         for pulse in 0..section.pulses.len() {
@@ -136,11 +130,15 @@ impl Lattice {
                 );
             }
         }
-        let reversed = stretch.reversed();
+        let past: f64 = (0..section.pulses.len())
+            .map(|pulse| stretch.ignored(pulse))
+            .sum();
+        let reversed = Motions::new(stretch.reversed());
+        let forwards = Motions::new(stretch);
         let mut add = |motion: Motion, is_open: bool, is_reversed: bool| {
             let pulses = motion.pulses.clone();
-            let stretch = if is_reversed { &reversed } else { stretch };
-            if stretch.excess(pulses.clone(), motion.cost) > HOPELESS {
+            let motions = if is_reversed { &reversed } else { &forwards };
+            if motions.excess(pulses.clone(), motion.cost) > HOPELESS {
                 return;
             }
             let is_up = motion.top > 0.0;
@@ -158,16 +156,13 @@ impl Lattice {
             self.edge(from, to, part.cost, Part::Motion(part));
         };
         for first in 0..section.pulses.len() {
-            stretch.motions(first, &mut |motion, is_open| add(motion, is_open, false));
-            reversed.motions(first, &mut |motion, is_open| {
+            forwards.of(first, &mut |motion, is_open| add(motion, is_open, false));
+            reversed.of(first, &mut |motion, is_open| {
                 if is_open {
                     add(motion, true, true);
                 }
             });
         }
-        let past: f64 = (0..section.pulses.len())
-            .map(|pulse| stretch.ignored(pulse))
-            .sum();
         for is_up in [true, false] {
             let part = Part::Through(section.pulses.clone());
             self.edge(section.entry(is_up), section.exit(is_up), past, part);
@@ -180,7 +175,7 @@ impl Lattice {
             self.sections[0].clone(),
             self.sections[self.sections.len() - 1].clone(),
         );
-        let end = self.forwards.len() - 1;
+        let end = self.nodes - 1;
         let rest = |is_known: Option<bool>| {
             if is_known == Some(false) {
                 cost::ABSURD
@@ -233,35 +228,14 @@ impl Lattice {
     }
 
     fn solve(&mut self) {
-        let mut order: Vec<usize> = (0..self.edges.len()).collect();
-        order.sort_by_key(|edge| self.edges[*edge].from);
-        self.forwards[0] = 0.0;
-        for &index in &order {
-            let Edge { from, to, cost, .. } = self.edges[index];
-            let total = self.forwards[from] + cost;
-            if total < self.forwards[to] {
-                (self.forwards[to], self.behind[to]) = (total, Some(index));
-            }
-        }
-        let end = self.backwards.len() - 1;
-        self.backwards[end] = 0.0;
-        for &index in order.iter().rev() {
-            let Edge { from, to, cost, .. } = self.edges[index];
-            let total = self.backwards[to] + cost;
-            if total < self.backwards[from] {
-                (self.backwards[from], self.ahead[from]) = (total, Some(index));
-            }
-        }
-        let mut node = 0;
-        self.is_best[0] = true;
-        while let Some(edge) = self.ahead[node] {
-            node = self.edges[edge].to;
-            self.is_best[node] = true;
-        }
+        let ways = self
+            .edges
+            .iter()
+            .map(|edge| (edge.from, edge.to, edge.cost));
+        self.paths = Paths::new(self.nodes, ways.collect());
         for index in 0..self.edges.len() {
-            let edge = &self.edges[index];
-            let total = self.forwards[edge.from] + edge.cost + self.backwards[edge.to];
-            for gap in self.gaps_in_motion(edge) {
+            let total = self.paths.cost_by(index);
+            for gap in self.gaps_in_motion(&self.edges[index]) {
                 if total < self.moving[gap].0 {
                     self.moving[gap] = (total, Some(index));
                 }
@@ -286,7 +260,7 @@ impl Lattice {
 
     /// The cost of the cheapest explanation.
     pub fn cost(&self) -> f64 {
-        self.backwards[0]
+        self.paths.cost()
     }
 
     /// How much dearer than the cheapest explanation the cheapest is with the cage at rest, and with it moving, in
@@ -299,7 +273,7 @@ impl Lattice {
         rests
             .zip(&self.moving)
             .map(|(node, moving)| {
-                let rest = self.forwards[node] + self.backwards[node];
+                let rest = self.paths.cost_through(node);
                 (rest - self.cost(), moving.0 - self.cost())
             })
             .collect()
@@ -307,35 +281,18 @@ impl Lattice {
 
     /// The parts of the cheapest explanation.
     pub fn best(&self) -> Vec<&Part> {
-        let end = self.forwards.len() - 1;
-        self.parts(&self.onwards(0, |node| node == end).0)
+        self.parts(&self.paths.best())
     }
 
     /// Where the cheapest explanation with the cage at rest in this gap, or with it moving, leaves the cheapest of all
     /// and comes back to it: the parts of the cheapest, and those of the other.
     pub fn detour(&self, gap: usize, moves: bool) -> (Vec<&Part>, Vec<&Part>) {
-        let (node, by) = if moves {
-            match self.moving[gap].1 {
-                Some(edge) => (self.edges[edge].from, Some(edge)),
-                None => return (Vec::new(), Vec::new()),
-            }
-        } else {
-            (self.rest(gap), None)
+        let (best, other) = match self.moving[gap].1 {
+            Some(edge) if moves => self.paths.detour_by(edge),
+            None if moves => return (Vec::new(), Vec::new()),
+            _ => self.paths.detour_through(self.rest(gap)),
         };
-        let mut before = Vec::new();
-        let mut from = node;
-        while !self.is_best[from] {
-            let Some(edge) = self.behind[from] else { break };
-            before.push(edge);
-            from = self.edges[edge].from;
-        }
-        before.reverse();
-        before.extend(by);
-        let after = by.map_or(node, |edge| self.edges[edge].to);
-        let (onwards, to) = self.onwards(after, |node| self.is_best[node]);
-        before.extend(onwards);
-        let (best, _) = self.onwards(from, |node| node == to);
-        (self.parts(&best), self.parts(&before))
+        (self.parts(&best), self.parts(&other))
     }
 
     /// The node of rest in a gap.
@@ -345,17 +302,6 @@ impl Lattice {
         let indices: Vec<usize> = (0..count).collect();
         let section = indices.partition_point(|index| before(*index) <= gap) - 1;
         self.sections[section].rest(gap - before(section))
-    }
-
-    /// The edges of the cheapest way on from a node, to the first node of which `is_last` holds, and that node.
-    fn onwards(&self, node: usize, is_last: impl Fn(usize) -> bool) -> (Vec<usize>, usize) {
-        let (mut edges, mut place) = (Vec::new(), node);
-        while !is_last(place) {
-            let Some(edge) = self.ahead[place] else { break };
-            edges.push(edge);
-            place = self.edges[edge].to;
-        }
-        (edges, place)
     }
 
     fn parts(&self, edges: &[usize]) -> Vec<&Part> {
@@ -370,7 +316,7 @@ mod tests {
 
     /// All paths from a node to the end, with their costs and the gaps in which they rest or move.
     fn paths(lattice: &Lattice, node: usize) -> Vec<(f64, Vec<usize>)> {
-        if node == lattice.forwards.len() - 1 {
+        if node == lattice.nodes - 1 {
             return vec![(0.0, Vec::new())];
         }
         let edges = (0..lattice.edges.len()).filter(|edge| lattice.edges[*edge].from == node);
@@ -399,7 +345,7 @@ mod tests {
                 to: 10.0 * index as f64 + 6.5,
                 change,
                 deviation: 0.01,
-                peak: 1.0,
+                is_violent: false,
                 is_swing: false,
             };
             let pulses: Vec<Pulse> = changes.into_iter().enumerate().map(pulse).collect();

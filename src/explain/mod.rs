@@ -15,9 +15,11 @@ mod cost;
 mod course;
 mod lattice;
 mod level;
+mod path;
 mod pulse;
 mod reading;
 mod restore;
+mod stretch;
 mod trips;
 
 pub use blocks::{Block, Blocks, Cut, STRONGEST};
@@ -25,22 +27,17 @@ pub use cost::Prior;
 pub use course::Place;
 pub use lattice::{Lattice, Part};
 pub use level::Level;
-pub use pulse::{Levelled, Pulse};
-pub use reading::{Reading, Record, Trip, is_near};
+pub use pulse::{Pulse, Record};
+pub use reading::{Reading, Trip, is_near};
 pub use trips::Motion;
+
+use restore::HighPass;
 
 /// A record is hardly ever at its level where more than this share of its windows is off it.
 const OFTEN: f64 = 0.25;
 
-/// Why an explanation of any number of pulses cannot fail.
-const ANY: &str = "any number of pulses is explained";
-
 /// A restored record with more than so many times the pulses is none.
 const MORE_PULSES: usize = 3;
-
-/// A filter is looked for in so much of a record before and after its first pulse, s.
-const BEFORE: f64 = 30.0;
-const TELLING: f64 = 300.0;
 
 /// A high-pass filter must explain a record better by this much.
 const HIGH_PASS: f64 = 4.0;
@@ -48,14 +45,8 @@ const HIGH_PASS: f64 = 4.0;
 /// And its pulses by this much.
 const SIMPLER: f64 = 2.0;
 
-/// What a high-pass filter leaves of a constant, m/s²: a record farther from zero has none.
-const NO_LEVEL: f64 = 0.4;
-
 /// What a window off the level costs when filters are compared.
 const OFF_LEVEL: f64 = 0.5;
-
-/// The error of a restored record's speeds, as a share.
-const RESTORED_ERROR: f64 = 0.08;
 
 /// Slow motions down to this share of the least speed are looked for, to warn of them.
 const SLOW: f64 = 0.3;
@@ -66,12 +57,10 @@ const DECIDED: f64 = 3.0;
 /// A record explained.
 #[derive(Clone, Debug)]
 pub struct Explanation {
-    /// The record and its level, restored if it was high-passed.
-    pub levelled: Levelled,
+    /// The record, restored if it was high-passed.
+    pub record: Record,
     /// The time constant of the filter, s.
     pub high_pass: Option<f64>,
-    /// All pulses.
-    pub pulses: Vec<Pulse>,
     /// The cheapest explanation.
     pub reading: Reading,
     /// Where another is nearly as cheap.
@@ -93,62 +82,67 @@ pub struct Doubt {
 
 impl Explanation {
     /// Explains a record.
-    pub fn of(record: &Cut, prior: &Prior) -> Self {
-        let plain = Explained::plain(record, prior);
-        let high_pass = plain
-            .telling_part()
-            .and_then(|part| high_pass(&part, prior));
-        let explained = match high_pass {
-            None => plain,
-            Some((time_constant, offset)) => {
-                Explained::restored(record, prior, time_constant, offset, usize::MAX).expect(ANY)
-            }
+    pub fn of(cut: &Cut, prior: &Prior) -> Self {
+        let plain = Explained::plain(cut, prior);
+        let part = plain.record.telling_part();
+        let Some(filter) = part.and_then(|part| high_pass(&part, prior)) else {
+            return plain.finish(None, prior);
         };
-        explained.finish(high_pass.map(|it| it.0), prior)
+        let record = filter.undone(cut, prior);
+        Explained::of(record, &filter.prior(prior)).finish(Some(filter.time_constant), prior)
     }
 }
 
-/// The time constant, s, and the offset, m/s², of the high-pass filter that explains a record clearly better than none.
-fn high_pass(record: &Cut, prior: &Prior) -> Option<(f64, f64)> {
-    let plain = Explained::plain(record, prior);
-    let offsets = restore::offsets(record);
-    let best_of = |time_constants: &[f64]| {
-        let pairs = offsets.iter().filter(|offset| offset.abs() < NO_LEVEL);
-        let pairs = pairs.flat_map(|offset| time_constants.iter().map(move |it| (*it, *offset)));
-        let costs = pairs.filter_map(|(time_constant, offset)| {
-            let most = MORE_PULSES * (plain.pulses.len() + 10);
-            let restored = Explained::restored(record, prior, time_constant, offset, most)?;
+/// The high-pass filter that explains a record clearly better than none.
+fn high_pass(cut: &Cut, prior: &Prior) -> Option<HighPass> {
+    let plain = Explained::plain(cut, prior);
+    let most = MORE_PULSES * (plain.record.pulses.len() + 10);
+    let best_of = |filters: Vec<HighPass>| {
+        let costs = filters.into_iter().filter_map(|filter| {
+            let record = filter.undone(cut, prior);
+            if record.pulses.len() > most {
+                return None;
+            }
+            let restored = Explained::of(record, &filter.prior(prior));
             let is_better = restored.cost() + HIGH_PASS < plain.cost()
                 && restored.lattice.cost() + SIMPLER < plain.lattice.cost()
-                && restored.has_whole_trip(prior);
-            is_better.then(|| (restored.cost(), (time_constant, offset)))
+                && restored.has_whole_trip();
+            is_better.then(|| (restored.cost(), filter))
         });
         costs.min_by(|a, b| a.0.total_cmp(&b.0))
     };
-    let rough = best_of(&restore::TIME_CONSTANTS)?;
-    let finer = best_of(&restore::NEARBY.map(|factor| factor * rough.1.0));
+    let rough = best_of(HighPass::all(cut))?;
+    let finer = best_of(rough.1.nearby(cut));
     let finer = finer.filter(|finer| finer.0 < rough.0);
     Some(finer.unwrap_or(rough).1)
 }
 
 /// A record explained under one assumption about its filter.
 struct Explained {
-    levelled: Levelled,
-    pulses: Vec<Pulse>,
-    /// As the lattice takes them.
-    stretches: Vec<(usize, f64, f64)>,
+    record: Record,
     lattice: Lattice,
 }
 
 impl Explained {
+    fn of(record: Record, prior: &Prior) -> Self {
+        let lattice = Lattice::new(prior, &record.pulses, &record.stretches());
+        Self { record, lattice }
+    }
+
     /// As it is. Where the record is hardly ever at its level, the level may be its mean.
-    fn plain(record: &Cut, prior: &Prior) -> Self {
-        let plain = Self::of(record.clone(), prior, 0.0, usize::MAX).expect(ANY);
-        let windows = record.blocks.len() as f64 / record.blocks_in(0.5) as f64;
-        if plain.levelled.level.cost < OFTEN * windows {
+    fn plain(cut: &Cut, prior: &Prior) -> Self {
+        let pulled = |pull| {
+            Self::of(
+                Record::of(cut.clone(), pull, prior.most_acceleration),
+                prior,
+            )
+        };
+        let plain = pulled(0.0);
+        let windows = cut.blocks.len() as f64 / cut.blocks_in(0.5) as f64;
+        if plain.record.level.cost < OFTEN * windows {
             return plain;
         }
-        let pulled = Self::of(record.clone(), prior, 1.0, usize::MAX).expect(ANY);
+        let pulled = pulled(1.0);
         if pulled.cost() < plain.cost() {
             pulled
         } else {
@@ -156,86 +150,17 @@ impl Explained {
         }
     }
 
-    /// With a high-pass filter undone.
-    fn restored(
-        record: &Cut,
-        prior: &Prior,
-        time_constant: f64,
-        offset: f64,
-        most: usize,
-    ) -> Option<Self> {
-        let prior = Prior {
-            gain_error: RESTORED_ERROR,
-            ..*prior
-        };
-        let cut = restore::restored(record, time_constant, offset);
-        Self::of(cut, &prior, 0.0, most)
-    }
-
-    /// The first minutes in which pulses show, long enough to tell whether there is a filter.
-    fn telling_part(&self) -> Option<Cut> {
-        let cut = &self.levelled.cut;
-        let first = self.pulses.first()?.blocks.start;
-        let from = first.saturating_sub(cut.blocks_in(BEFORE));
-        let to = cut.blocks.len().min(first + cut.blocks_in(TELLING));
-        let ends = cut.ends.iter().map(|end| (*end).clamp(from, to) - from);
-        let mut ends: Vec<usize> = ends.filter(|end| *end > 0).collect();
-        ends.dedup();
-        Some(Cut {
-            blocks: cut.blocks[from..to].to_vec(),
-            ends,
-            ..*cut
-        })
-    }
-
-    /// Nothing if it has more pulses than `most`.
-    fn of(cut: Cut, prior: &Prior, pull: f64, most: usize) -> Option<Self> {
-        let level = Level::of(&cut, pull);
-        let levelled = Levelled { cut, level };
-        let pulses = levelled.pulses(prior.most_acceleration);
-        if pulses.len() > most {
-            return None;
-        }
-        let blocks = &levelled.cut.blocks;
-        let mut from = 0;
-        let stretches = levelled.cut.ends.iter().map(|&end| {
-            let before = pulses.partition_point(|pulse| pulse.blocks.start < end);
-            let stretch = (before, blocks[from].from, blocks[end - 1].to);
-            from = end;
-            stretch
-        });
-        // A record without even one block is a stretch without pulses.
-        let mut stretches: Vec<_> = stretches.collect();
-        if stretches.is_empty() {
-            stretches.push((0, 0.0, 0.0));
-        }
-        Some(Self {
-            lattice: Lattice::new(prior, &pulses, &stretches),
-            levelled,
-            pulses,
-            stretches,
-        })
-    }
-
     fn cost(&self) -> f64 {
-        self.lattice.cost() + OFF_LEVEL * self.levelled.level.cost
+        self.lattice.cost() + OFF_LEVEL * self.record.level.cost
     }
 
-    fn record(&self, prior: &Prior) -> Record<'_> {
-        Record {
-            levelled: &self.levelled,
-            pulses: &self.pulses,
-            violent: prior.most_acceleration,
-        }
-    }
-
-    fn reading(&self, prior: &Prior) -> Reading {
-        Reading::of(&self.record(prior), &self.lattice.best())
+    fn reading(&self) -> Reading {
+        Reading::of(&self.record, &self.lattice.best())
     }
 
     /// Whether it has a trip from start to stop.
-    fn has_whole_trip(&self, prior: &Prior) -> bool {
-        let trips = self.reading(prior).trips;
+    fn has_whole_trip(&self) -> bool {
+        let trips = self.reading().trips;
         trips.iter().any(|trip| trip.start.and(trip.stop).is_some())
     }
 
@@ -245,21 +170,19 @@ impl Explained {
             least_speed: SLOW * prior.least_speed,
             ..*prior
         };
-        let lattice = Lattice::new(&slower, &self.pulses, &self.stretches);
-        let mut trips = Reading::of(&self.record(prior), &lattice.best()).trips;
+        let lattice = Lattice::new(&slower, &self.record.pulses, &self.record.stretches());
+        let mut trips = Reading::of(&self.record, &lattice.best()).trips;
         trips.retain(|trip| trip.speed < prior.least_speed && trip.start.is_some());
         trips
     }
 
     fn finish(self, high_pass: Option<f64>, prior: &Prior) -> Explanation {
-        let reading = self.reading(prior);
         Explanation {
-            doubts: doubts(&self.record(prior), &self.lattice),
+            doubts: doubts(&self.record, &self.lattice),
             slow: self.slow(prior),
+            reading: self.reading(),
+            record: self.record,
             high_pass,
-            reading,
-            pulses: self.pulses,
-            levelled: self.levelled,
         }
     }
 }

@@ -15,8 +15,8 @@ const SHORT: f64 = 1.0;
 
 /// A swing has so many pulses at least, with pauses no longer than this and each no longer than this, s; what is
 /// shorter carries the sensor no farther than this, m.
-const LEAST_IN_SWING: usize = 5;
-const PAUSE: f64 = 0.4;
+pub const LEAST_IN_SWING: usize = 5;
+pub const LONGEST_PAUSE: f64 = 0.4;
 pub const LONGEST_SWING: f64 = 1.3;
 pub const FARTHEST_SWING: f64 = 0.5;
 
@@ -44,31 +44,73 @@ pub struct Pulse {
     pub change: f64,
     /// Its standard deviation, m/s.
     pub deviation: f64,
-    /// The largest distance of a block from the level, m/s².
-    pub peak: f64,
+    /// Whether it is stronger than any acceleration of a lift: a shock.
+    pub is_violent: bool,
     /// Whether it is a long swing to and fro.
     pub is_swing: bool,
 }
 
-/// The noise of a record around its level.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Noise {
-    /// Of the smoothed record, m/s².
-    pub smoothed: f64,
-    /// What a second adds to the speed, m/s.
-    pub walk: f64,
+impl Pulse {
+    /// s
+    pub fn seconds(&self) -> f64 {
+        self.to - self.from
+    }
 }
 
-/// A record with its level: what pulses are cut from.
+/// A record, its level, and the pulses in which it leaves it.
 #[derive(Clone, Debug)]
-pub struct Levelled {
+pub struct Record {
     /// The record.
     pub cut: Cut,
     /// Its level.
     pub level: Level,
+    /// In order of time.
+    pub pulses: Vec<Pulse>,
 }
 
-impl Levelled {
+/// What pulses are cut by.
+#[derive(Clone, Copy, Debug)]
+struct Limits {
+    /// A block farther than this from the level is a shock, m/s².
+    violent: f64,
+    /// What noise adds to the speed in a second, m/s.
+    walk: f64,
+}
+
+impl Record {
+    /// A record with its level, pulled to its mean so much (see [`Level::of`]); `violent` is the acceleration beyond
+    /// which a pulse is a shock, m/s².
+    pub fn of(cut: Cut, pull: f64, violent: f64) -> Self {
+        let mut record = Self {
+            level: Level::of(&cut, pull),
+            cut,
+            pulses: Vec::new(),
+        };
+        record.pulses = record.cut_pulses(violent);
+        record
+    }
+
+    /// The stretches without holes: how many pulses there are up to the end of each, its beginning and its end, s.
+    pub fn stretches(&self) -> Vec<(usize, f64, f64)> {
+        let blocks = &self.cut.blocks;
+        let mut from = 0;
+        let stretches = self.cut.ends.iter().map(|&end| {
+            let before = self
+                .pulses
+                .partition_point(|pulse| pulse.blocks.start < end);
+            let stretch = (before, blocks[from].from, blocks[end - 1].to);
+            from = end;
+            stretch
+        });
+        let stretches: Vec<_> = stretches.collect();
+        // A record without even one block is a stretch without pulses.
+        if stretches.is_empty() {
+            vec![(0, 0.0, 0.0)]
+        } else {
+            stretches
+        }
+    }
+
     /// Distance of a block from the level, m/s².
     fn off(&self, block: usize) -> f64 {
         self.cut.blocks[block].mean - self.level.at[block]
@@ -96,30 +138,30 @@ impl Levelled {
         smoothed
     }
 
-    /// The noise where the record is at its level.
-    pub fn noise(&self, smoothed: &[f64]) -> Noise {
-        let near = |values: Vec<f64>| {
-            let near = values
-                .into_iter()
-                .map(f64::abs)
-                .filter(|value| *value < self.level.width);
-            1.4826 * median(near.collect())
-        };
-        let second = self.cut.blocks_in(1.0);
-        let seconds = (0..self.cut.blocks.len() / second)
-            .map(|index| self.change(index * second..(index + 1) * second))
-            .collect();
-        Noise {
-            smoothed: near(smoothed.to_vec()),
-            walk: near(seconds).min(MOST_COLOUR * self.cut.scatter() * self.cut.seconds.sqrt()),
-        }
+    /// The median size of what lies within the level's width, as a deviation.
+    fn scatter(&self, values: impl Iterator<Item = f64>) -> f64 {
+        let near = values
+            .map(f64::abs)
+            .filter(|value| *value < self.level.width);
+        1.4826 * median(near.collect())
     }
 
-    /// All pulses, in order; `violent` is the acceleration beyond which one is a shock, m/s².
-    pub fn pulses(&self, violent: f64) -> Vec<Pulse> {
+    /// What noise adds to the speed in a second, m/s.
+    fn walk(&self) -> f64 {
+        let second = self.cut.blocks_in(1.0);
+        let seconds = (0..self.cut.blocks.len() / second)
+            .map(|index| self.change(index * second..(index + 1) * second));
+        let white = self.cut.scatter() * self.cut.seconds.sqrt();
+        self.scatter(seconds).min(MOST_COLOUR * white)
+    }
+
+    fn cut_pulses(&self, violent: f64) -> Vec<Pulse> {
         let smoothed = self.smoothed();
-        let noise = self.noise(&smoothed);
-        let least = (2.0 * noise.smoothed).clamp(0.02, 0.15);
+        let least = (2.0 * self.scatter(smoothed.iter().copied())).clamp(0.02, 0.15);
+        let limits = Limits {
+            violent,
+            walk: self.walk(),
+        };
         let mut pulses: Vec<Pulse> = Vec::new();
         let mut from = 0;
         for &to in &self.cut.ends {
@@ -132,13 +174,11 @@ impl Levelled {
                     .count();
                 if length > 0 {
                     let core = block..block + length;
-                    let pulse = self.pulse(
-                        self.with_feet(core, &smoothed, taken..to, least),
-                        noise.walk,
-                    );
-                    taken = pulse.blocks.end;
+                    let blocks = self.with_feet(core, &smoothed, taken..to, least);
+                    taken = blocks.end;
+                    let pulse = self.pulse(blocks, limits);
                     let least = LEAST_CHANGE.max(LEAST_DEVIATIONS * pulse.deviation);
-                    if pulse.change.abs() > least || pulse.peak > violent {
+                    if pulse.change.abs() > least || pulse.is_violent {
                         pulses.push(pulse);
                     }
                 }
@@ -146,21 +186,21 @@ impl Levelled {
             }
             from = to;
         }
-        self.swings(self.joined(pulses, violent, noise.walk), noise.walk)
+        self.swings(self.joined(pulses, limits), limits)
     }
 
     /// A long swing to and fro is one pulse: a rope that bounces, somebody who walks. Its pulses are short, follow each
     /// other closely and turn each time.
-    fn swings(&self, pulses: Vec<Pulse>, walk: f64) -> Vec<Pulse> {
+    fn swings(&self, pulses: Vec<Pulse>, limits: Limits) -> Vec<Pulse> {
         let mut swings: Vec<Pulse> = Vec::new();
         let mut rest = &pulses[..];
         while let Some(first) = rest.first() {
-            let count = self.swing(rest);
+            let count = swing(rest);
             if count >= LEAST_IN_SWING {
                 let blocks = first.blocks.start..rest[count - 1].blocks.end;
                 swings.push(Pulse {
                     is_swing: true,
-                    ..self.pulse(blocks, walk)
+                    ..self.pulse(blocks, limits)
                 });
                 rest = &rest[count..];
             } else {
@@ -169,22 +209,6 @@ impl Levelled {
             }
         }
         swings
-    }
-
-    /// How many pulses from the first on are one swing.
-    fn swing(&self, pulses: &[Pulse]) -> usize {
-        let mut count = 0;
-        for (index, pulse) in pulses.iter().enumerate() {
-            let before = index.checked_sub(1).map(|before| &pulses[before]);
-            let pause = before.map_or(0.0, |before| pulse.from - before.to);
-            let length = pulse.to - pulse.from;
-            let turns = before.is_none_or(|before| before.change * pulse.change < 0.0);
-            if pause > PAUSE || length > LONGEST_SWING || !turns {
-                break;
-            }
-            count = index + 1;
-        }
-        count
     }
 
     /// A pulse with the blocks on either side that still have its sign.
@@ -210,7 +234,7 @@ impl Levelled {
         core.start - before..core.end + after
     }
 
-    fn pulse(&self, blocks: Range<usize>, walk: f64) -> Pulse {
+    fn pulse(&self, blocks: Range<usize>, limits: Limits) -> Pulse {
         let (from, to) = (
             self.cut.blocks[blocks.start].from,
             self.cut.blocks[blocks.end - 1].to,
@@ -223,21 +247,19 @@ impl Levelled {
             .fold(0.0, f64::max);
         Pulse {
             change: self.change(blocks.clone()),
-            deviation: (walk * walk * seconds + (level_error * seconds).powi(2)).sqrt(),
+            deviation: (limits.walk.powi(2) * seconds + (level_error * seconds).powi(2)).sqrt(),
             blocks,
             from,
             to,
-            peak,
+            is_violent: peak > limits.violent,
             is_swing: false,
         }
     }
 
     /// A shock and the short pulses that touch it are one: what counts is the speed they leave.
-    fn joined(&self, pulses: Vec<Pulse>, violent: f64, walk: f64) -> Vec<Pulse> {
+    fn joined(&self, pulses: Vec<Pulse>, limits: Limits) -> Vec<Pulse> {
         let belong = |one: &Pulse, other: &Pulse| {
-            let part = |shock: &Pulse, pulse: &Pulse| {
-                shock.peak > violent && pulse.to - pulse.from < SHORT
-            };
+            let part = |shock: &Pulse, pulse: &Pulse| shock.is_violent && pulse.seconds() < SHORT;
             let between = one.blocks.end..=other.blocks.start;
             let is_hole = self.cut.ends.iter().any(|end| between.contains(end));
             other.from - one.to < SMOOTHING && !is_hole && (part(one, other) || part(other, one))
@@ -249,11 +271,23 @@ impl Levelled {
                 if !belong(one, other) {
                     break;
                 }
-                let both = self.pulse(one.blocks.start..other.blocks.end, walk);
+                let both = self.pulse(one.blocks.start..other.blocks.end, limits);
                 joined.truncate(joined.len() - 2);
                 joined.push(both);
             }
         }
         joined
     }
+}
+
+/// How many pulses from the first on are one swing.
+fn swing(pulses: &[Pulse]) -> usize {
+    let goes_on = |pair: &[Pulse]| {
+        let turns = pair[0].change * pair[1].change < 0.0;
+        turns && pair[1].from - pair[0].to <= LONGEST_PAUSE && pair[1].seconds() <= LONGEST_SWING
+    };
+    if pulses[0].seconds() > LONGEST_SWING {
+        return 0;
+    }
+    1 + pulses.windows(2).take_while(|pair| goes_on(pair)).count()
 }

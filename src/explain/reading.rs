@@ -1,7 +1,7 @@
 //! One explanation of a record as trips: when each starts, levels and stops.
 
 use super::lattice::Part;
-use super::pulse::{Levelled, Pulse};
+use super::pulse::{Pulse, Record};
 use super::trips::Motion;
 use std::ops::Range;
 
@@ -42,16 +42,6 @@ pub struct Trip {
     pub pulses: Range<usize>,
     /// Those that change its speed.
     pub changes: Vec<usize>,
-}
-
-/// A record with its pulses.
-pub struct Record<'a> {
-    /// Blocks and level.
-    pub levelled: &'a Levelled,
-    /// All pulses.
-    pub pulses: &'a [Pulse],
-    /// The acceleration of a shock, m/s².
-    pub violent: f64,
 }
 
 impl Reading {
@@ -135,7 +125,7 @@ const STRONG: f64 = 0.7;
 /// The share of the highest speed at which a motion counts as uniform; below it, it levels.
 const FAST: f64 = 0.6;
 
-impl Record<'_> {
+impl Record {
     /// The trips of a motion: two where it goes through zero speed, since it stops there, however briefly.
     fn trips(&self, motion: &Motion) -> Vec<Trip> {
         let before = if motion.is_open.0 { motion.speed } else { 0.0 };
@@ -187,9 +177,9 @@ impl Record<'_> {
     fn zero_of(&self, pulse: &Pulse, before: f64) -> f64 {
         let mut speed = before;
         for block in pulse.blocks.clone() {
-            speed += self.levelled.change(block..block + 1);
+            speed += self.change(block..block + 1);
             if speed * before <= 0.0 {
-                return self.levelled.cut.blocks[block].to;
+                return self.cut.blocks[block].to;
             }
         }
         pulse.to
@@ -222,7 +212,7 @@ impl Record<'_> {
                 .then(|| self.reaches_zero(last)),
             speed: top,
             closing: motion.speed,
-            is_jam: !motion.is_open.1 && last.peak > self.violent,
+            is_jam: !motion.is_open.1 && last.is_violent,
             pulses: motion.pulses.clone(),
             changes: motion.changes.clone(),
         }
@@ -242,7 +232,7 @@ impl Record<'_> {
     /// Whether a pulse is cut off at this end of its blocks: by a hole, or by an end of the record at which it is
     /// strong, if it changes a good part of the highest speed.
     fn is_cut_off(&self, pulse: &Pulse, block: usize, top: f64) -> bool {
-        let cut = &self.levelled.cut;
+        let cut = &self.cut;
         let reach = cut.blocks_in(OUTERMOST);
         let outermost = if block == 0 {
             0..reach.min(pulse.blocks.end)
@@ -252,7 +242,7 @@ impl Record<'_> {
             return cut.ends.contains(&block);
         };
         let seconds = outermost.len() as f64 * cut.seconds;
-        let strength = self.levelled.change(outermost) / seconds;
+        let strength = self.change(outermost) / seconds;
         let is_stage = pulse.change.abs() > TURN * top;
         is_stage
             && strength * pulse.change.signum()
@@ -262,13 +252,13 @@ impl Record<'_> {
     /// When a pulse begins to move the cage.
     fn leaves_zero(&self, pulse: &Pulse) -> f64 {
         let block = self.first_moving(pulse, pulse.blocks.clone());
-        self.levelled.cut.blocks[block].from
+        self.cut.blocks[block].from
     }
 
     /// When a pulse has brought it to rest.
     fn reaches_zero(&self, pulse: &Pulse) -> f64 {
         let block = self.first_moving(pulse, pulse.blocks.clone().rev());
-        self.levelled.cut.blocks[block].to
+        self.cut.blocks[block].to
     }
 
     /// The block at which the change of speed exceeds what noise and the level's error may add up to.
@@ -276,8 +266,8 @@ impl Record<'_> {
         let (mut speed, mut seconds, mut last) = (0.0f64, 0.0, pulse.blocks.start);
         for block in blocks {
             last = block;
-            speed += self.levelled.change(block..block + 1);
-            seconds += self.levelled.cut.blocks[block].seconds;
+            speed += self.change(block..block + 1);
+            seconds += self.cut.blocks[block].seconds;
             let noise = 2.0 * pulse.deviation * seconds / (pulse.to - pulse.from);
             if speed.abs() > MOVING + noise {
                 break;

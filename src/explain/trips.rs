@@ -4,8 +4,7 @@
 //! to a disturbance. It may end at a change that brings the speed back to zero. Motions that began before the
 //! record are those of the reversed record that go on after its end: reversed, braking is a start.
 
-use super::cost::{self, Prior};
-use super::pulse::{FARTHEST_SWING, LONGEST_SWING, Pulse};
+use super::stretch::{Progress, Stretch};
 use std::collections::VecDeque;
 use std::ops::Range;
 
@@ -20,13 +19,6 @@ const MOST_FOLLOWED: usize = 120;
 
 /// A usual trip has fewer pulses than this.
 const SHORT_TRIP: usize = 8;
-
-/// The share of its top speed to which a motion that crept gains speed again.
-const RESTARTED: f64 = 0.3;
-
-/// The most pulses in a disturbance, since longer ones are one pulse already, and the longest pause in it, s.
-const MOST_IN_DISTURBANCE: usize = 4;
-const LONGEST_PAUSE: f64 = 0.4;
 
 /// A motion as one explanation of pulses.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,123 +39,34 @@ pub struct Motion {
     pub cost: f64,
 }
 
-/// A pulse in one direction of time.
-#[derive(Clone, Copy, Debug)]
-struct Turned {
-    from: f64,
-    to: f64,
-    change: f64,
-    variance: f64,
-    ignored: f64,
-    violent: f64,
-}
-
-/// The pulses of a stretch without holes.
-pub struct Stretch<'a> {
-    prior: &'a Prior,
-    pulses: Vec<Turned>,
-    /// For each pulse the disturbances that begin with it: the pulse after, and the cost.
-    disturbances: Vec<Vec<(usize, f64)>>,
-    /// What the usual explanation of the first pulses costs.
-    usual: Vec<f64>,
-    /// Its end, s.
-    end: f64,
-    /// Its beginning, s.
-    begin: f64,
-    /// Whether time runs backwards.
-    is_reversed: bool,
-}
-
-/// A motion in progress.
-#[derive(Clone, Copy, Debug)]
-struct Progress {
-    speed: f64,
-    top: f64,
-    variance: f64,
-    cost: f64,
-    /// End of the latest change, s.
-    since: f64,
-    distance: f64,
-    creeps: bool,
-    /// Whether it does so at hardly any speed.
-    is_slow: bool,
-    /// The latest change, in the list of all.
-    latest: usize,
-}
-
 /// The changes of all motions in progress: the one before, and the pulse.
 type Changes = Vec<(Option<usize>, usize)>;
 
-impl<'a> Stretch<'a> {
-    /// In the order of the record; `begin` and `end` in s.
-    pub fn new(prior: &'a Prior, pulses: &[Pulse], (begin, end): (f64, f64)) -> Self {
-        let turned = pulses.iter().map(|pulse| Turned {
-            from: pulse.from,
-            to: pulse.to,
-            change: pulse.change,
-            variance: pulse.deviation * pulse.deviation,
-            ignored: prior.ignored(pulse),
-            violent: if prior.is_violent(pulse) || pulse.is_swing {
-                cost::VIOLENT
-            } else {
-                0.0
-            },
-        });
-        Self::of(prior, turned.collect(), (begin, end), false)
-    }
+/// The motions of a stretch.
+pub struct Motions<'a> {
+    stretch: Stretch<'a>,
+    /// What the usual explanation of the first pulses costs.
+    usual: Vec<f64>,
+}
 
-    /// The same with time reversed.
-    pub fn reversed(&self) -> Self {
-        let turned = self.pulses.iter().rev().map(|pulse| Turned {
-            from: -pulse.to,
-            to: -pulse.from,
-            change: -pulse.change,
-            ..*pulse
-        });
-        let ends = (-self.end, -self.begin);
-        Self::of(self.prior, turned.collect(), ends, !self.is_reversed)
-    }
-
-    fn of(
-        prior: &'a Prior,
-        pulses: Vec<Turned>,
-        (begin, end): (f64, f64),
-        is_reversed: bool,
-    ) -> Self {
-        let disturbances = (0..pulses.len()).map(|first| disturbances(prior, &pulses, first));
-        let mut stretch = Self {
-            disturbances: disturbances.collect(),
-            usual: Vec::new(),
-            prior,
-            pulses,
-            begin,
-            end,
-            is_reversed,
-        };
-        stretch.usual = stretch.usual();
-        stretch
-    }
-
-    /// The cost of a pulse that is not part of any motion.
-    pub fn ignored(&self, pulse: usize) -> f64 {
-        self.pulses[pulse].ignored
-    }
-
-    /// The disturbances that begin with a pulse: the pulse after, and the cost.
-    pub fn disturbances(&self, first: usize) -> &[(usize, f64)] {
-        &self.disturbances[first]
+impl<'a> Motions<'a> {
+    pub fn new(stretch: Stretch<'a>) -> Self {
+        let usual = Vec::new();
+        let mut motions = Self { stretch, usual };
+        motions.usual = motions.usual();
+        motions
     }
 
     /// What an explanation of the first pulses costs that knows short trips only: a bound for what is worth following.
     fn usual(&self) -> Vec<f64> {
-        let count = self.pulses.len();
+        let count = self.stretch.pulses.len();
         let mut usual = vec![f64::INFINITY; count + 1];
         usual[0] = 0.0;
         for first in 0..count {
             let so_far = usual[first];
             let mut note = |end: usize, cost: f64| usual[end] = usual[end].min(so_far + cost);
-            note(first + 1, self.pulses[first].ignored);
-            for &(after, cost) in &self.disturbances[first] {
+            note(first + 1, self.stretch.pulses[first].ignored);
+            for &(after, cost) in self.stretch.disturbances(first) {
                 note(after, cost);
             }
             let far = (first + SHORT_TRIP).min(count);
@@ -183,10 +86,10 @@ impl<'a> Stretch<'a> {
 
     /// How much dearer than the usual explanation of its pulses a motion is.
     pub fn excess(&self, pulses: Range<usize>, cost: f64) -> f64 {
-        let (start, end) = if self.is_reversed {
+        let (start, end) = if self.stretch.is_reversed {
             (
-                self.pulses.len() - pulses.end,
-                self.pulses.len() - pulses.start,
+                self.stretch.pulses.len() - pulses.end,
+                self.stretch.pulses.len() - pulses.start,
             )
         } else {
             (pulses.start, pulses.end)
@@ -195,12 +98,11 @@ impl<'a> Stretch<'a> {
     }
 
     /// The motions that begin with a pulse: those that end within the stretch, and those that go on.
-    pub fn motions(&self, first: usize, take: &mut impl FnMut(Motion, bool)) {
+    pub fn of(&self, first: usize, take: &mut impl FnMut(Motion, bool)) {
         let most = |first: usize, pulse: usize| self.usual[pulse] - self.usual[first] + HOPELESS;
-        let far = self.pulses.len().min(first + MOST_FOLLOWED);
+        let far = self.stretch.pulses.len().min(first + MOST_FOLLOWED);
         self.follow(first, far, most, &mut |motion, last, is_open, changes| {
-            let cost = motion.cost;
-            take(self.motion(motion, first..last + 1, cost, changes), is_open);
+            take(self.motion(motion, first..last + 1, changes), is_open);
         });
     }
 
@@ -213,7 +115,7 @@ impl<'a> Stretch<'a> {
         most: impl Fn(usize, usize) -> f64,
         take: &mut impl FnMut(&Progress, usize, bool, &Changes),
     ) {
-        let Some(start) = self.start(first) else {
+        let Some(start) = self.stretch.start(first) else {
             return;
         };
         let mut changes: Changes = vec![(None, first)];
@@ -223,8 +125,8 @@ impl<'a> Stretch<'a> {
             here.sort_by(|a, b| a.cost.total_cmp(&b.cost));
             here.truncate(WIDTH);
             here.retain(|motion| motion.cost < most(first, pulse));
-            let is_over =
-                self.pulses[pulse].from - self.pulses[first].from > self.prior.longest_motion;
+            let is_over = self.stretch.pulses[pulse].from - self.stretch.pulses[first].from
+                > self.stretch.prior.longest_motion;
             if is_over || (here.is_empty() && waiting.iter().all(Vec::is_empty)) {
                 return;
             }
@@ -236,159 +138,58 @@ impl<'a> Stretch<'a> {
                     }
                     waiting[place].push(motion);
                 };
-                let cost = motion.cost + self.pulses[pulse].ignored;
+                let cost = motion.cost + self.stretch.pulses[pulse].ignored;
                 wait(pulse + 1, Progress { cost, ..motion });
-                for &(after, cost) in &self.disturbances[pulse] {
+                for &(after, cost) in self.stretch.disturbances(pulse) {
                     let cost = motion.cost + cost;
                     wait(after, Progress { cost, ..motion });
                 }
-                let disturbances = self.disturbances[pulse].iter().map(|it| it.0);
+                let disturbances = self.stretch.disturbances(pulse).iter().map(|it| it.0);
                 for after in [pulse + 1].into_iter().chain(disturbances) {
-                    let mut changed = self.changed(&motion, pulse..after);
+                    let mut changed = self.stretch.changed(&motion, pulse..after);
                     for change in pulse..after {
                         changes.push((Some(changed.latest), change));
                         changed.latest = changes.len() - 1;
                     }
                     take(
-                        &self.closed(&changed, first, after - 1),
+                        &self.stretch.closed(&changed, first, after - 1),
                         after - 1,
                         false,
                         &changes,
                     );
-                    wait(after, self.going_on(changed, &motion, first));
+                    wait(after, self.stretch.going_on(changed, &motion, first));
                 }
             }
         }
-        if far < self.pulses.len() {
+        if far < self.stretch.pulses.len() {
             return;
         }
         for motion in waiting.front().into_iter().flatten() {
             let slow = self
+                .stretch
                 .prior
                 .implausible(motion.top, f64::INFINITY, f64::INFINITY);
-            let cost = motion.cost + creeping(motion, self.end) + slow;
+            let cost = motion.cost + motion.creeping(self.stretch.end) + slow;
             take(
                 &Progress { cost, ..*motion },
-                self.pulses.len() - 1,
+                self.stretch.pulses.len() - 1,
                 true,
                 &changes,
             );
         }
     }
 
-    fn start(&self, first: usize) -> Option<Progress> {
-        let pulse = self.pulses[first];
-        let is_strong = pulse.change.abs() >= self.prior.least_speed / 8.0;
-        is_strong.then(|| Progress {
-            speed: pulse.change,
-            top: pulse.change.abs(),
-            variance: pulse.variance,
-            cost: cost::TRIP + pulse.violent,
-            since: pulse.to,
-            distance: pulse.change * (pulse.to - pulse.from) / 2.0,
-            creeps: false,
-            is_slow: false,
-            latest: 0,
-        })
-    }
-
-    /// The motion after pulses that together change its speed.
-    fn changed(&self, motion: &Progress, pulses: Range<usize>) -> Progress {
-        let pause = self.pulses[pulses.start].from - motion.since;
-        let mut changed = *motion;
-        let mut total = 0.0;
-        for pulse in &self.pulses[pulses.clone()] {
-            let coast = pulse.from - changed.since;
-            changed.distance += changed.speed * coast
-                + (changed.speed + pulse.change / 2.0) * (pulse.to - pulse.from);
-            changed.speed += pulse.change;
-            changed.variance += pulse.variance;
-            changed.cost += pulse.violent;
-            changed.since = pulse.to;
-            total += pulse.change;
-        }
-        changed.top = changed.top.max(changed.speed.abs());
-        changed.cost += creeping(motion, self.pulses[pulses.start].from);
-        if motion.is_slow && changed.speed.abs() > RESTARTED * changed.top {
-            changed.cost += cost::RESTART;
-        } else if total * motion.speed > 0.0 {
-            changed.cost += cost::acceleration_stage(pause);
-        }
-        if self.is_half(pulses.end) {
-            changed.cost += cost::HALF;
-        }
-        changed
-    }
-
-    /// Whether the pulse before this one and it are a swing to and fro.
-    fn is_half(&self, next: usize) -> bool {
-        let Some(after) = self.pulses.get(next) else {
-            return false;
-        };
-        let before = self.pulses[next - 1];
-        let is_swing = self.disturbances[next - 1]
-            .iter()
-            .any(|it| it.0 == next + 1);
-        is_swing
-            && after.change * before.change < 0.0
-            && after.change.abs() > 0.3 * before.change.abs()
-    }
-
-    /// A motion that goes on after a change.
-    fn going_on(&self, changed: Progress, before: &Progress, first: usize) -> Progress {
-        let tolerance = self.prior.tolerance(changed.top, changed.variance);
-        let is_slow = changed.speed.abs() < 2.0 * tolerance;
-        let is_braking = changed.speed.abs() < before.speed.abs();
-        let cost = if is_slow {
-            cost::CREEP
-        } else if changed.speed * self.pulses[first].change < 0.0 {
-            cost::TURN
-        } else if is_braking && before.speed.abs() - changed.speed.abs() < 0.2 * before.top {
-            cost::RIPPLE
-        } else if is_braking {
-            if self.is_reversed {
-                cost::acceleration_stage(f64::INFINITY) / 2.0
-            } else {
-                cost::STAGE
-            }
-        } else {
-            0.0
-        };
-        Progress {
-            cost: changed.cost + cost,
-            creeps: is_slow || (is_braking && cost > cost::RIPPLE),
-            is_slow,
-            ..changed
-        }
-    }
-
-    /// A motion that ends with a pulse.
-    fn closed(&self, motion: &Progress, first: usize, last: usize) -> Progress {
-        let seconds = self.pulses[last].to - self.pulses[first].from;
-        let tolerance = self.prior.tolerance(motion.top, motion.variance);
-        let cost = motion.cost
-            + cost::closing(motion.speed, tolerance)
-            + self.prior.implausible(motion.top, motion.distance, seconds);
-        Progress { cost, ..*motion }
-    }
-
     /// As it is in the order of the record.
-    fn motion(
-        &self,
-        motion: &Progress,
-        pulses: Range<usize>,
-        cost: f64,
-        changes: &Changes,
-    ) -> Motion {
+    fn motion(&self, motion: &Progress, pulses: Range<usize>, changes: &Changes) -> Motion {
         let mut list = Vec::new();
         let mut place = Some(motion.latest);
         while let Some(index) = place {
             list.push(changes[index].1);
             place = changes[index].0;
         }
-        let sign = self.pulses[pulses.start].change.signum();
-        let count = self.pulses.len();
-        let (pulses, changes) = if self.is_reversed {
+        let sign = self.stretch.pulses[pulses.start].change.signum();
+        let count = self.stretch.pulses.len();
+        let (pulses, changes) = if self.stretch.is_reversed {
             let turned = list.into_iter().map(|pulse| count - 1 - pulse);
             (count - pulses.end..count - pulses.start, turned.collect())
         } else {
@@ -402,45 +203,15 @@ impl<'a> Stretch<'a> {
             top: sign * motion.top,
             distance: motion.distance,
             is_open: (false, false),
-            cost,
+            cost: motion.cost,
         }
     }
-}
-
-/// The cost of creeping until a time.
-fn creeping(motion: &Progress, until: f64) -> f64 {
-    if motion.creeps {
-        (cost::CREEP_SECOND * (until - motion.since)).min(cost::MOST_CREEP)
-    } else {
-        0.0
-    }
-}
-
-fn disturbances(prior: &Prior, pulses: &[Turned], first: usize) -> Vec<(usize, f64)> {
-    let (mut speed, mut way, mut found) = (0.0f64, 0.0f64, Vec::new());
-    let last = pulses.len().min(first + MOST_IN_DISTURBANCE);
-    for index in first..last {
-        let pulse = pulses[index];
-        let pause = if index > first {
-            pulse.from - pulses[index - 1].to
-        } else {
-            0.0
-        };
-        let length = pulse.to - pulse.from;
-        way += speed * pause + (speed + pulse.change / 2.0) * length;
-        speed += pulse.change;
-        if pause > LONGEST_PAUSE || length > LONGEST_SWING || way.abs() > FARTHEST_SWING {
-            break;
-        }
-        if index > first {
-            found.push((index + 1, prior.disturbance(speed)));
-        }
-    }
-    found
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::cost::Prior;
+    use super::super::pulse::Pulse;
     use super::*;
     use proptest::prelude::*;
     use std::collections::BTreeMap;
@@ -463,7 +234,7 @@ mod tests {
                     to: time,
                     change,
                     deviation: 0.01,
-                    peak: 1.0,
+                    is_violent: false,
                     is_swing: false,
                 }
             });
@@ -489,7 +260,7 @@ mod tests {
                     .implausible(motion.top, f64::INFINITY, f64::INFINITY);
                 note(
                     (next, true),
-                    motion.cost + creeping(&motion, stretch.end) + slow,
+                    motion.cost + motion.creeping(stretch.end) + slow,
                 );
                 continue;
             }
@@ -514,9 +285,11 @@ mod tests {
             let end = pulses.last().map_or(0.0, |pulse| pulse.to + 3.0);
             let forwards = Stretch::new(&prior, &pulses, (0.0, end));
             for stretch in [forwards.reversed(), forwards] {
+                let motions = Motions::new(stretch);
+                let stretch = &motions.stretch;
                 for first in 0..pulses.len() {
                     let mut found = BTreeMap::new();
-                    stretch.motions(first, &mut |motion, is_open| {
+                    motions.of(first, &mut |motion, is_open| {
                         let edge = if stretch.is_reversed {
                             pulses.len() - motion.pulses.start
                         } else {
@@ -525,8 +298,8 @@ mod tests {
                         let known = found.entry((edge, is_open)).or_insert(f64::INFINITY);
                         *known = motion.cost.min(*known);
                     });
-                    for (key, cost) in exhaustive(&stretch, first) {
-                        if cost < stretch.usual[key.0] - stretch.usual[first] + 8.0 {
+                    for (key, cost) in exhaustive(stretch, first) {
+                        if cost < motions.usual[key.0] - motions.usual[first] + 8.0 {
                             let found = found.get(&key).copied().unwrap_or(f64::INFINITY);
                             prop_assert!((found - cost).abs() < 1e-9, "{:?}: {} for {}", key, found, cost);
                         }

@@ -123,7 +123,21 @@ mod tests_of_pictures;
 mod tests {
     use super::kind::{Context, Study};
     use super::parse;
+    use crate::lift::Journey;
     use crate::run::whole;
+
+    /// A trip up from 10 to 20 s.
+    pub const UP: Journey = Journey {
+        start: 10.0,
+        uniform: 12.0,
+        braking: 18.0,
+        levelling: None,
+        stop: 20.0,
+        direction: 1,
+        distance: 8.0,
+        speed: 1.0,
+        jammed: false,
+    };
 
     /// The study of a config.
     pub fn read<S: Study>(text: &str) -> S {

@@ -6,21 +6,11 @@ use super::*;
 use crate::lift::Journey;
 use crate::monitor::Direction;
 use crate::study::parse;
-use crate::study::tests::{read, rows};
+use crate::study::tests::{UP, read, rows};
 
 /// One trip up from 10 to 20 s, one down from 30 to 40 s, in a record from `from` to `to` s.
 fn record(from: f64, to: f64) -> Record {
-    let up = Journey {
-        start: 10.0,
-        uniform: 12.0,
-        braking: 18.0,
-        levelling: None,
-        stop: 20.0,
-        direction: 1,
-        distance: 8.0,
-        speed: 1.0,
-        jammed: false,
-    };
+    let up = UP;
     let down = Journey {
         start: 30.0,
         stop: 40.0,

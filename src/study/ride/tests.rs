@@ -9,21 +9,11 @@ use crate::lift::Journey;
 use crate::monitor::{Alarm, Direction, Event, Kind, State};
 use crate::signal::Phase;
 use crate::study::kind::Study;
-use crate::study::tests::{read, rows};
+use crate::study::tests::{UP, read, rows};
 
 /// One trip up from 10 to 20 s and one down from 30 s that jams at 35 s, in a record of 60 s.
 fn truth() -> Truth {
-    let up = Journey {
-        start: 10.0,
-        uniform: 12.0,
-        braking: 18.0,
-        levelling: None,
-        stop: 20.0,
-        direction: 1,
-        distance: 8.0,
-        speed: 1.0,
-        jammed: false,
-    };
+    let up = UP;
     let down = Journey {
         start: 30.0,
         uniform: 32.0,
