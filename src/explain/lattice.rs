@@ -121,7 +121,7 @@ impl Lattice {
             let ignored = stretch.ignored(pulse);
             let (from, to) = (section.rest(pulse), section.rest(pulse + 1));
             self.edge(from, to, ignored, Part::Other(shift(pulse..pulse + 1)));
-            for &(after, cost) in stretch.disturbances(pulse) {
+            for (after, cost) in stretch.disturbances(pulse) {
                 self.edge(
                     from,
                     section.rest(after),

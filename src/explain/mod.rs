@@ -11,11 +11,12 @@
 //! high-pass filter is explained with and without one (`restore`).
 
 mod blocks;
-mod cost;
+pub(crate) mod cost;
 mod course;
 mod lattice;
 mod level;
 mod path;
+mod progress;
 mod pulse;
 mod reading;
 mod restore;
@@ -27,6 +28,7 @@ pub use cost::Prior;
 pub use course::Place;
 pub use lattice::{Lattice, Part};
 pub use level::Level;
+pub(crate) use progress::{Progress, Swing, Turned};
 pub use pulse::{Pulse, Record};
 pub use reading::{Reading, Trip, is_near};
 pub use trips::Motion;

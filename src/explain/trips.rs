@@ -4,7 +4,8 @@
 //! to a disturbance. It may end at a change that brings the speed back to zero. Motions that began before the
 //! record are those of the reversed record that go on after its end: reversed, braking is a start.
 
-use super::stretch::{Progress, Stretch};
+use super::progress::Progress;
+use super::stretch::Stretch;
 use std::collections::VecDeque;
 use std::ops::Range;
 
@@ -39,6 +40,26 @@ pub struct Motion {
     pub cost: f64,
 }
 
+/// A motion in progress, and its latest change in the list of all.
+#[derive(Clone, Copy, Debug)]
+struct Listed {
+    progress: Progress,
+    latest: usize,
+}
+
+impl Listed {
+    fn dearer(self, by: f64) -> Self {
+        let cost = self.progress.cost + by;
+        Self {
+            progress: Progress {
+                cost,
+                ..self.progress
+            },
+            ..self
+        }
+    }
+}
+
 /// The changes of all motions in progress: the one before, and the pulse.
 type Changes = Vec<(Option<usize>, usize)>;
 
@@ -66,7 +87,7 @@ impl<'a> Motions<'a> {
             let so_far = usual[first];
             let mut note = |end: usize, cost: f64| usual[end] = usual[end].min(so_far + cost);
             note(first + 1, self.stretch.pulses[first].ignored);
-            for &(after, cost) in self.stretch.disturbances(first) {
+            for (after, cost) in self.stretch.disturbances(first) {
                 note(after, cost);
             }
             let far = (first + SHORT_TRIP).min(count);
@@ -74,9 +95,9 @@ impl<'a> Motions<'a> {
                 first,
                 far,
                 |_, _| f64::INFINITY,
-                &mut |motion, last, is_open, _| {
+                &mut |_, cost, last, is_open, _| {
                     if !is_open {
-                        note(last + 1, motion.cost);
+                        note(last + 1, cost);
                     }
                 },
             );
@@ -101,9 +122,14 @@ impl<'a> Motions<'a> {
     pub fn of(&self, first: usize, take: &mut impl FnMut(Motion, bool)) {
         let most = |first: usize, pulse: usize| self.usual[pulse] - self.usual[first] + HOPELESS;
         let far = self.stretch.pulses.len().min(first + MOST_FOLLOWED);
-        self.follow(first, far, most, &mut |motion, last, is_open, changes| {
-            take(self.motion(motion, first..last + 1, changes), is_open);
-        });
+        self.follow(
+            first,
+            far,
+            most,
+            &mut |motion, cost, last, is_open, changes| {
+                take(self.motion(motion, cost, first..last + 1, changes), is_open);
+            },
+        );
     }
 
     /// Follows the motions that begin with a pulse over those before `far`, while they cost less than `most` of the first
@@ -113,51 +139,51 @@ impl<'a> Motions<'a> {
         first: usize,
         far: usize,
         most: impl Fn(usize, usize) -> f64,
-        take: &mut impl FnMut(&Progress, usize, bool, &Changes),
+        take: &mut impl FnMut(&Listed, f64, usize, bool, &Changes),
     ) {
-        let Some(start) = self.stretch.start(first) else {
+        let Some(progress) = self.stretch.start(first) else {
             return;
         };
         let mut changes: Changes = vec![(None, first)];
-        let mut waiting = VecDeque::from([vec![start]]);
+        let mut waiting = VecDeque::from([vec![Listed {
+            progress,
+            latest: 0,
+        }]]);
         for pulse in first + 1..far {
             let mut here = waiting.pop_front().unwrap_or_default();
-            here.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+            here.sort_by(|a, b| a.progress.cost.total_cmp(&b.progress.cost));
             here.truncate(WIDTH);
-            here.retain(|motion| motion.cost < most(first, pulse));
+            here.retain(|motion| motion.progress.cost < most(first, pulse));
             let is_over = self.stretch.pulses[pulse].from - self.stretch.pulses[first].from
                 > self.stretch.prior.longest_motion;
             if is_over || (here.is_empty() && waiting.iter().all(Vec::is_empty)) {
                 return;
             }
             for motion in here {
-                let mut wait = |until: usize, motion: Progress| {
+                let mut wait = |until: usize, motion: Listed| {
                     let place = until - pulse - 1;
                     if waiting.len() <= place {
                         waiting.resize(place + 1, Vec::new());
                     }
                     waiting[place].push(motion);
                 };
-                let cost = motion.cost + self.stretch.pulses[pulse].ignored;
-                wait(pulse + 1, Progress { cost, ..motion });
-                for &(after, cost) in self.stretch.disturbances(pulse) {
-                    let cost = motion.cost + cost;
-                    wait(after, Progress { cost, ..motion });
+                wait(pulse + 1, motion.dearer(self.stretch.ignored(pulse)));
+                for (after, cost) in self.stretch.disturbances(pulse) {
+                    wait(after, motion.dearer(cost));
                 }
-                let disturbances = self.stretch.disturbances(pulse).iter().map(|it| it.0);
+                let disturbances = self.stretch.disturbances(pulse).map(|it| it.0);
                 for after in [pulse + 1].into_iter().chain(disturbances) {
-                    let mut changed = self.stretch.changed(&motion, pulse..after);
+                    let progress = self.stretch.changed(&motion.progress, pulse..after);
+                    let mut latest = motion.latest;
                     for change in pulse..after {
-                        changes.push((Some(changed.latest), change));
-                        changed.latest = changes.len() - 1;
+                        changes.push((Some(latest), change));
+                        latest = changes.len() - 1;
                     }
-                    take(
-                        &self.stretch.closed(&changed, first, after - 1),
-                        after - 1,
-                        false,
-                        &changes,
-                    );
-                    wait(after, self.stretch.going_on(changed, &motion, first));
+                    let changed = Listed { progress, latest };
+                    let cost = self.stretch.closed(&progress, first, after - 1);
+                    take(&changed, cost, after - 1, false, &changes);
+                    let progress = self.stretch.going_on(progress, &motion.progress);
+                    wait(after, Listed { progress, latest });
                 }
             }
         }
@@ -165,24 +191,21 @@ impl<'a> Motions<'a> {
             return;
         }
         for motion in waiting.front().into_iter().flatten() {
-            let slow = self
-                .stretch
-                .prior
-                .implausible(motion.top, f64::INFINITY, f64::INFINITY);
-            let cost = motion.cost + motion.creeping(self.stretch.end) + slow;
-            take(
-                &Progress { cost, ..*motion },
-                self.stretch.pulses.len() - 1,
-                true,
-                &changes,
-            );
+            let cost = self.stretch.open(&motion.progress);
+            take(motion, cost, self.stretch.pulses.len() - 1, true, &changes);
         }
     }
 
     /// As it is in the order of the record.
-    fn motion(&self, motion: &Progress, pulses: Range<usize>, changes: &Changes) -> Motion {
+    fn motion(
+        &self,
+        &Listed { progress, latest }: &Listed,
+        cost: f64,
+        pulses: Range<usize>,
+        changes: &Changes,
+    ) -> Motion {
         let mut list = Vec::new();
-        let mut place = Some(motion.latest);
+        let mut place = Some(latest);
         while let Some(index) = place {
             list.push(changes[index].1);
             place = changes[index].0;
@@ -199,11 +222,11 @@ impl<'a> Motions<'a> {
         Motion {
             pulses,
             changes,
-            speed: motion.speed,
-            top: sign * motion.top,
-            distance: motion.distance,
+            speed: progress.speed,
+            top: sign * progress.top,
+            distance: progress.distance,
             is_open: (false, false),
-            cost: motion.cost,
+            cost,
         }
     }
 }
@@ -255,23 +278,17 @@ mod tests {
         let mut waiting = vec![(start, first + 1)];
         while let Some((motion, next)) = waiting.pop() {
             if next == stretch.pulses.len() {
-                let slow = stretch
-                    .prior
-                    .implausible(motion.top, f64::INFINITY, f64::INFINITY);
-                note(
-                    (next, true),
-                    motion.cost + motion.creeping(stretch.end) + slow,
-                );
+                note((next, true), stretch.open(&motion));
                 continue;
             }
             let others = [(next + 1, stretch.ignored(next))].into_iter();
-            for (after, cost) in others.chain(stretch.disturbances(next).iter().copied()) {
+            for (after, cost) in others.chain(stretch.disturbances(next)) {
                 let cost = motion.cost + cost;
                 waiting.push((Progress { cost, ..motion }, after));
                 let changed = stretch.changed(&motion, next..after);
                 let closed = stretch.closed(&changed, first, after - 1);
-                note((after, false), closed.cost);
-                waiting.push((stretch.going_on(changed, &motion, first), after));
+                note((after, false), closed);
+                waiting.push((stretch.going_on(changed, &motion), after));
             }
         }
         best

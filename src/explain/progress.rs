@@ -1,0 +1,180 @@
+//! A motion in progress: what it costs to begin it, to change its speed, and to end it.
+//!
+//! It is what the motions of a record and the hypotheses of a monitor have in common.
+
+use super::cost::{self, Prior};
+use super::pulse::{FARTHEST_SWING, LONGEST_PAUSE, LONGEST_SWING, Pulse};
+
+/// The share of its top speed to which a motion that crept gains speed again.
+const RESTARTED: f64 = 0.3;
+
+/// A pulse in one direction of time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Turned {
+    pub from: f64,
+    pub to: f64,
+    pub change: f64,
+    pub variance: f64,
+    /// The cost of taking it for something else than a change of speed.
+    pub ignored: f64,
+    /// What its violence adds to the cost of a change of speed.
+    pub violent: f64,
+}
+
+impl Turned {
+    /// In the order of the record.
+    pub fn new(prior: &Prior, pulse: &Pulse) -> Self {
+        Self {
+            from: pulse.from,
+            to: pulse.to,
+            change: pulse.change,
+            variance: pulse.deviation * pulse.deviation,
+            ignored: prior.ignored(pulse),
+            violent: if pulse.is_violent || pulse.is_swing {
+                cost::VIOLENT
+            } else {
+                0.0
+            },
+        }
+    }
+
+    /// With time reversed.
+    pub fn reversed(&self) -> Self {
+        Self {
+            from: -self.to,
+            to: -self.from,
+            change: -self.change,
+            ..*self
+        }
+    }
+}
+
+/// A motion in progress.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Progress {
+    pub speed: f64,
+    pub top: f64,
+    pub variance: f64,
+    pub cost: f64,
+    /// End of the latest change, s.
+    pub since: f64,
+    pub distance: f64,
+    pub creeps: bool,
+    /// Whether it does so at hardly any speed.
+    pub is_slow: bool,
+    /// Whether it began upwards.
+    pub is_up: bool,
+}
+
+impl Progress {
+    /// The motion that begins with a pulse.
+    pub fn start(pulse: &Turned) -> Self {
+        Self {
+            speed: pulse.change,
+            top: pulse.change.abs(),
+            variance: pulse.variance,
+            cost: cost::TRIP + pulse.violent,
+            since: pulse.to,
+            distance: pulse.change * (pulse.to - pulse.from) / 2.0,
+            creeps: false,
+            is_slow: false,
+            is_up: pulse.change > 0.0,
+        }
+    }
+
+    /// The motion after pulses that together change its speed.
+    pub fn changed(&self, pulses: &[Turned]) -> Self {
+        let pause = pulses[0].from - self.since;
+        let mut changed = *self;
+        let mut total = 0.0;
+        for pulse in pulses {
+            let coast = pulse.from - changed.since;
+            changed.distance += changed.speed * coast
+                + (changed.speed + pulse.change / 2.0) * (pulse.to - pulse.from);
+            changed.speed += pulse.change;
+            changed.variance += pulse.variance;
+            changed.cost += pulse.violent;
+            changed.since = pulse.to;
+            total += pulse.change;
+        }
+        changed.top = changed.top.max(changed.speed.abs());
+        changed.cost += self.creeping(pulses[0].from);
+        if self.is_slow && changed.speed.abs() > RESTARTED * changed.top {
+            changed.cost += cost::RESTART;
+        } else if total * self.speed > 0.0 {
+            changed.cost += cost::acceleration_stage(pause);
+        }
+        changed
+    }
+
+    /// The motion that goes on after it has changed from `before`; `stage` is the cost of a stage of braking.
+    pub fn going_on(self, prior: &Prior, before: &Self, stage: f64) -> Self {
+        let is_slow = self.speed.abs() < 2.0 * prior.tolerance(self.top, self.variance);
+        let is_braking = self.speed.abs() < before.speed.abs();
+        let is_turned = self.speed != 0.0 && (self.speed > 0.0) != self.is_up;
+        let cost = if is_slow {
+            cost::CREEP
+        } else if is_turned {
+            cost::TURN
+        } else if is_braking && before.speed.abs() - self.speed.abs() < 0.2 * before.top {
+            cost::RIPPLE
+        } else if is_braking {
+            stage
+        } else {
+            0.0
+        };
+        Self {
+            cost: self.cost + cost,
+            creeps: is_slow || (is_braking && cost > cost::RIPPLE),
+            is_slow,
+            ..self
+        }
+    }
+
+    /// What it costs if its latest change, `seconds` after its beginning, has ended it.
+    pub fn closed(&self, prior: &Prior, seconds: f64) -> f64 {
+        self.cost
+            + cost::closing(self.speed, prior.tolerance(self.top, self.variance))
+            + prior.implausible(self.top, self.distance, seconds)
+    }
+
+    /// The cost of creeping until a time.
+    pub fn creeping(&self, until: f64) -> f64 {
+        if self.creeps {
+            (cost::CREEP_SECOND * (until - self.since)).min(cost::MOST_CREEP)
+        } else {
+            0.0
+        }
+    }
+}
+
+/// Pulses in a row that may be a disturbance: a jump, a swing of a rope, a push.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Swing {
+    /// The speed that they leave, m/s.
+    pub speed: f64,
+    way: f64,
+    /// End of the latest, s.
+    to: Option<f64>,
+}
+
+impl Swing {
+    /// Whether a pulse now could belong to one whose latest pulse ended then, s.
+    pub fn lasts_from(to: f64, now: f64) -> bool {
+        now - to <= LONGEST_PAUSE
+    }
+
+    /// With another pulse, unless that is too late, too long or carries the sensor too far.
+    pub fn with(self, pulse: &Turned) -> Option<Self> {
+        let pause = self.to.map_or(0.0, |to| pulse.from - to);
+        let length = pulse.to - pulse.from;
+        let way = self.way + self.speed * pause + (self.speed + pulse.change / 2.0) * length;
+        let is_swing =
+            pause <= LONGEST_PAUSE && length <= LONGEST_SWING && way.abs() <= FARTHEST_SWING;
+        is_swing.then_some(Self {
+            speed: self.speed + pulse.change,
+            way,
+            to: Some(pulse.to),
+        })
+    }
+}
