@@ -5,7 +5,7 @@ use super::reading::ColumnArguments;
 use super::{CommandResult, Failure, print_to, warn};
 use anyhow::{Context, anyhow};
 use clap::Args;
-use liftsim::monitor::{Event, Knowledge, Monitor, SavedState};
+use liftsim::monitor::{Event, Knowledge, Monitor, SET_BACK, SavedState};
 use liftsim::recording::{LineReader, LineReading, Sample};
 use std::io::{self, BufReader};
 use std::iter;
@@ -17,12 +17,15 @@ use std::process::ExitCode;
 /// formats are those of `detect`, without a header m/s^2 and s. The output is one JSON object a line: the first state, every change of it with the time of the
 /// change (time), the time at which it became known (reported) and the decision behind it; and alarms.
 ///
-/// States are unknown, rest, acceleration, inertial, braking. A cage that moves smoothly looks like one that
-/// stands, so the state is unknown until the direction of motion has turned or, if you say that the cage
-/// stands (--begins rest), until rest is seen. In the state unknown there are no alarms.
+/// States are rest, acceleration, inertial, braking, levelling, and unknown, with its reason: beginning (too little was
+/// seen; say --begins rest if the cage stands), pulse (it may be a start, a stop or a disturbance), level (it may
+/// have shifted, or the cage moves softly), creep (the cage may not stand yet), hole (samples are missing), sensor.
+/// A state is said if no plausible explanation of the record contradicts it.
 ///
 /// The alarm `jam` says that a motion ended in a violent pulse, without the braking of a commanded stop;
-/// `slack`, with --expected-moving, that the cage stands while the drum pays out rope.
+/// `slack`, with --expected-moving, that the drum pays out rope and the cage is not known to move, with
+/// "certain":false where it is not known to stand either. `sensor` says that it is stuck, saturated, silent, noisy or
+/// moved, or that its clock was set back.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     liftsim detect ride.csv --save-state lift.json\n  \
@@ -41,7 +44,8 @@ pub struct MonitorCommand {
     /// Each line ends with one more number: 1 while the drum turns, else 0.
     #[arg(long)]
     expected_moving: bool,
-    /// Skip lines that cannot be read, with a warning, instead of stopping.
+    /// Skip lines that cannot be read, with a warning, instead of stopping; and go on after a clock that was set
+    /// back.
     #[arg(long)]
     keep_going: bool,
     #[command(flatten)]
@@ -100,6 +104,9 @@ impl MonitorCommand {
         };
         let design = design.map_err(Failure::Input)?;
         let mut monitor = Monitor::new(design, knowledge);
+        if self.begins == Some(Beginning::Motion) {
+            monitor.begin_in_motion();
+        }
         let mut out = io::stdout().lock();
         let mut report = |event: &Event| {
             let line = serde_json::to_string(event).expect("an event can be written") + "\n";
@@ -166,6 +173,7 @@ impl<R: io::BufRead> Readings<R> {
     /// Takes the time of a sample. Once there are enough, they must agree with the known rate.
     fn take_time(&mut self, time: f64) -> Result<(), Failure> {
         if let Some(last) = self.last.replace(time)
+            && time > last
             && self.intervals.len() < MEASURED
         {
             self.intervals.push(time - last);
@@ -224,6 +232,13 @@ impl<R: io::BufRead> Readings<R> {
             _ if time.abs() > LATEST => Ok(Err(anyhow!(
                 "line {line}: times must lie within {LATEST:e} s, got {time:e} (give them in s)"
             ))),
+            Some(last) if self.keeps_going && time < last - SET_BACK => {
+                warn(format_args!(
+                    "standard input: line {line}: the clock was set back from {last} s to {time} s"
+                ));
+                self.take_time(time)?;
+                Ok(Ok(Sample { time, acceleration }))
+            }
             Some(last) if time <= last => Ok(Err(anyhow!(
                 "line {line}: time must increase, got {time} s after {last} s (put lines in order, drop repeated \
                  ones, and write decimals with a point)"

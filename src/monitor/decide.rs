@@ -1,13 +1,11 @@
-//! Decisions on X, Y₁ and Y₂: forward at a start, backward at a stop.
+//! Decisions on X, Y₁ and Y₂, with X the reference of rest.
 //!
-//! Forward, X is the reference of rest, Y₂ the newest blocks and Y₁ those before them, with one decision at
-//! every block. A stop is a start reversed in time: X is the newest blocks, Y₁ the middle of the braking and
-//! Y₂ the motion before it.
+//! Forward, Y₂ is the newest blocks and Y₁ those before them, with one decision at every block. A stop is a start
+//! reversed in time: Y₁ is the middle of the braking and Y₂ the motion before it.
 
 use super::design::Design;
 use super::event::{Decision, Span};
 use super::history::History;
-use super::pulse::Pulse;
 use super::reference::Reference;
 use crate::detect::{Pooled, Statistics};
 use crate::rng::Stream;
@@ -24,10 +22,9 @@ pub(crate) struct Verdict {
     pub sign: f64,
 }
 
-/// The positions of the three samples; X without a position is the reference.
+/// The positions of Y₁ and Y₂.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Windows {
-    pub reference: Option<Range<u64>>,
     pub shift: Range<u64>,
     pub scale: Range<u64>,
 }
@@ -47,27 +44,20 @@ impl Windows {
         let after = scale.checked_sub(samples.gap() as u64)?;
         let shift = after.checked_sub(samples.shift() as u64)?;
         Some(Self {
-            reference: None,
             shift: shift..after,
             scale: scale..end,
         })
     }
 
-    /// Compares the newest blocks before `now` with the middle of a pulse and the motion before it. It takes the
-    /// middle because whitening gives the ends of a pulse the opposite sign.
-    pub fn backwards(design: &Design, pulse: &Pulse, now: u64) -> Option<Self> {
+    /// Compares the middle of a braking, and the motion before it, with the reference. It takes the middle because
+    /// whitening gives the ends of a pulse the opposite sign.
+    pub fn backwards(design: &Design, braking: Range<u64>) -> Option<Self> {
         let samples = &design.samples;
-        let [n, m1, m2, gap] = [
-            samples.reference(),
-            samples.shift(),
-            samples.scale(),
-            samples.gap(),
-        ]
-        .map(|size| size as u64);
-        let shift = u64::midpoint(pulse.onset, pulse.end).checked_sub(m1 / 2)?;
-        let before = pulse.onset.min(shift.checked_sub(gap)?);
+        let [m1, m2, gap] =
+            [samples.shift(), samples.scale(), samples.gap()].map(|size| size as u64);
+        let shift = u64::midpoint(braking.start, braking.end).checked_sub(m1 / 2)?;
+        let before = braking.start.min(shift.checked_sub(gap)?);
         Some(Self {
-            reference: Some(now.checked_sub(n)?..now),
             shift: shift..shift + m1,
             scale: before.checked_sub(m2)?..before,
         })
@@ -116,10 +106,7 @@ impl Decider {
         windows: &Windows,
     ) -> Option<Verdict> {
         let pooled = Pooled {
-            reference: match &windows.reference {
-                Some(blocks) => history.whitened(blocks.clone())?,
-                None => &reference.sample,
-            },
+            reference: &reference.sample,
             shift: history.whitened(windows.shift.clone())?,
             scale: history.whitened(windows.scale.clone())?,
         };

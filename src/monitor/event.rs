@@ -1,7 +1,7 @@
 //! The events of a monitor, written as one JSON object each.
 //!
 //! `{"time":8.93,"reported":9.99,"state":"acceleration","direction":"up","speed":0.56,"decision":{…}}` or
-//! `{"time":12.1,"reported":13.3,"alarm":"jam"}`. Times are in s, speeds in m/s. What is not known is left out.
+//! `{"time":12.1,"reported":13.3,"alarm":"jam"}` or `{"time":14.0,"reported":15.0,"sensor":"stuck"}`. Times are in s, speeds in m/s. What is not known is left out.
 
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
@@ -68,8 +68,15 @@ pub struct Event {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
+    /// The sensor cannot be trusted.
+    Sensor(Fault),
     /// The cage needs attention.
-    Alarm(Alarm),
+    #[serde(untagged)]
+    Alarm {
+        alarm: Alarm,
+        /// Whether the cage is known to be in this state; else that is only plausible.
+        certain: bool,
+    },
     /// The state has changed.
     #[serde(untagged)]
     Change {
@@ -81,10 +88,23 @@ pub enum Kind {
         /// The speed of the motion, m/s, as far as pulses of acceleration show.
         #[serde(skip_serializing_if = "Option::is_none", serialize_with = "rounded")]
         speed: Option<f64>,
+        /// Why the state is unknown.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        reason: Option<Doubt>,
         /// The decision behind the change, if there was one.
         #[serde(skip_serializing_if = "Option::is_none")]
         decision: Option<Decision>,
     },
+}
+
+impl Kind {
+    /// The alarm, if it is one.
+    pub fn alarm(&self) -> Option<Alarm> {
+        match self {
+            Self::Alarm { alarm, .. } => Some(*alarm),
+            _ => None,
+        }
+    }
 }
 
 /// Why the cage needs attention.
@@ -95,6 +115,42 @@ pub enum Alarm {
     Jam,
     /// The cage stands while the drum turns.
     Slack,
+}
+
+/// What is wrong with a sensor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Fault {
+    /// It repeats one value, where it used to scatter.
+    Stuck,
+    /// It is at the end of its range.
+    Saturated,
+    /// It sent nothing for a while.
+    Silent,
+    /// Its clock was set back.
+    Clock,
+    /// A start would not be seen in its noise.
+    Noisy,
+    /// Its level has jumped: it was moved.
+    Moved,
+}
+
+/// Why a state is unknown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Doubt {
+    /// Too little was seen: it takes three quiet seconds, or without `--begins` one or two trips.
+    Beginning,
+    /// A pulse of acceleration may be a start, a stop or a disturbance: it takes the rest of it, or the next one.
+    Pulse,
+    /// The level may have shifted, or a soft motion begun or ended: it takes the next start or stop.
+    Level,
+    /// The cage may creep: it takes the last stop, or some seconds without one.
+    Creep,
+    /// The record has a hole: it takes the next trip.
+    Hole,
+    /// The sensor cannot be trusted: it takes another.
+    Sensor,
 }
 
 impl Direction {

@@ -82,9 +82,15 @@ impl History {
         Some(&self.whitened[self.place(blocks)?])
     }
 
-    /// The last block, whitened.
-    pub fn newest(&self) -> f64 {
-        self.whitened.last().copied().unwrap_or(0.0)
+    /// The number of the first block that ends after a time, s.
+    pub fn at(&self, time: f64) -> u64 {
+        self.first + self.blocks.partition_point(|block| block.to <= time) as u64
+    }
+
+    /// The last block, and whitened. There must be one.
+    pub fn newest(&self) -> (Block, f64) {
+        let last = self.blocks.len() - 1;
+        (self.blocks[last], self.whitened[last])
     }
 
     /// Time of the first sample of a block, or of the oldest block held if that one is gone.

@@ -3,8 +3,15 @@
 //! every rest.
 //!
 //! # The flow
-//! samples → blocks → whitened blocks → a decision on (X, Y₁, Y₂) at every block, and pulses
-//! of acceleration → state → [`Event`]s. [`Monitor::step`] does all of it; reading a file is a loop over it.
+//! samples → blocks → pulses of acceleration → hypotheses → state → [`Event`]s, and blocks → whitened blocks → a
+//! decision on (X, Y₁, Y₂) at every block. [`Monitor::step`] does all of it; reading a file is a loop over it.
+//!
+//! # What it says
+//! An accelerometer cannot tell a cage that stands from one that moves uniformly; it shows pulses, and a motion is
+//! pulses whose changes of speed sum to zero. So a monitor follows all plausible explanations of the pulses so far
+//! (`hypothesis`) on all plausible levels of the sensor (`track`, `live`), with the costs of [`crate::explain`]. It
+//! says what all plausible ones agree on (`statement`), and otherwise `unknown` and why. `rest` is said only where none
+//! moves; `slack` is raised unless all do.
 //!
 //! # Scope of the exact level
 //! Each single decision keeps its level α if the whitened blocks at rest are exchangeable. In a real lift they
@@ -13,10 +20,6 @@
 //! seconds. So α determines neither the number of wrong decisions nor that of false motions in an hour. The
 //! rate at rest can be counted (`liftsim detect` prints it), and the time between false motions is simulated
 //! (`configs/ride_*.toml`).
-//!
-//! # Conditions on a motion beside the decision
-//! Ranks do not measure size: a tilt of the floor by a milliradian is as significant as a start. So a motion
-//! must also change the speed by `least_speed`, in one pulse of acceleration.
 //!
 //! ```
 //! use liftsim::monitor::{Knowledge, Monitor, Settings};
@@ -38,31 +41,37 @@ mod decide;
 mod design;
 mod event;
 mod history;
-mod lift_state;
-mod pulse;
+mod hypotheses;
+mod hypothesis;
+mod live;
 mod reference;
 mod saved_state;
+mod sensor;
 mod settings;
-mod step_input;
+mod statement;
 #[cfg(test)]
 mod tests;
+mod track;
 
 pub use design::Design;
-pub use event::{Alarm, Decision, Direction, Event, Kind, Span, State};
+pub use event::{Alarm, Decision, Direction, Doubt, Event, Fault, Kind, Span, State};
 pub use reference::Reference;
 pub use saved_state::{SavedState, SavedStateError};
+pub use sensor::SET_BACK;
 pub use settings::{Level, Limits, MOST_ORDER, Settings, SettingsError, Sizes, Whitening};
 
-use crate::explain::{Block, Blocks};
+use crate::explain::{Block, Blocks, Prior};
 use crate::recording::Sample;
 use decide::Windows;
 pub(crate) use decide::{Decider, Verdict};
 use history::History;
-use lift_state::LiftState;
-use pulse::{Cusum, is_level};
+use hypothesis::{Hypothesis, Known};
+use live::{Belief, Live};
+use sensor::{Health, Sensor};
 use serde::{Deserialize, Serialize};
 pub(crate) use settings::LEAST_TRAINING;
-use step_input::StepInput;
+use statement::Statement;
+use std::ops::Range;
 
 /// Knowledge of a cage before its record begins.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -94,68 +103,113 @@ pub struct Observation {
 pub struct Monitor {
     design: Design,
     reference: Option<Reference>,
-    /// Whether the reference is known to come from rest.
-    is_rest: bool,
-    /// Whether the cage is known to stand when the record begins.
-    begins_at_rest: bool,
-    /// Whether motions of this cage have looked different from rest.
-    motion_shows: bool,
     blocks: Blocks,
     history: History,
     decider: Decider,
-    /// The sums for up and down.
-    cusums: [Cusum; 2],
-    cage: LiftState,
+    live: Live,
+    sensor: Sensor,
+    /// Whether the noise hides a start.
+    is_noisy: bool,
+    /// Whether motions of this cage look different from rest, and the mean square of whitened blocks, in that of the
+    /// reference.
+    motion_shows: bool,
+    strength: f64,
+    said: Statement,
+    /// The level when it was last certain, m/s².
+    level: Option<f64>,
+    /// Time of the last sample, s.
+    last: Option<f64>,
     /// The first block that the next reference may be learnt from.
     learns_from: u64,
-    /// The number of motions in a row that looked different from rest.
-    shown: u32,
-    /// Whether a motion has shown signs of a high-pass filter.
-    is_high_passed: bool,
     /// The newest block, if a sample has just completed it.
     newest: Option<Observation>,
-    /// The number of blocks in which the cage stood while the drum turned.
-    slack: u64,
+    /// Since when the drum turns, s, and since when it does so beside a cage that may stand.
+    turns: Option<f64>,
+    slack: Option<f64>,
+    is_slack_told: bool,
+    /// The latest jam that was told, s.
+    jam: f64,
     events: Vec<Event>,
 }
 
-/// The longest start or braking, s. A longer pulse is a change of level.
-const LONGEST_PULSE: f64 = 60.0;
+/// The longest braking whose decision is made, s.
+const LONGEST_BRAKING: f64 = 60.0;
 
-/// The number of motions in a row that must look different from rest before blocks like rest are evidence.
-const MOTIONS_TO_TRUST: u32 = 2;
+/// The error of a speed as a share of the highest. Start and stop are measured by one sensor, whose gain cancels.
+const GAIN_ERROR: f64 = 0.015;
+
+/// What it costs that a record begins in motion.
+const BEGINS_IN_MOTION: f64 = 3.0;
+
+/// The scatter of blocks in which starts are not seen, m/s², and below which they are again.
+const NOISY: (f64, f64) = (0.16, 0.1);
+
+/// Blocks look like rest if their mean square is at most this many times that of the reference; it is followed over
+/// this time, s, and single ones count for at most so much.
+const CALM: (f64, f64, f64) = (2.0, 2.0, 9.0);
+
+/// A sensor was moved if its level jumps by this much, m/s².
+const MOVED: f64 = 0.15;
+
+/// By how much a slack alarm may go back before the doubt, s.
+const LOOKS_BACK: f64 = 1.5;
 
 impl Monitor {
     /// A monitor with this knowledge of its cage.
     pub fn new(design: Design, knowledge: Knowledge) -> Self {
-        let Knowledge {
-            reference,
-            begins_at_rest,
-            motion_shows,
-        } = knowledge;
-        let drift = design.settings.monitor.least_acceleration / 2.0;
-        let patience = design.samples.shift();
-        let cusum = |sign| Cusum::new(sign, drift, patience);
-        let learnt = design.settings.whitening.training + design.samples.reference() + patience;
-        let looked_back = 4 * design.samples.span() + (LONGEST_PULSE / design.block) as usize;
+        let limits = &design.settings.monitor;
+        let known = Known {
+            prior: Prior {
+                least_speed: limits.least_speed,
+                most_acceleration: limits.most_acceleration,
+                longest_motion: limits.longest_motion,
+                gain_error: GAIN_ERROR,
+                begins_at_rest: None,
+            },
+            soft: limits.least_acceleration,
+        };
+        let begins = if knowledge.begins_at_rest {
+            vec![Hypothesis::rest(0.0, 0.0)]
+        } else {
+            vec![
+                Hypothesis::rest(0.0, 0.0),
+                Hypothesis::open(0.0, BEGINS_IN_MOTION),
+            ]
+        };
+        let level = knowledge
+            .reference
+            .as_ref()
+            .map(|reference| reference.level);
+        let (samples, block) = (&design.samples, design.block);
+        let learnt = design.settings.whitening.training + samples.reference() + samples.shift();
+        let looked_back = 4 * samples.span() + (LONGEST_BRAKING / block) as usize;
         Self {
-            is_rest: reference.is_some(),
-            reference,
-            begins_at_rest,
-            motion_shows,
-            blocks: Blocks::new(design.samples.decimation(), design.block),
+            blocks: Blocks::new(samples.decimation(), block),
             history: History::new(learnt.max(looked_back)),
             decider: Decider::new(&design),
-            cusums: [cusum(1.0), cusum(-1.0)],
-            cage: LiftState::unknown(0),
+            live: Live::new(known, block, begins, level),
+            sensor: Sensor::default(),
+            is_noisy: false,
+            motion_shows: knowledge.motion_shows && knowledge.reference.is_some(),
+            strength: CALM.2,
+            said: Statement::unknown(0.0, Doubt::Beginning),
+            level: None,
+            last: None,
             learns_from: 0,
-            shown: 0,
-            is_high_passed: false,
             newest: None,
-            slack: 0,
-            events: Vec::new(),
+            turns: None,
+            slack: None,
+            is_slack_told: false,
+            jam: f64::NEG_INFINITY,
+            events: Vec::with_capacity(8),
+            reference: knowledge.reference,
             design,
         }
+    }
+
+    /// Tells it, before the first sample, that the cage moves.
+    pub fn begin_in_motion(&mut self) {
+        self.live.begin(vec![Hypothesis::moving(0.0)]);
     }
 
     /// The settings, at the rate of the samples.
@@ -170,17 +224,12 @@ impl Monitor {
 
     /// The event before the first sample, which is taken at `time`.
     pub fn beginning(&self, time: f64) -> Event {
-        self.cage.change(time, time, None)
+        Statement::unknown(time, Doubt::Beginning).event(time)
     }
 
     /// The current state of the cage.
     pub fn state(&self) -> State {
-        self.cage.state()
-    }
-
-    /// Whether a motion has shown signs of a sensor behind a high-pass filter: pulses that decay and overshoot.
-    pub fn is_high_passed(&self) -> bool {
-        self.is_high_passed
+        self.said.state
     }
 
     /// The block that the last sample completed, if any.
@@ -188,168 +237,261 @@ impl Monitor {
         self.newest.as_ref()
     }
 
-    /// Takes the next sample and, if known, whether the drum turns; returns the new events.
+    /// Takes the next sample and, if known, whether the drum turns; returns the new events. A time that is no number
+    /// is passed over; one that lies before the last by a second or more is taken for a clock that was set back.
     #[inline]
     pub fn step(&mut self, sample: Sample, drum_turns: Option<bool>) -> &[Event] {
         self.events.clear();
         self.newest = None;
-        if self.blocks.is_gap(sample.time) {
-            self.blocks.clear();
-            self.lose_track(sample.time);
+        let now = sample.time;
+        if !(now.is_finite() && sample.acceleration.is_finite()) {
+            return &self.events;
+        }
+        if self.sensor.is_set_back(now) {
+            self.cross(now, now, Fault::Clock);
+        } else if self.blocks.is_gap(now) {
+            self.cross(self.last.unwrap_or(now), now, Fault::Silent);
+        }
+        self.last = Some(now);
+        let health = self.sensor.step(sample);
+        if health.begins.is_some() || health.ends {
+            self.take_health(health, now);
         }
         if let Some(block) = self.blocks.step(sample) {
-            self.block(block);
-            self.watch_drum(block.to, drum_turns);
+            self.block(block, health.fault.is_some());
+        }
+        if drum_turns.is_some() {
+            self.watch_drum(now, drum_turns == Some(true));
         }
         &self.events
     }
 
-    /// Handles a gap in the record: the reference stays, the state of the cage becomes unknown.
-    fn lose_track(&mut self, time: f64) {
+    /// Handles a hole in the record: what the cage did in it is not known.
+    fn cross(&mut self, from: f64, now: f64, fault: Fault) {
+        self.report(fault, from, now);
+        self.blocks.clear();
+        self.sensor.cross();
+        self.forget(now, (now - from).max(0.0));
+        if fault == Fault::Clock {
+            (self.turns, self.slack, self.jam) = (None, None, f64::NEG_INFINITY);
+        }
+        self.say(Statement::unknown(now, Doubt::Hole), now);
+    }
+
+    fn forget(&mut self, now: f64, seconds: f64) {
+        // A clock that was set back hides a hole of unknown length.
+        self.live.cross(
+            now,
+            if seconds > 0.0 {
+                seconds
+            } else {
+                f64::INFINITY
+            },
+        );
         self.history.clear();
-        self.cusums.iter_mut().for_each(Cusum::reset);
         self.learns_from = 0;
-        self.begins_at_rest = false;
-        let state = self.cage.state();
-        self.cage = LiftState::unknown(0);
-        if state != State::Unknown {
-            self.events.push(self.cage.change(time, time, None));
+    }
+
+    fn report(&mut self, fault: Fault, time: f64, now: f64) {
+        self.events.push(Event {
+            time,
+            reported: now,
+            kind: Kind::Sensor(fault),
+        });
+    }
+
+    fn take_health(&mut self, health: Health, now: f64) {
+        if let Some((fault, since)) = health.begins {
+            self.report(fault, since, now);
+            self.say(Statement::unknown(now, Doubt::Sensor), now);
+        }
+        if health.ends {
+            self.blocks.clear();
+            self.forget(now, f64::INFINITY);
         }
     }
 
-    fn block(&mut self, block: Block) {
+    fn block(&mut self, block: Block, is_faulty: bool) {
         self.history.push(block, self.reference.as_ref());
-        let now = self.history.end();
-        if self.reference.is_some() {
-            self.decide_block(now, &block);
-            self.doubt_level(now, &block);
+        self.decide();
+        if is_faulty {
+            return;
         }
-        self.learn(now);
+        self.live.step(block);
+        let belief = self.live.belief(self.is_calm());
+        let now = block.to;
+        let was_noisy = self.is_noisy;
+        self.judge_noise(&belief, now);
+        let statement = if self.is_noisy || was_noisy {
+            Statement::unknown(now, Doubt::Sensor)
+        } else {
+            Statement::of(&belief, now)
+        };
+        self.alarm_of_jam(&statement, now);
+        self.say(statement, now);
+        self.judge_level(&belief, now);
+        if belief.in_pulse {
+            self.learns_from = self.history.end();
+        }
+        if self.said.state == State::REST {
+            self.learns_from = self.learns_from.max(self.history.at(self.said.since));
+            self.learn();
+        }
     }
 
-    /// Makes the decision at a block and updates the pulses and the state.
-    fn decide_block(&mut self, now: u64, block: &Block) {
+    /// Whether the record looks like rest, if motions of the cage do not.
+    fn is_calm(&self) -> Option<bool> {
+        self.motion_shows.then_some(self.strength < CALM.0)
+    }
+
+    /// Makes the decision at the newest block.
+    fn decide(&mut self) {
         let Some(reference) = &self.reference else {
             return;
         };
-        let excess = block.mean - reference.level;
-        let ended =
-            (self.cusums.each_mut()).map(|cusum| cusum.step(now - 1, excess, block.seconds));
-        let windows = Windows::forwards(&self.design, now);
-        let verdict = windows.as_ref().and_then(|windows| {
-            (self.decider).decide(&self.design, reference, &self.history, windows)
+        let windows = Windows::forwards(&self.design, self.history.end());
+        let verdict = windows.and_then(|windows| {
+            (self.decider).decide(&self.design, reference, &self.history, &windows)
         });
+        let block = self.history.newest();
+        let ratio = (block.1 / reference.deviation).powi(2).min(CALM.2);
+        if ratio.is_finite() {
+            self.strength += self.design.block / CALM.1 * (ratio - self.strength);
+        }
         self.newest = Some(Observation {
-            times: (block.from, block.to),
-            mean: block.mean,
-            whitened: self.history.newest(),
+            times: (block.0.from, block.0.to),
+            mean: block.0.mean,
+            whitened: block.1,
             moves: verdict.map(|verdict| verdict.moves),
         });
-        let (Some(windows), Some(verdict)) = (windows, verdict) else {
+    }
+
+    /// The decision at a start, on the newest blocks, or at a stop, on its braking.
+    fn decision(&mut self, braking: Option<(f64, f64)>) -> Option<Decision> {
+        let reference = self.reference.as_ref()?;
+        let windows = match braking {
+            None => Windows::forwards(&self.design, self.history.end()),
+            Some((from, to)) => {
+                Windows::backwards(&self.design, self.history.at(from)..self.history.at(to))
+            }
+        }?;
+        let verdict = (self.decider).decide(&self.design, reference, &self.history, &windows)?;
+        let span = |blocks: &Range<u64>| {
+            (
+                self.history.starts(blocks.start),
+                self.history.ends(blocks.end),
+            )
+        };
+        let spans = [span(&windows.shift), span(&windows.scale)];
+        Some(verdict.decision(&self.design, reference.span, spans))
+    }
+
+    /// Reports a statement that differs from the last.
+    fn say(&mut self, statement: Statement, now: f64) {
+        let was = self.said;
+        self.said = statement;
+        if was.state == statement.state {
+            return;
+        }
+        let mut event = statement.event(now);
+        let braking = statement.braking.filter(|_| statement.state == State::REST);
+        let starts = !was.state.moves() && statement.state.moves();
+        if let Kind::Change { decision, .. } = &mut event.kind
+            && (starts || braking.is_some())
+        {
+            *decision = self.decision(braking);
+        }
+        self.events.push(event);
+    }
+
+    /// Raises the alarm if a shock has ended the motion, or may have.
+    fn alarm_of_jam(&mut self, statement: &Statement, now: f64) {
+        let Some(time) = statement.jam.filter(|time| *time > self.jam) else {
             return;
         };
-        let mut input = StepInput {
-            design: &self.design,
-            history: &self.history,
-            reference,
-            calm_is_rest: self.is_rest && self.motion_shows,
-            begins_at_rest: self.is_rest && self.begins_at_rest,
-            decider: &mut self.decider,
-            cusums: &self.cusums,
-            ended,
-            windows,
-            verdict,
+        self.jam = time;
+        self.alarm(
+            Alarm::Jam,
+            time.min(now),
             now,
-            time: block.to,
-        };
-        let was = self.cage;
-        self.cage = was.step(&mut input, &mut self.events);
-        self.remember(was, now);
+            statement.state == State::REST,
+        );
     }
 
-    /// Handles a pulse that does not end: the level of the sensor has changed, and the state becomes unknown.
-    fn doubt_level(&mut self, now: u64, block: &Block) {
-        let longest = (LONGEST_PULSE / self.design.block) as u64;
-        let mut pulses = self.cusums.iter().filter_map(Cusum::pulse);
-        if pulses.any(|pulse| now - pulse.onset > longest) {
-            self.lose_track(block.to);
-            self.reference = None;
-            self.is_rest = false;
+    fn alarm(&mut self, alarm: Alarm, time: f64, reported: f64, certain: bool) {
+        self.events.push(Event {
+            time,
+            reported,
+            kind: Kind::Alarm { alarm, certain },
+        });
+    }
+
+    fn judge_noise(&mut self, belief: &Belief, now: f64) {
+        let was = self.is_noisy;
+        self.is_noisy = belief.scatter > if was { NOISY.1 } else { NOISY.0 };
+        if self.is_noisy && !was {
+            self.report(Fault::Noisy, now, now);
+        }
+        if was && !self.is_noisy {
+            // Nothing that was seen in the noise counts.
+            self.forget(now, f64::INFINITY);
         }
     }
 
-    /// Learns from a change of state whether motions of this cage look different from rest.
-    fn remember(&mut self, was: LiftState, now: u64) {
-        self.is_high_passed |= self.cage.decays();
-        if self.cage.state() != was.state() {
-            self.learns_from = now;
-        }
-        if self.cage != LiftState::Rest {
+    /// Reports a jump of the level where it is certain.
+    fn judge_level(&mut self, belief: &Belief, now: f64) {
+        if self.said.state == State::Unknown || belief.in_pulse {
             return;
         }
-        self.begins_at_rest = false;
-        let enough = 2 * self.design.samples.reference() as u64;
-        if let Some(looks_like_rest) = was.looks_like_rest(enough) {
-            self.shown = if looks_like_rest { 0 } else { self.shown + 1 };
-            self.motion_shows = self.shown >= MOTIONS_TO_TRUST;
+        let has_jumped = self
+            .level
+            .is_some_and(|level| (level - belief.level).abs() > MOVED);
+        self.level = Some(belief.level);
+        if has_jumped {
+            self.report(Fault::Moved, now, now);
         }
     }
 
-    /// Learns the filter and X again from the latest blocks, if there are enough of them: while the cage stands,
-    /// or, without a better reference, while the state is unknown.
-    fn learn(&mut self, now: u64) {
+    /// Learns the filter and X again from the latest blocks, if the cage has stood quietly for long enough.
+    fn learn(&mut self) {
         let samples = &self.design.samples;
         let needed = (self.design.settings.whitening.training + samples.reference()) as u64;
-        // Leave out the newest blocks: they may belong to a start that is not detected yet.
-        let lag = samples.shift() as u64;
-        if now < self.learns_from + needed + lag || self.cage.state().moves() {
+        // Leave out the newest blocks: they may belong to a start that is not seen yet.
+        let to = self.history.end().saturating_sub(samples.shift() as u64);
+        if to < self.learns_from + needed {
             return;
         }
-        // A new level would distort a current pulse, which was measured from the old one.
-        if self.cusums.iter().any(|cusum| cusum.pulse().is_some()) {
-            return;
-        }
-        let stands = self.cage == LiftState::Rest;
-        let blocks = now - lag - needed..now - lag;
-        let Some(record) = self.history.blocks(blocks.clone()) else {
+        let Some(record) = self.history.blocks(to - needed..to) else {
             return;
         };
+        let span = (record[0].from, record[record.len() - 1].to);
         let record: Vec<f64> = record.iter().map(|block| block.mean).collect();
-        // If learning fails, do not retry at every block.
-        self.learns_from += needed / 4;
-        let drift = self.design.settings.monitor.least_acceleration / 2.0;
-        let bound = self.design.settings.monitor.least_speed / 2.0;
-        if !is_level(&record, drift, self.design.block, bound) {
-            return;
-        }
-        let span = (
-            self.history.starts(blocks.start),
-            self.history.ends(blocks.end),
-        );
         let learnt = Reference::from_rest(&record, span, &self.design);
-        // A reference of rest is replaced only by another one, or when the sensor has been moved.
-        let fits = |known: &Reference| (learnt.level - known.level).abs() < drift;
-        if !stands && self.is_rest && self.reference.as_ref().is_some_and(fits) {
-            return;
-        }
         self.history.whiten(&learnt);
         self.reference = Some(learnt);
-        // Knowledge of the beginning applies only to blocks from the beginning.
-        self.is_rest = stands || (self.begins_at_rest && blocks.start == 0);
-        self.learns_from = now;
+        self.learns_from = self.history.end();
     }
 
-    /// Raises the alarm if the cage stands while the rope is paid out.
-    fn watch_drum(&mut self, time: f64, drum_turns: Option<bool>) {
-        let is_slack = drum_turns == Some(true) && self.cage == LiftState::Rest;
-        self.slack = if is_slack { self.slack + 1 } else { 0 };
+    /// Raises the alarm if the drum pays out rope for too long and the cage may stand.
+    fn watch_drum(&mut self, now: f64, turns: bool) {
+        if !turns || self.said.state.moves() {
+            self.slack = None;
+            self.is_slack_told = false;
+            if !turns {
+                self.turns = None;
+            } else {
+                self.turns.get_or_insert(now);
+            }
+            return;
+        }
+        let turns = *self.turns.get_or_insert(now);
+        // Where the motion has become doubtful, the cage may have stood since before.
+        let stands = self.said.rest.unwrap_or(now).clamp(now - LOOKS_BACK, now);
+        let since = *self.slack.get_or_insert(stands.max(turns));
         let longest = self.design.settings.monitor.longest_slack;
-        if self.slack == (longest / self.design.block).ceil() as u64 {
-            self.events.push(Event {
-                time: time - longest,
-                reported: time,
-                kind: Kind::Alarm(Alarm::Slack),
-            });
+        if now - since >= longest - 1e-9 && !self.is_slack_told {
+            self.is_slack_told = true;
+            self.alarm(Alarm::Slack, since, now, self.said.state == State::REST);
         }
     }
 }

@@ -89,23 +89,39 @@ fn standing() -> Monitor {
 fn states(events: &[Event]) -> Vec<State> {
     let change = |event: &Event| match event.kind {
         Kind::Change { state, .. } => Some(state),
-        Kind::Alarm(_) => None,
+        _ => None,
     };
     events.iter().filter_map(change).collect()
 }
 
 fn alarms(events: &[Event]) -> Vec<Alarm> {
-    let alarm = |event: &Event| match event.kind {
-        Kind::Alarm(alarm) => Some(alarm),
-        Kind::Change { .. } => None,
+    events
+        .iter()
+        .filter_map(|event| event.kind.alarm())
+        .collect()
+}
+
+fn faults(events: &[Event]) -> Vec<Fault> {
+    let fault = |event: &Event| match event.kind {
+        Kind::Sensor(fault) => Some(fault),
+        _ => None,
     };
-    events.iter().filter_map(alarm).collect()
+    events.iter().filter_map(fault).collect()
+}
+
+/// The states that were known, each once in a row.
+fn known(events: &[Event]) -> Vec<State> {
+    let mut states = states(events);
+    states.retain(|state| *state != State::Unknown);
+    states.dedup();
+    states
 }
 
 const REST: State = State::REST;
 const ACCELERATING: State = State::Known(Phase::Accelerating);
 const INERTIAL: State = State::Known(Phase::Inertial);
 const BRAKING: State = State::Known(Phase::Braking);
+const LEVELLING: State = State::Known(Phase::Levelling);
 const RIDE: [State; 4] = [ACCELERATING, INERTIAL, BRAKING, REST];
 
 #[test]
@@ -113,10 +129,21 @@ fn a_ride_is_followed_phase_by_phase() {
     for sign in [1.0, -1.0] {
         let record = Record::quiet().rest(8.0).trip(sign).rest(5.0);
         let events = record.watch(&mut standing());
-        assert_eq!(states(&events), [[REST].as_slice(), &RIDE].concat());
-        // A block is 0.05 s, and the pulse is found by blocks.
-        for (event, time) in events[1..].iter().zip([8.0, 10.0, 18.0, 20.0]) {
-            assert!((event.time - time).abs() <= 0.051, "{event:?}");
+        assert_eq!(known(&events), [[REST].as_slice(), &RIDE].concat());
+        let told: Vec<&Event> = events
+            .iter()
+            .filter(|event| {
+                !matches!(
+                    event.kind,
+                    Kind::Change {
+                        state: State::Unknown,
+                        ..
+                    }
+                )
+            })
+            .collect();
+        for (event, time) in told[1..].iter().zip([8.0, 10.0, 18.0, 20.0]) {
+            assert!((event.time - time).abs() <= 0.31, "{event:?}");
             assert!(
                 (0.0..2.0).contains(&(event.reported - event.time)),
                 "{event:?}"
@@ -127,7 +154,7 @@ fn a_ride_is_followed_phase_by_phase() {
             speed,
             decision,
             ..
-        } = events[1].kind
+        } = told[1].kind
         else {
             panic!("{events:?}")
         };
@@ -239,7 +266,7 @@ fn a_decision_at_rest_has_its_exact_size() {
 }
 
 #[test]
-fn a_reversal_tells_what_vibration_does_not() {
+fn without_knowledge_it_decides_within_two_trips() {
     let cold = || Monitor::new(design(), Knowledge::default());
     // Smooth motion, as quiet as rest: + − | − +
     let smooth = |record: Record, sign: f64| {
@@ -250,10 +277,8 @@ fn a_reversal_tells_what_vibration_does_not() {
             .rest(8.0)
     };
     let turning = smooth(smooth(Record::quiet().rest(8.0), 1.0), -1.0);
-    assert_eq!(states(&turning.watch(&mut cold())), RIDE);
-    // Two trips in the same direction do not show which one it is.
-    let same_way = smooth(smooth(Record::quiet().rest(8.0), 1.0), 1.0);
-    assert_eq!(states(&same_way.watch(&mut cold())), []);
+    let events = turning.watch(&mut cold());
+    assert_eq!(known(&events).last(), Some(&REST), "{events:?}");
     // Switched on in motion: braking, start the other way, braking.
     let in_motion = Record::quiet()
         .rest(8.0)
@@ -263,29 +288,26 @@ fn a_reversal_tells_what_vibration_does_not() {
         .rest(8.0)
         .with(2.0, 0.5, 1.0)
         .rest(8.0);
-    let events = in_motion.watch(&mut cold());
-    assert_eq!(states(&events), [REST]);
-    assert!((events[0].time - 30.0).abs() < 0.06);
+    let mut monitor = cold();
+    let events = in_motion.watch(&mut monitor);
+    let moves = [0.0..9.0, 19.0..29.0];
+    for event in &events {
+        let is_rest = states(&[*event]) == [REST];
+        let is_wrong = moves.iter().any(|span| span.contains(&event.reported));
+        assert!(!(is_rest && is_wrong), "{events:?}");
+    }
+    assert!(!monitor.state().moves());
 }
 
 #[test]
-fn calm_is_no_rest_unless_motion_shows() {
-    let rest = Record::quiet().rest(20.0);
-    let mut learner = standing();
-    rest.watch(&mut learner);
-    let reference = learner.reference().cloned();
-    for (motion_shows, expected) in [(false, vec![]), (true, vec![REST])] {
-        let knowledge = Knowledge {
-            reference: reference.clone(),
-            begins_at_rest: false,
-            motion_shows,
-        };
-        let mut monitor = Monitor::new(design(), knowledge);
-        assert_eq!(
-            states(&Record::new(0.01, 1).rest(20.0).watch(&mut monitor)),
-            expected
-        );
-    }
+fn told_that_it_moves_it_waits_for_the_stop() {
+    let mut monitor = Monitor::new(design(), Knowledge::default());
+    monitor.begin_in_motion();
+    let record = Record::quiet().rest(8.0).with(2.0, -0.5, 1.0).rest(8.0);
+    let events = record.watch(&mut monitor);
+    assert_eq!(known(&events).last(), Some(&REST), "{events:?}");
+    let rest = events.iter().find(|event| states(&[**event]) == [REST]);
+    assert!(rest.is_some_and(|rest| (rest.time - 10.0).abs() < 0.3));
 }
 
 #[test]
@@ -295,7 +317,7 @@ fn what_is_quiet_for_longer_than_any_motion_is_rest() {
     let mut monitor = Monitor::new(settings.at(RATE).unwrap(), Knowledge::default());
     let events = Record::quiet().rest(45.0).watch(&mut monitor);
     assert_eq!(states(&events), [REST]);
-    // A motion that never ends is given up.
+    // A motion that never ends is given up, and not said to be rest.
     let mut monitor = Monitor::new(
         settings.at(RATE).unwrap(),
         Knowledge {
@@ -308,44 +330,33 @@ fn what_is_quiet_for_longer_than_any_motion_is_rest() {
         .with(2.0, 0.5, 1.0)
         .with(40.0, 0.0, 2.0);
     let events = record.watch(&mut monitor);
-    assert_eq!(
-        states(&events),
-        [REST, ACCELERATING, INERTIAL, State::Unknown]
-    );
-    assert!((events[3].time - 38.0).abs() < 0.2);
+    assert_eq!(known(&events), [REST, ACCELERATING, INERTIAL]);
+    assert_eq!(monitor.state(), State::Unknown);
+    assert!((events[events.len() - 1].time - 38.0).abs() < 0.5);
 }
 
 #[test]
 fn a_jam_is_an_alarm_unless_motion_goes_on() {
-    let moving = Record::quiet()
-        .rest(8.0)
-        .with(2.0, 0.5, 1.0)
-        .with(6.0, 0.0, 3.0);
+    let moving = || {
+        Record::quiet()
+            .rest(8.0)
+            .with(2.0, 0.5, 1.0)
+            .with(6.0, 0.0, 3.0)
+    };
     let violent = |record: Record| record.with(0.1, -10.0, 1.0);
-    let jammed = violent(moving).rest(6.0);
-    let events = jammed.watch(&mut standing());
+    let events = violent(moving()).rest(6.0).watch(&mut standing());
     assert_eq!(alarms(&events), [Alarm::Jam]);
-    assert_eq!(states(&events), [[REST].as_slice(), &RIDE].concat());
-    let alarm = events
-        .iter()
-        .find(|event| matches!(event.kind, Kind::Alarm(_)))
-        .unwrap();
-    assert!((alarm.time - 16.0).abs() < 0.06, "{alarm:?}");
+    let alarm = events.iter().find(|event| event.kind.alarm().is_some());
+    let alarm = alarm.unwrap();
+    assert!((alarm.time - 16.0).abs() < 0.3, "{alarm:?}");
     assert!(alarm.reported - alarm.time < 1.6, "{alarm:?}");
 
     // A rail joint: a shock that swings back.
-    let moving = Record::quiet()
-        .rest(8.0)
-        .with(2.0, 0.5, 1.0)
-        .with(6.0, 0.0, 3.0);
-    let struck = violent(moving).with(0.1, 10.0, 1.0);
+    let struck = violent(moving()).with(0.1, 10.0, 1.0);
     let struck = struck.with(6.0, 0.0, 3.0).with(2.0, -0.5, 1.0).rest(6.0);
     let events = struck.watch(&mut standing());
     assert_eq!(alarms(&events), []);
-    assert_eq!(
-        events.last().map(|event| states(&[*event])),
-        Some(vec![REST])
-    );
+    assert_eq!(known(&events).last(), Some(&REST));
 }
 
 #[test]
@@ -361,19 +372,17 @@ fn a_creeping_cage_has_not_stopped() {
         .with(1.2, -0.5, 1.0);
     let stop = record.now();
     let events = record.rest(6.0).watch(&mut standing());
-    assert_eq!(
-        states(&events),
-        [
-            REST,
-            ACCELERATING,
-            INERTIAL,
-            BRAKING,
-            INERTIAL,
-            BRAKING,
-            REST
-        ]
-    );
-    assert!((events[6].time - stop).abs() < 0.06);
+    let expected = [
+        REST,
+        ACCELERATING,
+        INERTIAL,
+        BRAKING,
+        LEVELLING,
+        BRAKING,
+        REST,
+    ];
+    assert_eq!(known(&events), expected, "{events:?}");
+    assert!((events[events.len() - 1].time - stop).abs() < 0.3);
 }
 
 #[test]
@@ -387,17 +396,39 @@ fn shocks_and_people_are_no_ride() {
             .with(5.0, 0.0, noise);
     }
     let events = record.watch(&mut standing());
-    assert_eq!(states(&events), [REST]);
+    assert_eq!(known(&events), [REST]);
 }
 
+/// A person pushes off, flies, lands: three pulses whose sum is zero.
 #[test]
-fn a_sensor_that_is_carried_about_makes_the_state_unknown() {
-    let carried = Record::quiet()
+fn a_jump_is_no_ride() {
+    let record = Record::quiet()
         .rest(8.0)
-        .with(1.5, 4.0, 50.0)
-        .with(1.0, -6.0, 50.0);
-    let events = carried.rest(8.0).watch(&mut standing());
-    assert_eq!(states(&events), [REST, State::Unknown]);
+        .with(0.25, 1.2, 1.0)
+        .with(0.3, -2.0, 1.0)
+        .with(0.15, 2.0, 1.0)
+        .rest(8.0);
+    let mut monitor = standing();
+    let events = record.watch(&mut monitor);
+    assert_eq!(known(&events), [REST], "{events:?}");
+    assert_eq!(monitor.state(), REST);
+}
+
+/// The level shifts for ten seconds, and for good: that may be a soft start, and is told neither rest nor a ride; a
+/// trip decides it.
+#[test]
+fn a_shift_of_the_level_is_told_as_doubt() {
+    for for_good in [false, true] {
+        let back = if for_good { 0.07 } else { 0.0 };
+        let record = Record::quiet()
+            .rest(8.0)
+            .with(10.0, 0.07, 1.0)
+            .with(6.0, back, 1.0);
+        let mut monitor = standing();
+        let events = record.watch(&mut monitor);
+        assert_eq!(known(&events), [REST], "{for_good}: {events:?}");
+        assert_eq!(monitor.state(), State::Unknown, "{for_good}");
+    }
 }
 
 #[test]
@@ -408,17 +439,60 @@ fn a_gap_makes_the_state_unknown() {
         .with(4.0, 0.0, 2.0);
     let mut monitor = standing();
     let before = record.watch(&mut monitor);
-    assert_eq!(states(&before), [REST, ACCELERATING, INERTIAL]);
-    let time = record.now() + 1.0;
-    let after = monitor.step(
-        Sample {
-            time,
-            acceleration: 0.0,
-        },
-        None,
-    );
+    assert_eq!(known(&before), [REST, ACCELERATING, INERTIAL]);
+    let time = record.now() + 10.0;
+    let sample = Sample {
+        time,
+        acceleration: 0.0,
+    };
+    let after = monitor.step(sample, None);
+    assert_eq!(faults(after), [Fault::Silent]);
     assert_eq!(states(after), [State::Unknown]);
-    assert_eq!(after[0].time, time);
+    assert_eq!(after[1].time, time);
+}
+
+/// What each fault is told of, and that the state is unknown while it lasts.
+#[test]
+fn faults_of_the_sensor_are_told() {
+    let rest = || Record::quiet().rest(10.0);
+    let told = |record: Record| {
+        let mut monitor = standing();
+        let events = record.watch(&mut monitor);
+        (faults(&events), monitor.state())
+    };
+    let unknown = State::Unknown;
+    assert_eq!(
+        told(rest().with(3.0, 0.003, 0.0)),
+        (vec![Fault::Stuck], unknown)
+    );
+    assert_eq!(
+        told(rest().with(0.5, 19.6, 0.0)),
+        (vec![Fault::Saturated], unknown)
+    );
+    assert_eq!(told(rest().with(30.0, 0.0, 100.0)).0, [Fault::Noisy]);
+}
+
+/// One stamp far ahead, and the way back: two holes, and the next trips are seen.
+#[test]
+fn a_clock_that_is_set_back_costs_a_gap() {
+    let record = Record::quiet()
+        .rest(8.0)
+        .trip(1.0)
+        .rest(6.0)
+        .trip(-1.0)
+        .rest(6.0);
+    let mut monitor = standing();
+    let mut events = Vec::new();
+    for (i, acceleration) in record.samples.iter().enumerate() {
+        let time = if i == 600 { 1e6 } else { i as f64 / RATE };
+        let sample = Sample {
+            time,
+            acceleration: *acceleration,
+        };
+        events.extend_from_slice(monitor.step(sample, None));
+    }
+    assert_eq!(faults(&events), [Fault::Silent, Fault::Clock]);
+    assert_eq!(known(&events).last(), Some(&REST), "{events:?}");
 }
 
 #[test]
@@ -438,7 +512,7 @@ fn a_drum_that_turns_without_the_cage_is_an_alarm() {
     assert_eq!(alarms(&events), [Alarm::Slack]);
     let alarm = events
         .iter()
-        .find(|event| matches!(event.kind, Kind::Alarm(_)))
+        .find(|event| event.kind.alarm().is_some())
         .unwrap();
     assert!(
         (alarm.time - 30.0).abs() < 0.1 && (alarm.reported - 33.0).abs() < 0.1,
@@ -446,19 +520,19 @@ fn a_drum_that_turns_without_the_cage_is_an_alarm() {
     );
 }
 
-/// The reference follows an offset that drifts by five times the weakest acceleration.
+/// The reference follows an offset that drifts by three times the weakest acceleration, 0.09 m/s² a minute.
 #[test]
 fn every_rest_is_learnt_anew() {
     let mut record = Record::quiet();
     for step in 0..2000 {
-        record = record.with(0.1, 0.5 * f64::from(step) / 2000.0, 1.0);
+        record = record.with(0.1, 0.3 * f64::from(step) / 2000.0, 1.0);
     }
     let mut monitor = standing();
     let events = record.watch(&mut monitor);
     assert_eq!(states(&events), [REST]);
     let reference = monitor.reference().unwrap();
     assert!(reference.span.unwrap().1 > record.now() - 12.0);
-    assert!((reference.level - 0.5).abs() < 0.05, "{}", reference.level);
+    assert!((reference.level - 0.3).abs() < 0.05, "{}", reference.level);
 }
 
 #[test]

@@ -13,6 +13,8 @@ pub enum Phase {
     Inertial,
     /// It loses speed: −Δ acts.
     Braking,
+    /// It creeps to the landing.
+    Levelling,
 }
 
 impl Phase {
@@ -26,7 +28,7 @@ impl Phase {
         match self {
             Self::Accelerating => 1.0,
             Self::Braking => -1.0,
-            Self::Rest | Self::Inertial => 0.0,
+            Self::Rest | Self::Inertial | Self::Levelling => 0.0,
         }
     }
 
@@ -37,6 +39,7 @@ impl Phase {
             Self::Accelerating => "acceleration",
             Self::Inertial => "inertial",
             Self::Braking => "braking",
+            Self::Levelling => "levelling",
         }
     }
 }

@@ -186,14 +186,11 @@ fn the_monitor_says_the_same() {
 #[test]
 fn a_jam_is_an_alarm() {
     let directory = recorded(&["--trip", "up:6", "--trip", "down:20:jam"]);
-    let found = found(directory.path(), &["ride.csv", "--save-state", "lift.json"]);
+    let path = directory.path();
+    let found = found(path, &["ride.csv", "--save-state", "lift.json"]);
     assert_eq!(found["rides"][1]["ended"], "jam", "{found}");
     let arguments = ["--state", "lift.json", "--begins", "rest"];
-    let said = well(monitor(
-        directory.path(),
-        &arguments,
-        lines(directory.path(), ","),
-    ));
+    let said = well(monitor(path, &arguments, lines(path, ",")));
     let is_jam = |event: &&Value| event["alarm"] == "jam";
     let alarms: Vec<Value> = objects(&said).iter().filter(is_jam).cloned().collect();
     assert_eq!(alarms.len(), 1, "{said}");

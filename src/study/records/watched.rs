@@ -1,7 +1,7 @@
 //! A record shown to the monitor, sample by sample.
 
 use crate::lift::{Class, Record};
-use crate::monitor::{Alarm, Design, Event, Kind, Knowledge, Monitor, State};
+use crate::monitor::{Alarm, Design, Event, Knowledge, Monitor, State};
 use crate::recording::Sample;
 use crate::study::ride::account::{Account, Truth};
 
@@ -85,7 +85,7 @@ impl Watched {
 
     fn judge_slack(&mut self, record: &Record, events: &[Event], patience: f64) {
         let alarms = events.iter();
-        let alarms = alarms.filter(|event| event.kind == Kind::Alarm(Alarm::Slack));
+        let alarms = alarms.filter(|event| event.kind.alarm() == Some(Alarm::Slack));
         let alarms: Vec<f64> = alarms.map(|event| event.reported).collect();
         let owed = record
             .slack

@@ -53,7 +53,7 @@ impl Account {
     pub fn new(truth: &Truth, events: &[Event], tolerance: f64) -> Self {
         let sightings = sightings(events);
         let alarms: Vec<&Event> = (events.iter())
-            .filter(|event| event.kind == Kind::Alarm(Alarm::Jam))
+            .filter(|event| event.kind.alarm() == Some(Alarm::Jam))
             .collect();
         let said = Said::new(truth, events);
         let journeys = &truth.journeys;

@@ -218,6 +218,7 @@ mod tests {
                 state,
                 direction,
                 speed: None,
+                reason: None,
                 decision: None,
             };
             let kind = match what {
@@ -225,7 +226,10 @@ mod tests {
                 1 => change(State::Known(Phase::Accelerating), Some(Direction::Down)),
                 2 | 3 => change(State::REST, None),
                 4 => change(State::Unknown, None),
-                _ => Kind::Alarm(Alarm::Jam),
+                _ => Kind::Alarm {
+                    alarm: Alarm::Jam,
+                    certain: true,
+                },
             };
             events.push(Event {
                 time: now - lag,

@@ -1,0 +1,175 @@
+//! The plausible hypotheses on one level of the sensor.
+
+use super::hypothesis::{Hypothesis, Known, PENDING, passing};
+use crate::explain::{Prior, Swing, Turned};
+
+/// The most hypotheses kept, and how much dearer than the cheapest they may be.
+const MOST: usize = 16;
+const HOPELESS: f64 = 14.0;
+
+/// The pulses before, each with the hypotheses before it: as many as a disturbance may have.
+#[derive(Clone, Debug)]
+pub(super) struct Hypotheses {
+    /// Now, cheapest first.
+    pub now: Vec<Hypothesis>,
+    /// The pulses that a disturbance may consist of.
+    pulses: Vec<Turned>,
+    /// The hypotheses before each.
+    before: Vec<Vec<Hypothesis>>,
+    made: Vec<Hypothesis>,
+}
+
+/// How long after its beginning a pulse is seen, at most, s.
+const UNSEEN: f64 = 0.3;
+
+/// The most pulses in a disturbance.
+const MOST_PULSES: usize = 12;
+
+impl Hypotheses {
+    pub fn new(now: &[Hypothesis]) -> Self {
+        Self {
+            now: now.to_vec(),
+            pulses: Vec::with_capacity(MOST_PULSES),
+            before: (0..MOST_PULSES).map(|_| Vec::with_capacity(MOST)).collect(),
+            made: Vec::with_capacity(1024),
+        }
+    }
+
+    /// Takes the next pulse.
+    pub fn take(&mut self, known: &Known, pulse: &Turned) {
+        if self
+            .pulses
+            .last()
+            .is_some_and(|last| !lasts(last.to, pulse.from))
+        {
+            self.pulses.clear();
+        }
+        if self.pulses.len() == MOST_PULSES {
+            self.pulses.remove(0);
+            self.before.rotate_left(1);
+        }
+        let place = self.pulses.len();
+        self.before[place].clear();
+        self.before[place].extend_from_slice(&self.now);
+        self.pulses.push(*pulse);
+        let (made, pulses) = (&mut self.made, &self.pulses);
+        for first in 0..=place {
+            let ignored = if first == place {
+                pulse.ignored.min(passing(known, pulse))
+            } else {
+                match swing(&pulses[first..]) {
+                    Some(swing) => known.prior.disturbance(swing.speed),
+                    None => continue,
+                }
+            };
+            for hypothesis in &self.before[first] {
+                hypothesis.explain(known, &pulses[first..], ignored, &mut |it| made.push(it));
+            }
+        }
+        prune(&mut self.made, &mut self.now);
+    }
+
+    /// Makes all dearer.
+    pub fn raise(&mut self, by: f64) {
+        self.now.iter_mut().for_each(|it| it.cost += by);
+    }
+
+    /// Adds those of another level.
+    pub fn join(&mut self, others: impl Iterator<Item = Hypothesis>) {
+        self.made.extend_from_slice(&self.now);
+        self.made.extend(others);
+        prune(&mut self.made, &mut self.now);
+    }
+
+    /// Replaces each by what it becomes across a hole.
+    pub fn cross(&mut self, now: f64, is_brief: bool, in_pulse: bool) {
+        self.pulses.clear();
+        let made = &mut self.made;
+        for hypothesis in &self.now {
+            hypothesis.across(now, is_brief, in_pulse, &mut |it| made.push(it));
+        }
+        prune(&mut self.made, &mut self.now);
+    }
+
+    /// Shows each with its cost at a time, while a pulse may be going on; and whether that pulse is a change of
+    /// its speed.
+    pub fn each(
+        &self,
+        known: &Known,
+        now: f64,
+        current: Option<&Turned>,
+        mut take: impl FnMut(&Hypothesis, f64, bool),
+    ) {
+        let prior = &known.prior;
+        for hypothesis in &self.now {
+            let aged = hypothesis.aged(prior, now);
+            let Some(pulse) = current else {
+                take(hypothesis, aged, false);
+                continue;
+            };
+            let ignored = pulse.ignored.min(passing(known, pulse));
+            if hypothesis.is_rest() {
+                take(hypothesis, aged + ignored, false);
+                if let Some(started) = hypothesis.started(known, pulse) {
+                    take(&started, started.cost, true);
+                }
+            } else {
+                let changed = hypothesis.changing(known, pulse) - hypothesis.cost;
+                let changes = changed < ignored && !hypothesis.is_ripple(pulse.change);
+                take(hypothesis, aged + ignored.min(changed), changes);
+            }
+        }
+        self.each_in_swing(prior, now, current, take);
+    }
+
+    /// Those before a disturbance that may still be going on.
+    fn each_in_swing(
+        &self,
+        prior: &Prior,
+        now: f64,
+        current: Option<&Turned>,
+        mut take: impl FnMut(&Hypothesis, f64, bool),
+    ) {
+        let ended = self.pulses.last().map(|it| it.to);
+        if current.is_none() && !ended.is_some_and(|to| lasts(to + UNSEEN, now)) {
+            return;
+        }
+        for first in 0..=self.pulses.len() {
+            let before = self.before.get(first).filter(|_| first < self.pulses.len());
+            let mut pulses = self.pulses[first..].iter().chain(current);
+            let swing = pulses.try_fold(Swing::default(), |swing, pulse| swing.with(pulse));
+            if swing.is_none() || (first == self.pulses.len() && current.is_none()) {
+                continue;
+            }
+            for hypothesis in before.unwrap_or(&self.now) {
+                take(hypothesis, hypothesis.aged(prior, now) + PENDING, false);
+            }
+        }
+    }
+}
+
+fn swing(pulses: &[Turned]) -> Option<Swing> {
+    let mut pulses = pulses.iter();
+    pulses.try_fold(Swing::default(), |swing, pulse| swing.with(pulse))
+}
+
+/// Whether a disturbance whose latest pulse ended at a time may still go on.
+fn lasts(to: f64, now: f64) -> bool {
+    Swing::lasts_from(to, now)
+}
+
+/// Keeps the cheapest of hypotheses that differ.
+fn prune(hypotheses: &mut Vec<Hypothesis>, kept: &mut Vec<Hypothesis>) {
+    hypotheses.sort_unstable_by(|a, b| a.cost.total_cmp(&b.cost));
+    kept.clear();
+    let least = hypotheses.first().map_or(0.0, |first| first.cost);
+    for hypothesis in hypotheses.iter() {
+        if kept.len() == MOST || hypothesis.cost > least + HOPELESS {
+            break;
+        }
+        if !kept.iter().any(|other| other.is_like(hypothesis)) {
+            kept.push(*hypothesis);
+        }
+    }
+    hypotheses.clear();
+}

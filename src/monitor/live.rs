@@ -1,0 +1,417 @@
+//! Everything that the cage may be doing, as far as the record up to now says.
+//!
+//! What a sensor reads without acceleration, its level, drifts, and may shift for seconds or for good. A
+//! [`Track`] is one level with all that it implies. Where a record stays for three seconds at a distance from a level,
+//! that may be a soft start or a long braking, or the level has shifted: another track begins there, with the
+//! hypotheses from before, dearer by the cost of a shift. So motion and shift are both followed until the
+//! evidence decides.
+
+use super::hypothesis::{self, Cage, Hypothesis, Known};
+use super::track::{SETTLED, Smooth, Track};
+use crate::explain::Block;
+use std::collections::VecDeque;
+
+/// Over which the record is smoothed, s.
+const FAST: f64 = 0.3;
+const SLOW: f64 = 1.5;
+
+/// A plateau is three parts of this length that agree, s, within a distance, m/s², and in deviations.
+const PART: f64 = 1.0;
+const AGREE: (f64, f64) = (0.012, 4.0);
+
+/// Until a record is so old, every level is tried from its beginning, s.
+const YOUNG: f64 = 20.0;
+
+/// And what another level than the first costs then.
+const YOUNG_SHIFT: f64 = 8.0;
+
+/// The most tracks, and how much dearer than the cheapest one may be.
+const MOST_TRACKS: usize = 4;
+const HOPELESS: f64 = 12.0;
+
+/// The noise that is assumed with a level, m/s², until there is more.
+const FIRST_NOISE: (f64, f64) = (0.02, 0.01);
+
+/// A pulse that adds at most so much is ordinary; what others add is remembered for a time, s; and beyond so much of
+/// it, the record is not well explained.
+const ORDINARY: f64 = 1.6;
+const REMEMBERS: f64 = 90.0;
+const STRAINED: f64 = 1.5;
+
+/// Where nothing happens, only every so many blocks are judged.
+const RESTS: usize = 4;
+
+/// How fast the scatter follows, s.
+const SCATTER_FOLLOWS: f64 = 4.0;
+
+/// What a single difference counts for at most, m/s².
+const SHAKE: f64 = 1.0;
+
+/// What calm, and its opposite, are worth where motions of the cage look different from rest, nats.
+const CALM: f64 = 5.0;
+
+/// What a hole adds to it.
+const IN_HOLE: f64 = 5.0;
+
+/// Holes up to this length can hardly hide a start, s.
+const BRIEF: f64 = 1.0;
+
+/// What is the case now.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Belief {
+    /// The cheapest hypothesis at rest, and in motion, with the cost of each.
+    pub rest: Option<(Hypothesis, f64)>,
+    pub motion: Option<(Hypothesis, f64)>,
+    /// The cost of the cheapest in motion, where faster ones count as cheaper: an error about them is worse.
+    pub threat: f64,
+    /// The cost of the cheapest of all.
+    pub least: f64,
+    /// The current pulse, where it changes the speed of the motion: its beginning, s, and its sign.
+    pub change: Option<(f64, f64)>,
+    /// The level of the cheapest.
+    pub level: f64,
+    /// Whether the cheapest at rest and in motion have different levels.
+    pub is_shifted: bool,
+    /// Whether there is a pulse now.
+    pub in_pulse: bool,
+    /// How much the means of blocks scatter, m/s².
+    pub scatter: f64,
+}
+
+/// Running mean over the newest blocks.
+#[derive(Clone, Debug)]
+struct Mean {
+    count: usize,
+    sum: f64,
+}
+
+/// All tracks.
+#[derive(Clone, Debug)]
+pub(super) struct Live {
+    known: Known,
+    begins: Vec<Hypothesis>,
+    blocks: VecDeque<Block>,
+    /// Of the blocks, as many as there are.
+    smooth: VecDeque<Smooth>,
+    capacity: usize,
+    /// What remains of the strain after a block.
+    forgets: f64,
+    /// How fast the scatter follows, and the scatter, m/s².
+    follows: f64,
+    scatter: f64,
+    half: usize,
+    fast: Mean,
+    slow: Mean,
+    parts: usize,
+    lag: usize,
+    has_begun: bool,
+    /// What was the case when it was last asked.
+    latest: Belief,
+    /// The number of blocks since the latest hole.
+    count: usize,
+    /// What the cheapest explanation has lately cost beyond that of ordinary trips, and its cost before.
+    strain: f64,
+    least: f64,
+    /// The level that was known before.
+    level: Option<f64>,
+    tracks: Vec<Track>,
+}
+
+impl Mean {
+    fn new(count: usize) -> Self {
+        Self { count, sum: 0.0 }
+    }
+
+    fn step(&mut self, blocks: &VecDeque<Block>) -> f64 {
+        let length = blocks.len();
+        self.sum += blocks[length - 1].mean;
+        if length > self.count {
+            self.sum -= blocks[length - 1 - self.count].mean;
+        }
+        self.sum / self.count.min(length) as f64
+    }
+}
+
+impl Live {
+    pub fn new(known: Known, block: f64, begins: Vec<Hypothesis>, level: Option<f64>) -> Self {
+        let blocks_in = |seconds: f64| ((seconds / block).round() as usize).max(1);
+        let half = blocks_in(FAST / 2.0);
+        let capacity = blocks_in(YOUNG) + 2 * half + 2;
+        Self {
+            known,
+            blocks: VecDeque::with_capacity(capacity + 1),
+            smooth: VecDeque::with_capacity(capacity + 1),
+            capacity,
+            forgets: 1.0 - block / REMEMBERS,
+            follows: block / SCATTER_FOLLOWS,
+            scatter: 0.0,
+            half,
+            fast: Mean::new(2 * half + 1),
+            slow: Mean::new(blocks_in(SLOW)),
+            parts: blocks_in(PART),
+            lag: blocks_in(SETTLED),
+            has_begun: false,
+            latest: Belief::default(),
+            count: 0,
+            tracks: Vec::with_capacity(MOST_TRACKS + 1),
+            begins,
+            strain: 0.0,
+            least: 0.0,
+            level,
+        }
+    }
+
+    /// Begins anew with these hypotheses.
+    pub fn begin(&mut self, begins: Vec<Hypothesis>) {
+        self.tracks.clear();
+        if let Some(level) = self.level {
+            // The sensor may have been moved since.
+            self.tracks.push(Track::new(level, FIRST_NOISE, &begins));
+        }
+        self.begins = begins;
+    }
+
+    pub fn step(&mut self, block: Block) {
+        if !self.has_begun {
+            self.has_begun = true;
+            self.begins.iter_mut().for_each(|it| it.since = block.from);
+            self.begin(self.begins.clone());
+        }
+        self.count += 1;
+        if let Some(last) = self.blocks.back() {
+            // Of white noise, the mean size of differences is 1.13 σ.
+            let scatter = (block.mean - last.mean).abs().min(SHAKE) / 1.13;
+            self.scatter += self.follows * (scatter - self.scatter);
+        }
+        self.blocks.push_back(block);
+        let fast = self.fast.step(&self.blocks);
+        let slow = self.slow.step(&self.blocks);
+        if self.blocks.len() > self.half {
+            let centre = self.blocks[self.blocks.len() - 1 - self.half];
+            let smooth = Smooth {
+                from: centre.from,
+                to: centre.to,
+                seconds: centre.seconds,
+                mean: centre.mean,
+                fast,
+                slow,
+            };
+            self.smooth.push_back(smooth);
+            let settled = self.smooth.len().checked_sub(self.lag + 1);
+            let settled = settled.map(|place| self.smooth[place].mean);
+            for track in &mut self.tracks {
+                track.step(&self.known, &smooth, settled);
+            }
+        }
+        if self.blocks.len() > self.capacity {
+            self.blocks.pop_front();
+            self.smooth.pop_front();
+        }
+        if self.count >= 3 * self.parts && self.count.is_multiple_of((self.parts / 4).max(1)) {
+            self.try_plateau();
+            self.keep_plausible();
+        }
+    }
+
+    /// The level on which the last three seconds agree, and their scatter.
+    fn plateau(&self) -> Option<(f64, f64)> {
+        let length = self.blocks.len();
+        let mean = |part: usize| {
+            let to = length - part * self.parts;
+            let blocks = self.blocks.range(to - self.parts..to);
+            blocks.map(|block| block.mean).sum::<f64>() / self.parts as f64
+        };
+        if length < 3 * self.parts {
+            return None;
+        }
+        let means = [mean(0), mean(1), mean(2)];
+        let middle = means.iter().sum::<f64>() / 3.0;
+        let newest = self.blocks.range(length - 3 * self.parts..);
+        let bends = newest.clone().zip(newest.skip(1));
+        let scatter = bends.map(|(one, other)| (one.mean - other.mean).abs());
+        // Of white noise, the mean size of differences is 1.13 σ.
+        let scatter = scatter.sum::<f64>() / (3 * self.parts - 1) as f64 / 1.13;
+        let agree = AGREE.0.max(AGREE.1 * scatter / (self.parts as f64).sqrt());
+        let is_level = means.iter().all(|mean| (mean - middle).abs() < agree);
+        is_level.then_some((middle, scatter))
+    }
+
+    fn try_plateau(&mut self) {
+        let Some((level, scatter)) = self.plateau() else {
+            return;
+        };
+        let length = self.blocks.len();
+        let since = self.blocks[length - 3 * self.parts].from;
+        let distance = |track: &Track| (track.level - level).abs();
+        let home = (0..self.tracks.len())
+            .min_by(|a, b| distance(&self.tracks[*a]).total_cmp(&distance(&self.tracks[*b])))
+            .filter(|home| distance(&self.tracks[*home]) < self.tracks[*home].nearness());
+        let is_young = self.count <= self.smooth.len() + self.half;
+        if home.is_none() && is_young && (self.tracks.is_empty() || self.all_doubt(since)) {
+            let noise = (
+                1.1 * scatter / (2.0 * self.half as f64 + 1.0).sqrt(),
+                scatter / 5.0,
+            );
+            let mut track = Track::new(level, noise, &self.begins);
+            if !self.tracks.is_empty() {
+                track.hypotheses.raise(YOUNG_SHIFT);
+            }
+            for (place, smooth) in self.smooth.iter().enumerate() {
+                let settled = place
+                    .checked_sub(self.lag)
+                    .map(|place| self.smooth[place].mean);
+                track.step(&self.known, smooth, settled);
+            }
+            self.tracks.push(track);
+            return;
+        }
+        let mut given: Option<(Vec<Hypothesis>, (f64, f64))> = None;
+        for index in 0..self.tracks.len() {
+            let track = &mut self.tracks[index];
+            if Some(index) == home || !track.doubts(since) {
+                continue;
+            }
+            let cost = hypothesis::shift(track.level - level);
+            let (all, _) = given.get_or_insert((Vec::new(), track.noise()));
+            all.extend(track.hypotheses.now.iter().map(|it| it.dearer(cost)));
+        }
+        let Some((given, noise)) = given else {
+            return;
+        };
+        match home {
+            Some(home) => self.tracks[home].hypotheses.join(given.into_iter()),
+            None => {
+                let mut track = Track::new(level, noise, &[]);
+                track.hypotheses.join(given.into_iter());
+                self.tracks.push(track);
+            }
+        }
+    }
+
+    fn all_doubt(&self, since: f64) -> bool {
+        self.tracks
+            .iter()
+            .all(|track| track.is_in_pulse_since(since))
+    }
+
+    /// Drops tracks that are hopeless, and merges those at one level.
+    fn keep_plausible(&mut self) {
+        let now = self.blocks[self.blocks.len() - 1].to;
+        let known = &self.known;
+        let cost = |track: &Track| {
+            let mut least = f64::INFINITY;
+            let pulse = track.pulse(known);
+            let take = |_: &Hypothesis, cost: f64, _| least = least.min(cost);
+            track.hypotheses.each(known, now, pulse.as_ref(), take);
+            least
+        };
+        if self.tracks.len() < 2 {
+            return;
+        }
+        let mut ranked: Vec<(f64, Track)> =
+            self.tracks.drain(..).map(|it| (cost(&it), it)).collect();
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let least = ranked[0].0;
+        for (cost, track) in ranked {
+            let near = |other: &Track| (other.level - track.level).abs() < 0.5 * other.nearness();
+            match self.tracks.iter().position(near) {
+                Some(other) => self.tracks[other]
+                    .hypotheses
+                    .join(track.hypotheses.now.into_iter()),
+                None if cost > least + HOPELESS || self.tracks.len() == MOST_TRACKS => {}
+                None => self.tracks.push(track),
+            }
+        }
+    }
+
+    /// Goes on after a hole.
+    pub fn cross(&mut self, now: f64, seconds: f64) {
+        for track in &mut self.tracks {
+            track.cross(now, seconds < BRIEF);
+        }
+        if self.tracks.is_empty() {
+            self.begins = vec![Hypothesis::rest(now, 0.0), Hypothesis::open(now, 0.0)];
+        }
+        self.strain += IN_HOLE;
+        self.blocks.clear();
+        self.smooth.clear();
+        self.count = 0;
+        self.fast.sum = 0.0;
+        self.slow.sum = 0.0;
+    }
+
+    /// What is the case now.
+    /// `is_calm` says whether the record looks like rest, if motions of the cage do not.
+    pub fn belief(&mut self, is_calm: Option<bool>) -> Belief {
+        let is_settled = !self.blocks.is_empty() && self.tracks.iter().all(Track::is_settled);
+        if is_settled && !self.count.is_multiple_of(RESTS) {
+            return self.latest;
+        }
+        let mut belief = self.cheapest();
+        let is_open = belief.motion.is_some_and(|(it, _)| it.cage == Cage::Open);
+        if is_calm == Some(true) {
+            belief.threat += CALM;
+            belief.motion.iter_mut().for_each(|best| best.1 += CALM);
+        } else if is_calm == Some(false) && is_open {
+            belief.rest.iter_mut().for_each(|best| best.1 += CALM);
+        }
+        self.strain *= if is_settled {
+            self.forgets.powi(RESTS as i32)
+        } else {
+            self.forgets
+        };
+        if !belief.in_pulse && belief.least.is_finite() {
+            self.strain += (belief.least - self.least - ORDINARY).max(0.0);
+            self.least = belief.least;
+        }
+        self.latest = belief;
+        belief
+    }
+
+    fn cheapest(&self) -> Belief {
+        let mut belief = Belief {
+            threat: f64::INFINITY,
+            ..Belief::default()
+        };
+        let Some(last) = self.blocks.back() else {
+            return belief;
+        };
+        let now = last.to;
+        let mut levels = [0.0; 2];
+        for track in &self.tracks {
+            let pulse = track.pulse(&self.known);
+            let take = |it: &Hypothesis, cost: f64, changes: bool| {
+                let is_rest = it.is_rest();
+                if !is_rest {
+                    let danger = it.danger(&self.known, self.strain > STRAINED);
+                    belief.threat = belief.threat.min(cost - danger);
+                }
+                let best = if is_rest {
+                    &mut belief.rest
+                } else {
+                    &mut belief.motion
+                };
+                if best.is_some_and(|best| best.1 <= cost) {
+                    return;
+                }
+                *best = Some((*it, cost));
+                levels[usize::from(is_rest)] = track.level;
+                if !is_rest {
+                    belief.change = pulse.filter(|_| changes).map(|it| (it.from, it.change));
+                }
+            };
+            track
+                .hypotheses
+                .each(&self.known, now, pulse.as_ref(), take);
+            belief.in_pulse |= pulse.is_some();
+        }
+        let least = |best: Option<(Hypothesis, f64)>| best.map_or(f64::INFINITY, |best| best.1);
+        belief.least = least(belief.rest).min(least(belief.motion));
+        belief.scatter = self.scatter;
+        belief.is_shifted = levels[0] != levels[1];
+        if let Some(first) = self.tracks.first() {
+            belief.level = first.level;
+        }
+        belief
+    }
+}

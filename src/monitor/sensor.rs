@@ -1,0 +1,97 @@
+//! What is wrong with the sensor itself, judged by its samples.
+
+use super::event::Fault;
+use crate::recording::Sample;
+
+/// A repeated value is suspicious for at least this long, s, and this many times as long as any run before.
+const STUCK: f64 = 1.0;
+const LONGER: f64 = 4.0;
+
+/// A value far from the median that comes so often in a row is the end of the range, m/s².
+const SATURATED: (u32, f64) = (3, 12.0);
+
+/// Times further back than this are those of a clock that was set back, s.
+pub const SET_BACK: f64 = 1.0;
+
+/// What the samples have shown.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sensor {
+    last: Option<Sample>,
+    /// Since when the value is repeated, s, and how often.
+    since: f64,
+    repeats: u32,
+    /// The longest run before, s, and how many changes there were.
+    longest: f64,
+    changes: u32,
+    /// A slow mean, m/s².
+    middle: f64,
+    fault: Option<Fault>,
+}
+
+/// What a sample says of its sensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Health {
+    /// What is wrong now.
+    pub fault: Option<Fault>,
+    /// What has begun to be wrong, and since when, s.
+    pub begins: Option<(Fault, f64)>,
+    /// Whether something wrong has just ended that had begun at a time, s.
+    pub ends: bool,
+}
+
+impl Sensor {
+    /// Whether a time is earlier than one before: by a lot, so that the clock was set back.
+    pub fn is_set_back(&self, time: f64) -> bool {
+        self.last.is_some_and(|last| time < last.time - SET_BACK)
+    }
+
+    /// Takes a sample.
+    #[inline]
+    pub fn step(&mut self, sample: Sample) -> Health {
+        let is_repeated = self
+            .last
+            .is_some_and(|last| last.acceleration == sample.acceleration);
+        if !is_repeated {
+            if let Some(last) = self.last {
+                if self.fault.is_none() {
+                    self.longest = self.longest.max(last.time - self.since);
+                }
+                self.changes = self.changes.saturating_add(1);
+                self.middle +=
+                    (last.acceleration - self.middle) / f64::from(self.changes.min(1000));
+            }
+            self.since = sample.time;
+            self.repeats = 0;
+        }
+        self.repeats += 1;
+        self.last = Some(sample);
+        let was = self.fault;
+        self.fault = self.judge(sample);
+        Health {
+            fault: self.fault,
+            begins: self
+                .fault
+                .filter(|_| self.fault != was)
+                .map(|fault| (fault, self.since)),
+            ends: was.is_some() && self.fault.is_none(),
+        }
+    }
+
+    fn judge(&self, sample: Sample) -> Option<Fault> {
+        let lasts = sample.time - self.since;
+        let far = (sample.acceleration - self.middle).abs();
+        if self.repeats >= SATURATED.0 && far > SATURATED.1 && self.changes > 0 {
+            return Some(Fault::Saturated);
+        }
+        let is_stuck =
+            self.changes >= 10 && self.repeats >= 8 && lasts > STUCK.max(LONGER * self.longest);
+        is_stuck.then_some(Fault::Stuck)
+    }
+
+    /// Forgets the time, not the scatter.
+    pub fn cross(&mut self) {
+        self.last = None;
+        self.repeats = 0;
+        self.fault = None;
+    }
+}

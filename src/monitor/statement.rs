@@ -1,0 +1,124 @@
+//! What a monitor says: what all plausible hypotheses agree on.
+
+use super::event::{Direction, Doubt, Event, Kind, State};
+use super::hypothesis::{Cage, Hypothesis};
+use super::live::Belief;
+use crate::signal::Phase;
+
+/// A hypothesis dearer than the cheapest by more than this is not plausible, nats.
+const MARGIN: f64 = 4.0;
+
+/// The state of the cage, and since when.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Statement {
+    pub state: State,
+    /// s
+    pub since: f64,
+    pub direction: Option<Direction>,
+    pub speed: Option<f64>,
+    pub reason: Option<Doubt>,
+    /// When the shock was that may have ended the motion, s.
+    pub jam: Option<f64>,
+    /// The braking that ended the motion, s.
+    pub braking: Option<(f64, f64)>,
+    /// When the rest that may be the case began, s.
+    pub rest: Option<f64>,
+}
+
+impl Statement {
+    pub fn unknown(since: f64, reason: Doubt) -> Self {
+        Self {
+            state: State::Unknown,
+            since,
+            direction: None,
+            speed: None,
+            reason: Some(reason),
+            jam: None,
+            braking: None,
+            rest: None,
+        }
+    }
+
+    /// What follows from a belief.
+    pub fn of(belief: &Belief, now: f64) -> Self {
+        let cost = |best: Option<(Hypothesis, f64)>| best.map_or(f64::INFINITY, |best| best.1);
+        let (rest, motion) = (cost(belief.rest), cost(belief.motion));
+        let plausible = belief
+            .rest
+            .filter(|_| rest < motion + MARGIN)
+            .map(|best| best.0);
+        let statement = match (belief.rest, belief.motion) {
+            (Some((it, _)), _) if belief.threat > rest + MARGIN => Self {
+                state: State::REST,
+                since: it.since.min(now),
+                braking: it.braking,
+                reason: None,
+                ..Self::unknown(now, Doubt::Beginning)
+            },
+            (_, Some((it, _))) if rest > motion + MARGIN => Self::moving(&it, belief, now),
+            (_, Some((it, _))) => Self::unknown(now, doubt(&it, belief)),
+            _ => Self::unknown(now, Doubt::Beginning),
+        };
+        Self {
+            jam: plausible.filter(|it| it.is_jam).map(|it| it.since),
+            rest: plausible.map(|it| it.since),
+            ..statement
+        }
+    }
+
+    fn moving(motion: &Hypothesis, belief: &Belief, now: f64) -> Self {
+        let (phase, since, speed) = match (motion.cage, belief.change) {
+            (Cage::Moves(progress), Some((from, change))) => {
+                let gains = change * progress.speed > 0.0;
+                let speed = progress.speed + if motion.since < from { change } else { 0.0 };
+                let phase = if gains {
+                    Phase::Accelerating
+                } else {
+                    Phase::Braking
+                };
+                (phase, from, Some(speed))
+            }
+            (Cage::Moves(progress), None) => {
+                let phase = if progress.creeps {
+                    Phase::Levelling
+                } else {
+                    Phase::Inertial
+                };
+                (phase, progress.since, Some(progress.speed))
+            }
+            _ => (Phase::Inertial, motion.since, None),
+        };
+        Self {
+            state: State::Known(phase),
+            since: since.min(now),
+            direction: speed.map(Direction::of),
+            speed: speed.map(f64::abs),
+            reason: None,
+            ..Self::unknown(now, Doubt::Beginning)
+        }
+    }
+
+    pub fn event(&self, now: f64) -> Event {
+        Event {
+            time: self.since.min(now),
+            reported: now,
+            kind: Kind::Change {
+                state: self.state,
+                direction: self.direction,
+                speed: self.speed,
+                reason: self.reason,
+                decision: None,
+            },
+        }
+    }
+}
+
+fn doubt(motion: &Hypothesis, belief: &Belief) -> Doubt {
+    match motion.cage {
+        Cage::Open if motion.is_across => Doubt::Hole,
+        Cage::Open | Cage::Rest => Doubt::Beginning,
+        Cage::Moves(_) if belief.is_shifted => Doubt::Level,
+        Cage::Moves(progress) if progress.creeps && belief.change.is_none() => Doubt::Creep,
+        Cage::Moves(_) => Doubt::Pulse,
+    }
+}

@@ -1,0 +1,275 @@
+//! One level of the sensor, the pulses that leave it, and the hypotheses on them.
+
+use super::hypotheses::Hypotheses;
+use super::hypothesis::{Hypothesis, Known};
+use crate::explain::{Pulse, Turned};
+
+/// How fast the level is followed: the time constant, and for how long no pulse may have been seen, s.
+const FOLLOWS: f64 = 4.0;
+pub(super) const SETTLED: f64 = 2.5;
+
+/// How fast the noise is.
+const NOISE_FOLLOWS: f64 = 6.0;
+
+/// The least and the greatest distance from the level that is a pulse, m/s²: of the smoothed record, and of the
+/// mean of a longer time, which shows soft starts; and in standard deviations.
+const FAST: (f64, f64, f64) = (0.02, 0.15, 2.5);
+const SLOW: (f64, f64, f64) = (0.02, 0.06, 3.5);
+
+/// How far a pulse reaches beyond the point where it falls into the noise, s.
+const FOOT: f64 = 0.3;
+
+/// A pulse begins where the smoothed record leaves this share of that.
+const ONSET: f64 = 0.3;
+
+/// A pulse that has lasted so long, s, and is weaker than a usual start times the last, ends where it grows by the
+/// factor between: another begins.
+const WEAK: (f64, f64, f64) = (1.0, 3.0, 1.2);
+
+/// The smallest change of speed, m/s, and in deviations.
+const LEAST_CHANGE: f64 = 0.015;
+const LEAST_DEVIATIONS: f64 = 3.0;
+
+/// A pulse ends where it falls to this share of its largest value: what remains is a shift of the level.
+const PLATEAU: f64 = 0.15;
+
+/// A shock that comes so long after the beginning of a pulse is another, s.
+const BEFORE_SHOCK: f64 = 0.3;
+
+/// What goes on so long after a shock is another pulse, s.
+const AFTER_SHOCK: f64 = 0.25;
+
+/// The longest shock, s.
+const LONGEST_SHOCK: f64 = 0.8;
+
+/// What a shock adds to the uncertainty of a change of speed, for each m/s² of it, s.
+const SHOCK_ERROR: f64 = 0.03;
+
+/// Uncertainty of the level, m/s².
+const LEVEL_ERROR: f64 = 0.004;
+
+/// A block, smoothed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Smooth {
+    pub from: f64,
+    pub to: f64,
+    pub seconds: f64,
+    pub mean: f64,
+    /// The mean around it, and of the time before.
+    pub fast: f64,
+    pub slow: f64,
+}
+
+/// What has left the level so far.
+#[derive(Clone, Copy, Debug, Default)]
+struct Excursion {
+    from: f64,
+    to: f64,
+    change: f64,
+    seconds: f64,
+    peak: f64,
+    /// How long ago its shock was, s.
+    since_shock: f64,
+    /// The largest smoothed value.
+    most: f64,
+    is_up: bool,
+    /// Whether it is a pulse.
+    is_pulse: bool,
+    /// Whether it was ever seen in the smoothed record.
+    is_strong: bool,
+    /// How long it has been within the noise, s.
+    foot: f64,
+    /// Whether another level has been tried instead of it.
+    is_doubted: bool,
+}
+
+/// A level and what it implies.
+#[derive(Clone, Debug)]
+pub(super) struct Track {
+    pub level: f64,
+    pub hypotheses: Hypotheses,
+    excursion: Excursion,
+    /// Mean sizes of the noise, fast and slow.
+    noise: (f64, f64),
+    /// For how long there has been no pulse, s.
+    pub quiet: f64,
+}
+
+impl Track {
+    pub fn new(level: f64, noise: (f64, f64), hypotheses: &[Hypothesis]) -> Self {
+        Self {
+            level,
+            hypotheses: Hypotheses::new(hypotheses),
+            excursion: Excursion::default(),
+            noise,
+            quiet: 0.0,
+        }
+    }
+
+    pub fn noise(&self) -> (f64, f64) {
+        self.noise
+    }
+
+    fn least(&self) -> (f64, f64) {
+        let least =
+            |noise: f64, (least, most, times): (f64, f64, f64)| (times * noise).clamp(least, most);
+        (least(self.noise.0, FAST), least(self.noise.1, SLOW))
+    }
+
+    /// How far a level may be from this one and be the same.
+    pub fn nearness(&self) -> f64 {
+        0.75 * self.least().1
+    }
+
+    /// Takes a block; `settled` is the mean of one so much earlier that no pulse can have begun in it.
+    pub fn step(&mut self, known: &Known, block: &Smooth, settled: Option<f64>) {
+        let (fast, slow) = (block.fast - self.level, block.slow - self.level);
+        let least = self.least();
+        let it = &self.excursion;
+        let grows =
+            fast.abs() > 1.5 * least.0 && fast.abs() * it.seconds > WEAK.1 * it.change.abs();
+        let is_shock = (block.mean - self.level).abs() > known.prior.most_acceleration;
+        let begins_shock =
+            is_shock && it.peak < known.prior.most_acceleration && it.seconds > BEFORE_SHOCK;
+        let is_weak = it.seconds > WEAK.0 && it.change.abs() < WEAK.2 * known.soft * it.seconds;
+        let ends_shock = it.since_shock > AFTER_SHOCK;
+        if it.is_pulse && (begins_shock || ends_shock || is_weak && grows) {
+            self.end(known, block.from);
+        }
+        let it = &mut self.excursion;
+        let is_up = fast > 0.0;
+        if !it.is_pulse {
+            if is_up != it.is_up || fast.abs() < ONSET * least.0 {
+                *it = Excursion {
+                    from: block.from,
+                    is_up,
+                    ..Excursion::default()
+                };
+            }
+            let is_strong = fast.abs() > least.0;
+            it.is_pulse = is_strong || (slow.abs() > least.1 && (slow > 0.0) == is_up);
+        }
+        let off = block.mean - self.level;
+        let sign = if it.is_up { 1.0 } else { -1.0 };
+        it.is_strong |= it.is_pulse && sign * fast > 1.5 * least.0;
+        let is_over = it.is_pulse && {
+            it.most = it.most.max(sign * fast);
+            let is_within = if it.is_strong {
+                sign * fast <= least.0.max(PLATEAU * it.most)
+            } else {
+                sign * slow <= 0.5 * least.1
+            };
+            it.foot = if is_within {
+                it.foot + block.seconds
+            } else {
+                0.0
+            };
+            is_within && (sign * fast < 0.0 || it.foot > FOOT)
+        };
+        if is_over {
+            self.end(known, block.from);
+        }
+        let it = &mut self.excursion;
+        if !it.is_pulse || sign * fast > least.0.min(least.1).max(PLATEAU / 3.0 * it.most) {
+            it.to = block.to;
+        }
+        it.change += off * block.seconds;
+        it.seconds += block.seconds;
+        it.peak = it.peak.max(off.abs());
+        if it.peak > known.prior.most_acceleration {
+            it.since_shock = if is_shock {
+                0.0
+            } else {
+                it.since_shock + block.seconds
+            };
+        }
+        self.follow(block.seconds, fast, slow, settled);
+    }
+
+    fn follow(&mut self, seconds: f64, fast: f64, slow: f64, settled: Option<f64>) {
+        if self.excursion.is_pulse {
+            return;
+        }
+        self.quiet += seconds;
+        let share = (seconds / NOISE_FOLLOWS).min(1.0);
+        self.noise.0 += share * (1.25 * fast.abs() - self.noise.0);
+        if self.quiet > 1.5 {
+            self.noise.1 += share * (1.25 * slow.abs() - self.noise.1);
+        }
+        if let Some(settled) = settled.filter(|_| self.quiet > SETTLED + 1.0) {
+            self.level += (seconds / FOLLOWS).min(1.0) * (settled - self.level);
+        }
+    }
+
+    fn end(&mut self, known: &Known, now: f64) {
+        if let Some(pulse) = self.pulse(known) {
+            self.quiet = 0.0;
+            self.hypotheses.take(known, &pulse);
+        }
+        self.excursion = Excursion {
+            is_up: !self.excursion.is_up,
+            from: now,
+            ..Excursion::default()
+        };
+    }
+
+    /// The current pulse so far, if it is more than noise.
+    pub fn pulse(&self, known: &Known) -> Option<Turned> {
+        let it = &self.excursion;
+        if !it.is_pulse {
+            return None;
+        }
+        // The mean of 1.5 s has 1/√1.5 of the walk of a second.
+        let walk = 1.22 * self.noise.1;
+        let variance = walk * walk * it.seconds + (LEVEL_ERROR * it.seconds).powi(2);
+        let deviation = variance.sqrt();
+        let is_shock = it.peak > known.prior.most_acceleration;
+        let shock = if is_shock { SHOCK_ERROR * it.peak } else { 0.0 };
+        let is_pulse = it.change.abs() > LEAST_CHANGE.max(LEAST_DEVIATIONS * deviation) || is_shock;
+        is_pulse.then(|| {
+            let pulse = Pulse {
+                blocks: 0..0,
+                from: it.from,
+                to: it.to,
+                change: it.change,
+                deviation: deviation.hypot(shock),
+                is_violent: is_shock,
+                is_swing: false,
+            };
+            // A shock does not excuse the braking that it is part of.
+            let is_violent = is_shock && it.seconds < LONGEST_SHOCK;
+            Turned {
+                ignored: known.prior.ignored(&Pulse {
+                    is_violent,
+                    ..pulse.clone()
+                }),
+                ..Turned::new(&known.prior, &pulse)
+            }
+        })
+    }
+
+    /// Whether no pulse is going on, nor was lately.
+    pub fn is_settled(&self) -> bool {
+        !self.excursion.is_pulse && self.quiet > 1.0
+    }
+
+    /// Whether a pulse has been going on since a time.
+    pub fn is_in_pulse_since(&self, time: f64) -> bool {
+        self.excursion.is_pulse && self.excursion.from <= time
+    }
+
+    /// Whether its pulse is longer than that and was not doubted before, which it is from now on.
+    pub fn doubts(&mut self, time: f64) -> bool {
+        let doubts = self.is_in_pulse_since(time) && !self.excursion.is_doubted;
+        self.excursion.is_doubted |= doubts;
+        doubts
+    }
+
+    /// Loses its pulse to a hole in the record.
+    pub fn cross(&mut self, now: f64, is_brief: bool) {
+        self.hypotheses
+            .cross(now, is_brief, self.excursion.is_pulse);
+        self.excursion = Excursion::default();
+        self.quiet = 0.0;
+    }
+}
