@@ -164,6 +164,11 @@ impl Swing {
         now - to <= LONGEST_PAUSE
     }
 
+    /// Whether a pulse of so many seconds, as long as the latest, could still bring it to rest near enough.
+    pub fn may_return(&self, seconds: f64) -> bool {
+        (self.way + self.speed * seconds / 2.0).abs() <= FARTHEST_SWING
+    }
+
     /// With another pulse, unless that is too late, too long or carries the sensor too far.
     pub fn with(self, pulse: &Turned) -> Option<Self> {
         let pause = self.to.map_or(0.0, |to| pulse.from - to);

@@ -138,7 +138,9 @@ impl Hypotheses {
             let before = self.before.get(first).filter(|_| first < self.pulses.len());
             let mut pulses = self.pulses[first..].iter().chain(current);
             let swing = pulses.try_fold(Swing::default(), |swing, pulse| swing.with(pulse));
-            if swing.is_none() || (first == self.pulses.len() && current.is_none()) {
+            let returns = |swing: Swing| current.is_none_or(|it| swing.may_return(it.to - it.from));
+            let is_nothing = first == self.pulses.len() && current.is_none();
+            if is_nothing || !swing.is_some_and(returns) {
                 continue;
             }
             for hypothesis in before.unwrap_or(&self.now) {

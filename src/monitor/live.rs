@@ -7,7 +7,8 @@
 //! evidence decides.
 
 use super::hypothesis::{self, Cage, Hypothesis, Known};
-use super::track::{SETTLED, Smooth, Track};
+use super::noise::Noise;
+use super::track::{Noises, SETTLED, Smooth, Track};
 use crate::explain::Block;
 use std::collections::VecDeque;
 
@@ -30,7 +31,10 @@ const MOST_TRACKS: usize = 4;
 const HOPELESS: f64 = 12.0;
 
 /// The noise that is assumed with a level, m/s², until there is more.
-const FIRST_NOISE: (f64, f64) = (0.02, 0.01);
+const FIRST_NOISE: Noises = Noises {
+    fast: 0.02,
+    slow: 0.01,
+};
 
 /// A pulse that adds at most so much is ordinary; what others add is remembered for a time, s; and beyond so much of
 /// it, the record is not well explained.
@@ -40,12 +44,6 @@ const STRAINED: f64 = 1.5;
 
 /// Where nothing happens, only every so many blocks are judged.
 const RESTS: usize = 4;
-
-/// How fast the scatter follows, s.
-const SCATTER_FOLLOWS: f64 = 4.0;
-
-/// What a single difference counts for at most, m/s².
-const SHAKE: f64 = 1.0;
 
 /// What calm, and its opposite, are worth where motions of the cage look different from rest, nats.
 const CALM: f64 = 5.0;
@@ -74,8 +72,8 @@ pub(super) struct Belief {
     pub is_shifted: bool,
     /// Whether there is a pulse now.
     pub in_pulse: bool,
-    /// How much the means of blocks scatter, m/s².
-    pub scatter: f64,
+    /// The deviation of the smoothed record, m/s².
+    pub noise: f64,
 }
 
 /// Running mean over the newest blocks.
@@ -96,9 +94,7 @@ pub(super) struct Live {
     capacity: usize,
     /// What remains of the strain after a block.
     forgets: f64,
-    /// How fast the scatter follows, and the scatter, m/s².
-    follows: f64,
-    scatter: f64,
+    noise: Noise,
     half: usize,
     fast: Mean,
     slow: Mean,
@@ -143,8 +139,7 @@ impl Live {
             smooth: VecDeque::with_capacity(capacity + 1),
             capacity,
             forgets: 1.0 - block / REMEMBERS,
-            follows: block / SCATTER_FOLLOWS,
-            scatter: 0.0,
+            noise: Noise::default(),
             half,
             fast: Mean::new(2 * half + 1),
             slow: Mean::new(blocks_in(SLOW)),
@@ -178,11 +173,6 @@ impl Live {
             self.begin(self.begins.clone());
         }
         self.count += 1;
-        if let Some(last) = self.blocks.back() {
-            // Of white noise, the mean size of differences is 1.13 σ.
-            let scatter = (block.mean - last.mean).abs().min(SHAKE) / 1.13;
-            self.scatter += self.follows * (scatter - self.scatter);
-        }
         self.blocks.push_back(block);
         let fast = self.fast.step(&self.blocks);
         let slow = self.slow.step(&self.blocks);
@@ -197,10 +187,12 @@ impl Live {
                 slow,
             };
             self.smooth.push_back(smooth);
+            self.measure_noise();
+            let white = self.white();
             let settled = self.smooth.len().checked_sub(self.lag + 1);
             let settled = settled.map(|place| self.smooth[place].mean);
             for track in &mut self.tracks {
-                track.step(&self.known, &smooth, settled);
+                track.step(&self.known, &smooth, white, settled);
             }
         }
         if self.blocks.len() > self.capacity {
@@ -213,8 +205,23 @@ impl Live {
         }
     }
 
-    /// The level on which the last three seconds agree, and their scatter.
-    fn plateau(&self) -> Option<(f64, f64)> {
+    fn measure_noise(&mut self) {
+        let (newest, apart) = (self.smooth.len() - 1, self.fast.count);
+        if newest >= 2 * apart {
+            let fast = |back: usize| self.smooth[newest - back].fast;
+            (self.noise).step(fast(0) - 2.0 * fast(apart) + fast(2 * apart));
+        }
+    }
+
+    /// The noise as it is if it is white.
+    fn white(&self) -> Noises {
+        let fast = self.noise.deviation();
+        let slow = fast * (self.fast.count as f64 / self.slow.count as f64).sqrt();
+        Noises { fast, slow }
+    }
+
+    /// The level on which the last three seconds agree.
+    fn plateau(&self) -> Option<f64> {
         let length = self.blocks.len();
         let mean = |part: usize| {
             let to = length - part * self.parts;
@@ -226,18 +233,14 @@ impl Live {
         }
         let means = [mean(0), mean(1), mean(2)];
         let middle = means.iter().sum::<f64>() / 3.0;
-        let newest = self.blocks.range(length - 3 * self.parts..);
-        let bends = newest.clone().zip(newest.skip(1));
-        let scatter = bends.map(|(one, other)| (one.mean - other.mean).abs());
-        // Of white noise, the mean size of differences is 1.13 σ.
-        let scatter = scatter.sum::<f64>() / (3 * self.parts - 1) as f64 / 1.13;
-        let agree = AGREE.0.max(AGREE.1 * scatter / (self.parts as f64).sqrt());
+        let noise = self.white().fast * (self.fast.count as f64 / self.parts as f64).sqrt();
+        let agree = AGREE.0.max(AGREE.1 * noise);
         let is_level = means.iter().all(|mean| (mean - middle).abs() < agree);
-        is_level.then_some((middle, scatter))
+        is_level.then_some(middle)
     }
 
     fn try_plateau(&mut self) {
-        let Some((level, scatter)) = self.plateau() else {
+        let Some(level) = self.plateau() else {
             return;
         };
         let length = self.blocks.len();
@@ -248,11 +251,8 @@ impl Live {
             .filter(|home| distance(&self.tracks[*home]) < self.tracks[*home].nearness());
         let is_young = self.count <= self.smooth.len() + self.half;
         if home.is_none() && is_young && (self.tracks.is_empty() || self.all_doubt(since)) {
-            let noise = (
-                1.1 * scatter / (2.0 * self.half as f64 + 1.0).sqrt(),
-                scatter / 5.0,
-            );
-            let mut track = Track::new(level, noise, &self.begins);
+            let white = self.white();
+            let mut track = Track::new(level, white, &self.begins);
             if !self.tracks.is_empty() {
                 track.hypotheses.raise(YOUNG_SHIFT);
             }
@@ -260,12 +260,12 @@ impl Live {
                 let settled = place
                     .checked_sub(self.lag)
                     .map(|place| self.smooth[place].mean);
-                track.step(&self.known, smooth, settled);
+                track.step(&self.known, smooth, white, settled);
             }
             self.tracks.push(track);
             return;
         }
-        let mut given: Option<(Vec<Hypothesis>, (f64, f64))> = None;
+        let mut given: Option<(Vec<Hypothesis>, Noises)> = None;
         for index in 0..self.tracks.len() {
             let track = &mut self.tracks[index];
             if Some(index) == home || !track.doubts(since) {
@@ -407,7 +407,7 @@ impl Live {
         }
         let least = |best: Option<(Hypothesis, f64)>| best.map_or(f64::INFINITY, |best| best.1);
         belief.least = least(belief.rest).min(least(belief.motion));
-        belief.scatter = self.scatter;
+        belief.noise = self.noise.deviation();
         belief.is_shifted = levels[0] != levels[1];
         if let Some(first) = self.tracks.first() {
             belief.level = first.level;

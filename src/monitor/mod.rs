@@ -44,6 +44,7 @@ mod history;
 mod hypotheses;
 mod hypothesis;
 mod live;
+mod noise;
 mod reference;
 mod saved_state;
 mod sensor;
@@ -141,8 +142,8 @@ const GAIN_ERROR: f64 = 0.015;
 /// What it costs that a record begins in motion.
 const BEGINS_IN_MOTION: f64 = 3.0;
 
-/// The scatter of blocks in which starts are not seen, m/s², and below which they are again.
-const NOISY: (f64, f64) = (0.16, 0.1);
+/// The deviation of the smoothed record in which starts are not seen, m/s², and below which they are again.
+const NOISY: (f64, f64) = (0.1, 0.08);
 
 /// Blocks look like rest if their mean square is at most this many times that of the reference; it is followed over
 /// this time, s, and single ones count for at most so much.
@@ -428,7 +429,7 @@ impl Monitor {
 
     fn judge_noise(&mut self, belief: &Belief, now: f64) {
         let was = self.is_noisy;
-        self.is_noisy = belief.scatter > if was { NOISY.1 } else { NOISY.0 };
+        self.is_noisy = belief.noise > if was { NOISY.1 } else { NOISY.0 };
         if self.is_noisy && !was {
             self.report(Fault::Noisy, now, now);
         }

@@ -8,13 +8,13 @@ use crate::explain::{Pulse, Turned};
 const FOLLOWS: f64 = 4.0;
 pub(super) const SETTLED: f64 = 2.5;
 
-/// How fast the noise is.
+/// How fast the noise of the longer time is.
 const NOISE_FOLLOWS: f64 = 6.0;
 
 /// The least and the greatest distance from the level that is a pulse, m/s²: of the smoothed record, and of the
 /// mean of a longer time, which shows soft starts; and in standard deviations.
-const FAST: (f64, f64, f64) = (0.02, 0.15, 2.5);
-const SLOW: (f64, f64, f64) = (0.02, 0.06, 3.5);
+const FAST: (f64, f64, f64) = (0.02, 0.25, 2.5);
+const SLOW: (f64, f64, f64) = (0.02, 0.12, 3.5);
 
 /// How far a pulse reaches beyond the point where it falls into the noise, s.
 const FOOT: f64 = 0.3;
@@ -60,6 +60,13 @@ pub(super) struct Smooth {
     pub slow: f64,
 }
 
+/// The deviations of the smoothed record and of the mean of a longer time, m/s².
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Noises {
+    pub fast: f64,
+    pub slow: f64,
+}
+
 /// What has left the level so far.
 #[derive(Clone, Copy, Debug, Default)]
 struct Excursion {
@@ -89,14 +96,13 @@ pub(super) struct Track {
     pub level: f64,
     pub hypotheses: Hypotheses,
     excursion: Excursion,
-    /// Mean sizes of the noise, fast and slow.
-    noise: (f64, f64),
+    noise: Noises,
     /// For how long there has been no pulse, s.
     pub quiet: f64,
 }
 
 impl Track {
-    pub fn new(level: f64, noise: (f64, f64), hypotheses: &[Hypothesis]) -> Self {
+    pub fn new(level: f64, noise: Noises, hypotheses: &[Hypothesis]) -> Self {
         Self {
             level,
             hypotheses: Hypotheses::new(hypotheses),
@@ -106,14 +112,14 @@ impl Track {
         }
     }
 
-    pub fn noise(&self) -> (f64, f64) {
+    pub fn noise(&self) -> Noises {
         self.noise
     }
 
     fn least(&self) -> (f64, f64) {
         let least =
             |noise: f64, (least, most, times): (f64, f64, f64)| (times * noise).clamp(least, most);
-        (least(self.noise.0, FAST), least(self.noise.1, SLOW))
+        (least(self.noise.fast, FAST), least(self.noise.slow, SLOW))
     }
 
     /// How far a level may be from this one and be the same.
@@ -121,8 +127,10 @@ impl Track {
         0.75 * self.least().1
     }
 
-    /// Takes a block; `settled` is the mean of one so much earlier that no pulse can have begun in it.
-    pub fn step(&mut self, known: &Known, block: &Smooth, settled: Option<f64>) {
+    /// Takes a block, and the least noise that there is; `settled` is the mean of one so much earlier that no pulse can have begun in it.
+    pub fn step(&mut self, known: &Known, block: &Smooth, white: Noises, settled: Option<f64>) {
+        self.noise.fast = white.fast;
+        self.noise.slow = self.noise.slow.max(white.slow);
         let (fast, slow) = (block.fast - self.level, block.slow - self.level);
         let least = self.least();
         let it = &self.excursion;
@@ -183,18 +191,17 @@ impl Track {
                 it.since_shock + block.seconds
             };
         }
-        self.follow(block.seconds, fast, slow, settled);
+        self.follow(block.seconds, slow, settled);
     }
 
-    fn follow(&mut self, seconds: f64, fast: f64, slow: f64, settled: Option<f64>) {
+    fn follow(&mut self, seconds: f64, slow: f64, settled: Option<f64>) {
         if self.excursion.is_pulse {
             return;
         }
         self.quiet += seconds;
-        let share = (seconds / NOISE_FOLLOWS).min(1.0);
-        self.noise.0 += share * (1.25 * fast.abs() - self.noise.0);
         if self.quiet > 1.5 {
-            self.noise.1 += share * (1.25 * slow.abs() - self.noise.1);
+            let share = (seconds / NOISE_FOLLOWS).min(1.0);
+            self.noise.slow += share * (1.25 * slow.abs() - self.noise.slow);
         }
         if let Some(settled) = settled.filter(|_| self.quiet > SETTLED + 1.0) {
             self.level += (seconds / FOLLOWS).min(1.0) * (settled - self.level);
@@ -220,7 +227,7 @@ impl Track {
             return None;
         }
         // The mean of 1.5 s has 1/√1.5 of the walk of a second.
-        let walk = 1.22 * self.noise.1;
+        let walk = 1.22 * self.noise.slow;
         let variance = walk * walk * it.seconds + (LEVEL_ERROR * it.seconds).powi(2);
         let deviation = variance.sqrt();
         let is_shock = it.peak > known.prior.most_acceleration;

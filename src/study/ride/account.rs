@@ -131,36 +131,38 @@ impl Journey {
     }
 }
 
-/// The reported motions, each from its start to the next rest. A motion that ends in doubt has no stop.
+/// The reported motions, each from its start to the next rest. Doubt in between ends none: the rest says when it began.
 fn sightings(events: &[Event]) -> Vec<Sighting> {
     let mut sightings: Vec<Sighting> = Vec::new();
     let mut moves = false;
-    for Event {
-        time,
-        reported,
-        kind,
-    } in events
-    {
+    for event in events {
         let Kind::Change {
             state, direction, ..
-        } = kind
+        } = event.kind
         else {
             continue;
         };
-        match *state {
-            State::Known(Phase::Accelerating) => sightings.push(Sighting {
-                direction: *direction,
-                start: (*time, *reported),
-                stop: None,
-            }),
-            State::REST if moves => {
-                if let Some(last) = sightings.last_mut() {
-                    last.stop = Some((*time, *reported));
+        let told = (event.time, event.reported);
+        match state {
+            State::Known(Phase::Accelerating) => {
+                let goes_on = |last: &Sighting| moves && last.direction == direction;
+                if !sightings.last().is_some_and(goes_on) {
+                    sightings.push(Sighting {
+                        direction,
+                        start: told,
+                        stop: None,
+                    });
                 }
+                moves = true;
+            }
+            State::REST => {
+                if let Some(last) = sightings.last_mut().filter(|_| moves) {
+                    last.stop = Some(told);
+                }
+                moves = false;
             }
             _ => {}
         }
-        moves = state.moves();
     }
     sightings
 }
