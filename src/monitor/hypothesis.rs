@@ -15,6 +15,9 @@ const SLOW: f64 = 6.0;
 const SOFT: (f64, f64) = (2.0, 1.2);
 const SOFT_COST: f64 = 2.5;
 
+/// A lift that starts softly and brakes hard, or the other way round, is rarer still.
+const UNLIKE: f64 = 2.0;
+
 /// A lasting change of the level, and one that ends; and what each m/s² beyond a usual one adds.
 const SHIFT: f64 = 5.0;
 const SHIFT_AND_BACK: f64 = 6.0;
@@ -109,6 +112,8 @@ pub(super) struct Hypothesis {
     is_guess: bool,
     /// Whether the rest began with a shock.
     pub is_jam: bool,
+    /// What it has cost to take pulses of the motion, or the one before the rest, for something else.
+    pub ignored: f64,
     /// The braking before the rest, s.
     pub braking: Option<(f64, f64)>,
 }
@@ -123,6 +128,7 @@ impl Hypothesis {
             is_across: false,
             is_guess: false,
             is_jam: false,
+            ignored: 0.0,
             braking: None,
         }
     }
@@ -147,6 +153,15 @@ impl Hypothesis {
         Self {
             cost: self.cost + by,
             ..self
+        }
+    }
+
+    /// If the level has changed by so much since.
+    pub fn shifted(self, by: f64) -> Self {
+        let cost = SHIFT + STRONG_SHIFT.1 * (by.abs() - STRONG_SHIFT.0).clamp(0.0, 0.5);
+        Self {
+            ignored: self.ignored + cost / 2.0,
+            ..self.dearer(cost)
         }
     }
 
@@ -216,7 +231,11 @@ impl Hypothesis {
                     ..self.dearer(ignored.min(RIPPLE.1))
                 });
             }
-            _ => take(self.dearer(ignored)),
+            Cage::Rest => take(self.dearer(ignored)),
+            _ => take(Self {
+                ignored: self.ignored + ignored,
+                ..self.dearer(ignored)
+            }),
         }
         let (first, last) = (&pulses[0], &pulses[pulses.len() - 1]);
         match self.cage {
@@ -251,9 +270,13 @@ impl Hypothesis {
                     least_speed: known.prior.least_speed * LEAST_START,
                     ..known.prior
                 };
-                let soft = pulses.iter().any(|pulse| is_soft(known, pulse)) && !self.is_soft;
+                let soft = match (self.is_soft, pulses.iter().any(|it| is_soft(known, it))) {
+                    (false, true) => SOFT_COST + UNLIKE,
+                    (true, false) => UNLIKE,
+                    _ => 0.0,
+                };
                 let before = Progress {
-                    cost: self.cost + if soft { SOFT_COST } else { 0.0 } + again(&progress, total),
+                    cost: self.cost + soft + again(&progress, total),
                     ..progress
                 };
                 let changed = before.changed(pulses);
@@ -269,6 +292,7 @@ impl Hypothesis {
                 let stop = changed.closed(&closing, last.to - self.since) - violent / 2.0;
                 take(Self {
                     is_guess: self.is_guess,
+                    ignored: self.ignored,
                     is_jam: violent > 0.0,
                     braking: Some((first.from, last.to)),
                     ..Self::rest(last.to, stop - error + error.min(shifted) + match_)
@@ -375,11 +399,6 @@ impl Hypothesis {
             _ => false,
         }
     }
-}
-
-/// What a lasting change of the level by so much costs.
-pub(super) fn shift(by: f64) -> f64 {
-    SHIFT + STRONG_SHIFT.1 * (by.abs() - STRONG_SHIFT.0).clamp(0.0, 0.5)
 }
 
 /// What a pulse costs that is a passing change of the level, if it may be one.

@@ -6,7 +6,7 @@
 //! hypotheses from before, dearer by the cost of a shift. So motion and shift are both followed until the
 //! evidence decides.
 
-use super::hypothesis::{self, Cage, Hypothesis, Known};
+use super::hypothesis::{Cage, Hypothesis, Known};
 use super::noise::Noise;
 use super::track::{Noises, SETTLED, Smooth, Track};
 use crate::explain::Block;
@@ -271,9 +271,9 @@ impl Live {
             if Some(index) == home || !track.doubts(since) {
                 continue;
             }
-            let cost = hypothesis::shift(track.level - level);
+            let by = track.level - level;
             let (all, _) = given.get_or_insert((Vec::new(), track.noise()));
-            all.extend(track.hypotheses.now.iter().map(|it| it.dearer(cost)));
+            all.extend(track.hypotheses.now.iter().map(|it| it.shifted(by)));
         }
         let Some((given, noise)) = given else {
             return;

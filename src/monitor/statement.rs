@@ -8,6 +8,10 @@ use crate::signal::Phase;
 /// A hypothesis dearer than the cheapest by more than this is not plausible, nats.
 const MARGIN: f64 = 4.0;
 
+/// A rest after a motion in which pulses were taken for something else must be likelier by what that has cost, at most
+/// by this: one of them may have been the stop.
+const MOST_IGNORED: f64 = 4.0;
+
 /// The state of the cage, and since when.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Statement {
@@ -48,13 +52,15 @@ impl Statement {
             .filter(|_| rest < motion + MARGIN)
             .map(|best| best.0);
         let statement = match (belief.rest, belief.motion) {
-            (Some((it, _)), _) if belief.threat > rest + MARGIN => Self {
-                state: State::REST,
-                since: it.since.min(now),
-                braking: it.braking,
-                reason: None,
-                ..Self::unknown(now, Doubt::Beginning)
-            },
+            (Some((it, _)), _) if belief.threat > rest + MARGIN + it.ignored.min(MOST_IGNORED) => {
+                Self {
+                    state: State::REST,
+                    since: it.since.min(now),
+                    braking: it.braking,
+                    reason: None,
+                    ..Self::unknown(now, Doubt::Beginning)
+                }
+            }
             (_, Some((it, _))) if rest > motion + MARGIN => Self::moving(&it, belief, now),
             (_, Some((it, _))) => Self::unknown(now, doubt(&it, belief)),
             _ => Self::unknown(now, Doubt::Beginning),
