@@ -116,6 +116,8 @@ pub struct Monitor {
     motion_shows: bool,
     strength: f64,
     said: Statement,
+    /// The last time that the decision was H₁*, or could not be made, s.
+    moved: f64,
     /// The level when it was last certain, m/s².
     level: Option<f64>,
     /// Time of the last sample, s.
@@ -194,6 +196,7 @@ impl Monitor {
             motion_shows: knowledge.motion_shows && knowledge.reference.is_some(),
             strength: CALM.2,
             said: Statement::unknown(0.0, Doubt::Beginning),
+            moved: f64::NEG_INFINITY,
             level: None,
             last: None,
             learns_from: 0,
@@ -290,6 +293,7 @@ impl Monitor {
             },
         );
         self.history.clear();
+        self.moved = f64::NEG_INFINITY;
         self.learns_from = 0;
     }
 
@@ -326,7 +330,7 @@ impl Monitor {
         let statement = if self.is_noisy || was_noisy {
             Statement::unknown(now, Doubt::Sensor)
         } else {
-            Statement::of(&belief, now)
+            self.confirmed(Statement::of(&belief, now), now)
         };
         self.alarm_of_jam(&statement, now);
         self.say(statement, now);
@@ -340,6 +344,15 @@ impl Monitor {
         }
     }
 
+    /// A motion that begins is told only once a decision was H₁* since its start, where decisions can be made.
+    fn confirmed(&self, statement: Statement, now: f64) -> Statement {
+        let is_new = !self.said.state.moves();
+        match statement.start {
+            Some(start) if is_new && self.moved < start => Statement::unknown(now, Doubt::Pulse),
+            _ => statement,
+        }
+    }
+
     /// Whether the record looks like rest, if motions of the cage do not.
     fn is_calm(&self) -> Option<bool> {
         self.motion_shows.then_some(self.strength < CALM.0)
@@ -348,6 +361,7 @@ impl Monitor {
     /// Makes the decision at the newest block.
     fn decide(&mut self) {
         let Some(reference) = &self.reference else {
+            self.moved = self.history.newest().0.to;
             return;
         };
         let windows = Windows::forwards(&self.design, self.history.end());
@@ -358,6 +372,9 @@ impl Monitor {
         let ratio = (block.1 / reference.deviation).powi(2).min(CALM.2);
         if ratio.is_finite() {
             self.strength += self.design.block / CALM.1 * (ratio - self.strength);
+        }
+        if verdict.as_ref().is_none_or(|verdict| verdict.moves) {
+            self.moved = block.0.to;
         }
         self.newest = Some(Observation {
             times: (block.0.from, block.0.to),

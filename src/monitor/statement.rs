@@ -23,6 +23,8 @@ pub(super) struct Statement {
     pub reason: Option<Doubt>,
     /// When the shock was that may have ended the motion, s.
     pub jam: Option<f64>,
+    /// When the motion began, if it was seen to begin, s.
+    pub start: Option<f64>,
     /// The braking that ended the motion, s.
     pub braking: Option<(f64, f64)>,
     /// When the rest that may be the case began, s.
@@ -38,6 +40,7 @@ impl Statement {
             speed: None,
             reason: Some(reason),
             jam: None,
+            start: None,
             braking: None,
             rest: None,
         }
@@ -97,6 +100,7 @@ impl Statement {
         Self {
             state: State::Known(phase),
             since: since.min(now),
+            start: matches!(motion.cage, Cage::Moves(_)).then_some(motion.since),
             direction: speed.map(Direction::of),
             speed: speed.map(f64::abs),
             reason: None,
