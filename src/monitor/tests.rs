@@ -469,7 +469,7 @@ fn faults_of_the_sensor_are_told() {
         told(rest().with(0.5, 19.6, 0.0)),
         (vec![Fault::Saturated], unknown)
     );
-    assert_eq!(told(rest().with(30.0, 0.0, 100.0)).0, [Fault::Noisy]);
+    assert_eq!(told(rest().with(30.0, 0.0, 200.0)).0, [Fault::Noisy]);
 }
 
 /// One stamp far ahead, and the way back: two holes, and the next trips are seen.

@@ -207,14 +207,14 @@ fn changed_rows_are_not_drawn() {
     );
 }
 
-/// Every class of records before the monitor; its config has no results yet.
+/// Every class of records before the monitor.
 #[test]
 fn records_of_every_class() {
     let directory = tempfile::tempdir().unwrap();
     let mut command = liftsim();
     command.args([
         "sweep",
-        "tests/program/configs/ride_danger.toml",
+        "configs/ride_danger.toml",
         "--trials",
         "4",
         "--out",

@@ -71,7 +71,7 @@ impl Watched {
             rest_in_motion: danger.milliseconds(),
             false_rides: account.false_motions,
             stood,
-            known: account.at_rest,
+            known: account.known,
             ..Self::default()
         };
         for trip in &account.trips {

@@ -19,8 +19,9 @@ pub struct Account {
     pub false_motions: u64,
     /// Jam alarms without a jam.
     pub false_alarms: u64,
-    /// How long the cage stood while the monitor said `rest`, s.
-    pub at_rest: f64,
+    /// How long the cage stood, s, and how long of that the monitor said `rest`.
+    pub stood: f64,
+    pub known: f64,
     /// Whether the monitor said `rest` in the first trip.
     pub misled: bool,
     /// Whether the monitor said `rest` when the rest after the first trip ended.
@@ -74,7 +75,8 @@ impl Account {
                 .collect(),
             false_motions: (sightings.len() - sightings.iter().filter(belongs).count()) as u64,
             false_alarms: (alarms.len() - alarms.iter().filter(is_of_a_jam).count()) as u64,
-            at_rest: truth
+            stood: truth.rests().map(|(from, to)| to - from).sum(),
+            known: truth
                 .rests()
                 .map(|(from, to)| said.rest_within(from, to))
                 .sum(),
@@ -89,7 +91,8 @@ impl Account {
         self.trips.extend(other.trips);
         self.false_motions += other.false_motions;
         self.false_alarms += other.false_alarms;
-        self.at_rest += other.at_rest;
+        self.stood += other.stood;
+        self.known += other.known;
         self.misled |= other.misled;
         self.knew_soon |= other.knew_soon;
         self.knew |= other.knew;

@@ -64,7 +64,7 @@ impl All<'_> {
     }
 
     fn false_motions(&self) -> Estimate {
-        let hours = self.sums.at_rest.value() / HOUR;
+        let hours = self.sums.stood.value() / HOUR;
         self.rate("false_motions", self.sums.false_motions, hours, "hours")
     }
 

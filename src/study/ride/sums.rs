@@ -25,8 +25,8 @@ pub(super) struct RideSums {
     pub knew: u64,
     pub false_motions: u64,
     pub false_alarms: u64,
-    /// Total time for which the cage stood and the monitor said `rest`, s.
-    pub at_rest: Fixed,
+    /// Total time for which the cage stood, s.
+    pub stood: Fixed,
     /// Delay of the start of every trip, s.
     pub start_delays: Values,
     pub stop_delays: Values,
@@ -46,7 +46,7 @@ impl RideSums {
         self.knew += u64::from(account.knew);
         self.false_motions += account.false_motions;
         self.false_alarms += account.false_alarms;
-        self.at_rest += Fixed::new(account.at_rest);
+        self.stood += Fixed::new(account.stood);
         for trip in &account.trips {
             self.start_delays.push(trip.start_delay);
             self.stop_delays.push(trip.stop_delay);
@@ -89,7 +89,7 @@ impl RideSums {
         // Each rest is the difference of two rounded times. Its rounding error is below a microsecond.
         let rests = (point.keys.trips + 2) as f64;
         let longest = trials as f64 * (rest * (1.0 + 1e-9) + 1e-6 * rests);
-        Rule::Within(0.0, longest, "s").check("at_rest", &self.at_rest.value())
+        Rule::Within(0.0, longest, "s").check("stood", &self.stood.value())
     }
 
     /// Each number that is bounded by the trials or by another number, with its bounds.
@@ -155,7 +155,7 @@ impl From<RideSums> for Sums {
                 sums.false_motions,
                 sums.false_alarms,
             ],
-            lengths: vec![sums.at_rest],
+            lengths: vec![sums.stood],
             values: vec![sums.start_delays, sums.stop_delays, sums.alarm_delays],
         }
     }
@@ -176,7 +176,7 @@ impl From<Sums> for RideSums {
             knew: counts[5],
             false_motions: counts[6],
             false_alarms: counts[7],
-            at_rest: sums.lengths[0],
+            stood: sums.lengths[0],
             start_delays: next(),
             stop_delays: next(),
             alarm_delays: next(),
@@ -286,8 +286,8 @@ mod tests {
                 ("disturbed", |sums| (sums.disturbed, sums.false_motions) = (0, 7)),
                 ("misled", |sums| sums.misled += 11),
                 ("knew_soon", |sums| sums.knew_soon += 5),
-                ("at_rest", |sums| sums.at_rest += Fixed::new(1e5)),
-                ("at_rest", |sums| sums.at_rest += Fixed::new(-1e5)),
+                ("stood", |sums| sums.stood += Fixed::new(1e5)),
+                ("stood", |sums| sums.stood += Fixed::new(-1e5)),
                 ("delays", |sums| {
                     sums.start_delays.push(f64::NAN);
                     sums.stop_delays.push(1.0);

@@ -101,7 +101,7 @@ fn all_is_found_and_timed() {
     assert_eq!((account.false_motions, account.false_alarms), (0, 0));
     // The shared times are 5 to 10 s, 21.5 to 30 s and 36 to 60 s. Only times when the cage stood and
     // the monitor said `rest` count.
-    assert!((account.at_rest - (5.0 + 8.5 + 24.0)).abs() < 1e-12);
+    assert!((account.known - (5.0 + 8.5 + 24.0)).abs() < 1e-12);
     // From 10 to 11 s the cage moved and was still said to rest.
     assert!(account.misled && account.knew_soon && account.knew);
 }
@@ -122,9 +122,11 @@ fn what_is_not_found() {
     let doubtful = with(3, change(19.9, 21.5, State::Unknown, None));
     assert!(!doubtful.is_found && doubtful.start_delay == 1.0);
     assert_eq!(doubtful.stop_delay, f64::INFINITY);
-    // A rest that follows doubt does not stop the motion before it.
+    // A rest that follows doubt says when the motion before it ended, if it ended then.
     let mut events = said();
     events.insert(3, change(14.0, 15.0, State::Unknown, None));
+    assert!(account(&events).trips[0].is_found);
+    events[4] = rest(14.0, 21.5);
     assert!(!account(&events).trips[0].is_found);
 }
 
@@ -140,7 +142,8 @@ fn what_is_false() {
     let false_start = [start(24.0, 25.0, Direction::Up), rest(25.5, 26.0)];
     let disturbed = among(&false_start);
     assert_eq!(disturbed.false_motions, 1);
-    assert!((disturbed.at_rest - 36.5).abs() < 1e-12);
+    assert!((disturbed.known - 36.5).abs() < 1e-12);
+    assert_eq!(disturbed.stood, account(&[]).stood);
     assert_eq!(among(&[start(9.0, 10.5, Direction::Up)]).false_motions, 0);
     assert_eq!(among(&[start(8.0, 9.0, Direction::Up)]).false_motions, 1);
     assert_eq!(among(&[alarm(15.0, 16.0)]).false_alarms, 1);
