@@ -20,6 +20,15 @@ pub const LONGEST_PAUSE: f64 = 0.4;
 pub const LONGEST_SWING: f64 = 1.3;
 pub const FARTHEST_SWING: f64 = 0.5;
 
+/// A slow swing, of a rope: its pulses are no longer than this, s; pauses are at most this share of them; each changes
+/// the speed at most so many times as much as the one before; they leave at most this share of the largest; and it
+/// goes back for at least this share of what it goes forth.
+pub const LONGEST_SLOW_SWING: f64 = 6.0;
+pub const PAUSE_SHARE: f64 = 0.2;
+const MOST_UNLIKE: f64 = 2.5;
+const LEFT: f64 = 0.6;
+const BACK: f64 = 0.25;
+
 /// The smallest change of speed, m/s, and in deviations of what noise adds up to.
 const LEAST_CHANGE: f64 = 0.015;
 const LEAST_DEVIATIONS: f64 = 5.0;
@@ -48,6 +57,8 @@ pub struct Pulse {
     pub is_violent: bool,
     /// Whether it is a long swing to and fro.
     pub is_swing: bool,
+    /// What the level shifts by during it, m/s²; 0 for what the record shows above its level.
+    pub shift: f64,
 }
 
 impl Pulse {
@@ -123,6 +134,15 @@ impl Record {
             .sum()
     }
 
+    /// What a pulse changes the speed by in some of its blocks, m/s.
+    pub fn change_by(&self, pulse: &Pulse, blocks: Range<usize>) -> f64 {
+        let seconds: f64 = blocks
+            .clone()
+            .map(|block| self.cut.blocks[block].seconds)
+            .sum();
+        self.change(blocks) + pulse.shift * seconds
+    }
+
     fn smoothed(&self) -> Vec<f64> {
         let half = (SMOOTHING / 2.0 / self.cut.seconds).round() as usize;
         let mut smoothed = Vec::with_capacity(self.cut.blocks.len());
@@ -186,7 +206,25 @@ impl Record {
             }
             from = to;
         }
-        self.swings(self.joined(pulses, limits), limits)
+        let mut pulses = self.swings(self.joined(pulses, limits), limits);
+        pulses.extend(self.shifts(limits));
+        pulses.sort_by_key(|pulse| pulse.blocks.start);
+        pulses
+    }
+
+    /// The shifts of the level, each of which may as well be a long and weak acceleration.
+    fn shifts(&self, limits: Limits) -> impl Iterator<Item = Pulse> + '_ {
+        let shifts = self.level.shifts.iter();
+        let pulses = shifts.map(move |shift| {
+            let pulse = self.pulse(shift.blocks.clone(), limits);
+            Pulse {
+                change: shift.size * pulse.seconds(),
+                is_violent: false,
+                shift: shift.size,
+                ..pulse
+            }
+        });
+        pulses.filter(|pulse| pulse.change.abs() > LEAST_CHANGE)
     }
 
     /// A long swing to and fro is one pulse: a rope that bounces, somebody who walks. Its pulses are short, follow each
@@ -253,6 +291,7 @@ impl Record {
             to,
             is_violent: peak > limits.violent,
             is_swing: false,
+            shift: 0.0,
         }
     }
 
@@ -280,14 +319,48 @@ impl Record {
     }
 }
 
-/// How many pulses from the first on are one swing.
+/// How many pulses from the first on are one swing: those that are short, or alike and leave next to no speed. A lift
+/// does not turn so often without a rest or a uniform motion in between.
 fn swing(pulses: &[Pulse]) -> usize {
-    let goes_on = |pair: &[Pulse]| {
-        let turns = pair[0].change * pair[1].change < 0.0;
-        turns && pair[1].from - pair[0].to <= LONGEST_PAUSE && pair[1].seconds() <= LONGEST_SWING
+    let turns = |pair: &[Pulse]| pair[0].change * pair[1].change < 0.0;
+    let is_short = |pulse: &Pulse| pulse.seconds() <= LONGEST_SWING;
+    let follows = |pair: &[Pulse]| {
+        turns(pair) && pair[1].from - pair[0].to <= LONGEST_PAUSE && pair.iter().all(is_short)
     };
-    if pulses[0].seconds() > LONGEST_SWING {
-        return 0;
+    let short = if is_short(&pulses[0]) {
+        1 + pulses.windows(2).take_while(|pair| follows(pair)).count()
+    } else {
+        0
+    };
+    if short >= LEAST_IN_SWING {
+        return short;
     }
-    1 + pulses.windows(2).take_while(|pair| goes_on(pair)).count()
+    let is_like = |pair: &[Pulse]| {
+        let ratio = pair[1].change.abs() / pair[0].change.abs();
+        let longest = pair[0].seconds().max(pair[1].seconds());
+        let pause = pair[1].from - pair[0].to;
+        turns(pair)
+            && pause <= LONGEST_PAUSE.max(PAUSE_SHARE * longest)
+            && longest <= LONGEST_SLOW_SWING
+            && (1.0 / MOST_UNLIKE..=MOST_UNLIKE).contains(&ratio)
+    };
+    let alike = 1 + pulses.windows(2).take_while(|pair| is_like(pair)).count();
+    let is_swing = |count: &usize| {
+        let changes = pulses[..*count].iter().map(|pulse| pulse.change);
+        let most = changes.clone().map(f64::abs).fold(0.0, f64::max);
+        let speeds = changes.scan(0.0, |speed, change| {
+            *speed += change;
+            Some(*speed)
+        });
+        let last = speeds.clone().last().unwrap_or(0.0);
+        // Several short rides in one direction turn as often, but never go back.
+        let back: f64 = speeds.clone().map(|speed| speed.min(0.0)).sum();
+        let forth: f64 = speeds.map(|speed| speed.max(0.0)).sum();
+        let goes_back = (-back).min(forth) >= BACK * (-back).max(forth);
+        last.abs() <= LEFT * most && goes_back
+    };
+    (LEAST_IN_SWING..=alike)
+        .rev()
+        .find(is_swing)
+        .unwrap_or(short)
 }

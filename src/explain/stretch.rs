@@ -5,7 +5,8 @@
 
 use super::cost::{self, Prior};
 use super::progress::{Progress, Swing, Turned};
-use super::pulse::{LEAST_IN_SWING, Pulse};
+use super::pulse::{LEAST_IN_SWING, LONGEST_SLOW_SWING, PAUSE_SHARE, Pulse};
+use std::f64::consts::PI;
 use std::ops::Range;
 
 /// The pulses of a stretch without holes.
@@ -61,7 +62,7 @@ impl<'a> Stretch<'a> {
     /// The disturbances that begin with a pulse: the pulse after, and the cost.
     pub fn disturbances(&self, first: usize) -> impl Iterator<Item = (usize, f64)> + Clone + '_ {
         let costs = self.disturbances[first].iter().copied();
-        (first + 2..).zip(costs)
+        (first + 2..).zip(costs).filter(|it| it.1.is_finite())
     }
 
     /// The motion that begins with a pulse, if that is strong enough.
@@ -86,7 +87,8 @@ impl<'a> Stretch<'a> {
             return false;
         };
         let before = self.pulses[next - 1];
-        !self.disturbances[next - 1].is_empty()
+        let is_swing = self.disturbances[next - 1].first();
+        is_swing.is_some_and(|cost| cost.is_finite())
             && after.change * before.change < 0.0
             && after.change.abs() > 0.3 * before.change.abs()
     }
@@ -110,17 +112,50 @@ impl<'a> Stretch<'a> {
     /// What a motion costs that goes on at the end.
     pub fn open(&self, motion: &Progress) -> f64 {
         let slow = (self.prior).implausible(motion.top, f64::INFINITY, f64::INFINITY);
-        motion.cost + motion.creeping(self.end) + slow
+        let tolerance = self.prior.tolerance(motion.top, motion.variance);
+        let stands = if motion.speed.abs() < tolerance {
+            cost::STANDS
+        } else {
+            0.0
+        };
+        motion.cost + motion.creeping(self.end) + slow + stands
     }
 }
 
-/// What the disturbances cost that begin with the first pulse: of two pulses, three and so on. Longer ones than these
-/// are one pulse already.
+/// What the disturbances cost that begin with the first pulse: of two pulses, of three and so on; infinite where they
+/// are none. Longer ones than these are one pulse already.
 fn disturbances(prior: &Prior, pulses: &[Turned]) -> Vec<f64> {
     let few = &pulses[..pulses.len().min(LEAST_IN_SWING - 1)];
-    let swings = few.iter().scan(Swing::default(), |swing, pulse| {
-        *swing = swing.with(pulse)?;
-        Some(prior.disturbance(swing.speed))
+    let swings = few.iter().scan(Some(Swing::default()), |swing, pulse| {
+        *swing = swing.and_then(|swing| swing.with(pulse));
+        Some(swing.map_or(f64::INFINITY, |swing| prior.disturbance(swing.speed)))
     });
-    swings.skip(1).collect()
+    let costs = swings.enumerate().map(|(last, cost)| {
+        let slow = slow_swing(&few[..=last]).map(|speed| prior.disturbance(speed));
+        slow.map_or(cost, |slow| cost.min(slow + cost::SLOW_SWING))
+    });
+    costs.skip(1).collect()
+}
+
+/// The speed that pulses leave if they may be a period of a slow swing: they turn each time, follow each other at once,
+/// carry the cage back and forth alike, and no farther than to the next floor.
+fn slow_swing(pulses: &[Turned]) -> Option<f64> {
+    let mut speed = 0.0;
+    let mut ways = Vec::new();
+    for pair in pulses.windows(2) {
+        let (one, other) = (pair[0], pair[1]);
+        let lengths = (one.to - one.from) + (other.to - other.from);
+        let follows = other.from - one.to <= PAUSE_SHARE * lengths / 2.0;
+        if one.change * other.change >= 0.0 || !follows || lengths > 2.0 * LONGEST_SLOW_SWING {
+            return None;
+        }
+        speed += one.change;
+        // Half a sine of speed, from the middle of one pulse to that of the other.
+        ways.push(speed * lengths / PI);
+    }
+    let forth: f64 = ways.iter().map(|way| way.max(0.0)).sum();
+    let back: f64 = ways.iter().map(|way| -way.min(0.0)).sum();
+    let is_near = ways.iter().all(|way| way.abs() < cost::SHORT_DISTANCE);
+    let goes_back = back.min(forth) > cost::BACK * back.max(forth);
+    (is_near && goes_back).then(|| speed + pulses[pulses.len() - 1].change)
 }
