@@ -39,15 +39,16 @@ pub const TRIP: f64 = 1.0;
 /// A motion that began before the record, or goes on after it.
 pub const OPEN: f64 = 3.0;
 
-/// A start or a stop within a hole of a length that does not count.
+/// A start or a stop within a hole: usually, less in one longer than a few seconds, twice as much in one that can hardly
+/// hide it, s.
 pub const IN_HOLE: f64 = 1.5;
-
-/// A start or a stop within a hole of the record is likely in one that is longer than this, s.
 const LONG_HOLE: f64 = 20.0;
+const SHORT_HOLE: f64 = 1.0;
 
-/// A motion that goes on across a hole: once, and for every so many seconds of it.
+/// A motion that goes on across a hole: once, and for every so many seconds beyond the first few.
 pub const ACROSS_HOLE: f64 = 0.3;
 const MOTION_LASTS: f64 = 30.0;
+const FEW: f64 = 5.0;
 
 /// A cage hardly stops and starts again within this time, s.
 const STOPOVER: f64 = 10.0;
@@ -70,10 +71,8 @@ pub const HALF: f64 = 1.0;
 /// The level of the sensor shifts for a while.
 const SHIFT: f64 = 3.0;
 
-/// What a single period of a slow swing costs beside the speed that it leaves: it goes back for at least this share
-/// of what it goes forth.
+/// What a single period of a slow swing costs beside the speed that it leaves.
 pub const SLOW_SWING: f64 = 3.0;
-pub const BACK: f64 = 0.4;
 
 /// The most a long swing costs, whatever speed it seems to leave.
 const MOST_SWING: f64 = 6.0;
@@ -101,7 +100,7 @@ const ROUNDING: f64 = 0.015;
 /// No trip is shorter than this, m.
 const LEAST_DISTANCE: f64 = 0.5;
 /// Floors are hardly nearer to each other, m.
-pub const SHORT_DISTANCE: f64 = 2.0;
+const SHORT_DISTANCE: f64 = 2.0;
 
 /// Nor briefer, s.
 const LEAST_DURATION: f64 = 1.5;
@@ -116,7 +115,11 @@ pub fn closing(speed: f64, tolerance: f64) -> f64 {
 
 /// A start or a stop within a hole of so many seconds.
 pub fn in_hole(seconds: f64) -> f64 {
-    log1p(LONG_HOLE / seconds)
+    if seconds < SHORT_HOLE {
+        2.0 * IN_HOLE
+    } else {
+        log1p(LONG_HOLE / seconds).min(IN_HOLE)
+    }
 }
 
 /// A stop and the next start within one hole.
@@ -139,7 +142,8 @@ impl Prior {
         if seconds > self.longest_motion {
             return ABSURD;
         }
-        (ACROSS_HOLE + seconds / MOTION_LASTS).min(ABSURD)
+        let long = (seconds - FEW).max(0.0) / MOTION_LASTS;
+        (ACROSS_HOLE + long).min(ABSURD)
     }
 
     /// The standard deviation of a sum of changes of speed, m/s.

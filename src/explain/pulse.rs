@@ -2,6 +2,7 @@
 
 use super::blocks::{Cut, median};
 use super::level::Level;
+use std::f64::consts::PI;
 use std::ops::Range;
 
 /// The record is smoothed over this time before it is cut into pulses, s.
@@ -21,13 +22,14 @@ pub const LONGEST_SWING: f64 = 1.3;
 pub const FARTHEST_SWING: f64 = 0.5;
 
 /// A slow swing, of a rope: its pulses are no longer than this, s; pauses are at most this share of them; each changes
-/// the speed at most so many times as much as the one before; they leave at most this share of the largest; and it
-/// goes back for at least this share of what it goes forth.
+/// the speed at most so many times as much as the one before; they leave at most this share of the largest; and they
+/// carry the sensor back at least this share of the way forth, and no farther than this, m.
 pub const LONGEST_SLOW_SWING: f64 = 6.0;
 pub const PAUSE_SHARE: f64 = 0.2;
 const MOST_UNLIKE: f64 = 2.5;
 const LEFT: f64 = 0.6;
 const BACK: f64 = 0.25;
+const FARTHEST_SLOW_SWING: f64 = 2.0;
 
 /// The smallest change of speed, m/s, and in deviations of what noise adds up to.
 const LEAST_CHANGE: f64 = 0.015;
@@ -346,21 +348,36 @@ fn swing(pulses: &[Pulse]) -> usize {
     };
     let alike = 1 + pulses.windows(2).take_while(|pair| is_like(pair)).count();
     let is_swing = |count: &usize| {
-        let changes = pulses[..*count].iter().map(|pulse| pulse.change);
-        let most = changes.clone().map(f64::abs).fold(0.0, f64::max);
-        let speeds = changes.scan(0.0, |speed, change| {
-            *speed += change;
-            Some(*speed)
-        });
-        let last = speeds.clone().last().unwrap_or(0.0);
-        // Several short rides in one direction turn as often, but never go back.
-        let back: f64 = speeds.clone().map(|speed| speed.min(0.0)).sum();
-        let forth: f64 = speeds.map(|speed| speed.max(0.0)).sum();
-        let goes_back = (-back).min(forth) >= BACK * (-back).max(forth);
-        last.abs() <= LEFT * most && goes_back
+        let pulses = &pulses[..*count];
+        let most = pulses
+            .iter()
+            .map(|pulse| pulse.change.abs())
+            .fold(0.0, f64::max);
+        let left: f64 = pulses.iter().map(|pulse| pulse.change).sum();
+        let parts = pulses.iter().map(|pulse| (pulse.seconds(), pulse.change));
+        left.abs() <= LEFT * most && goes_back(parts)
     };
     (LEAST_IN_SWING..=alike)
         .rev()
         .find(is_swing)
         .unwrap_or(short)
+}
+
+/// Whether pulses, of so many seconds and with such changes of speed, carry the sensor back and forth, at least this
+/// share as far, and never as far as to the next floor. Rides in one direction turn as often, but never go back.
+pub fn goes_back(pulses: impl Iterator<Item = (f64, f64)>) -> bool {
+    let (mut speed, mut back, mut forth, mut farthest) = (0.0f64, 0.0, 0.0, 0.0f64);
+    let mut before: Option<f64> = None;
+    for (seconds, change) in pulses {
+        if let Some(before) = before {
+            // Half a sine of speed, from the middle of one pulse to that of the other.
+            let way = speed * (before + seconds) / PI;
+            forth += way.max(0.0);
+            back -= way.min(0.0);
+            farthest = farthest.max(way.abs());
+        }
+        speed += change;
+        before = Some(seconds);
+    }
+    farthest < FARTHEST_SLOW_SWING && back.min(forth) > BACK * back.max(forth)
 }

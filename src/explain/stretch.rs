@@ -5,8 +5,7 @@
 
 use super::cost::{self, Prior};
 use super::progress::{Progress, Swing, Turned};
-use super::pulse::{LEAST_IN_SWING, LONGEST_SLOW_SWING, PAUSE_SHARE, Pulse};
-use std::f64::consts::PI;
+use super::pulse::{LEAST_IN_SWING, LONGEST_SLOW_SWING, PAUSE_SHARE, Pulse, goes_back};
 use std::ops::Range;
 
 /// The pulses of a stretch without holes.
@@ -137,25 +136,17 @@ fn disturbances(prior: &Prior, pulses: &[Turned]) -> Vec<f64> {
     costs.skip(1).collect()
 }
 
-/// The speed that pulses leave if they may be a period of a slow swing: they turn each time, follow each other at once,
-/// carry the cage back and forth alike, and no farther than to the next floor.
+/// The speed that pulses leave if they may be a period of a slow swing: they turn each time, follow each other at once
+/// and go back and forth.
 fn slow_swing(pulses: &[Turned]) -> Option<f64> {
-    let mut speed = 0.0;
-    let mut ways = Vec::new();
-    for pair in pulses.windows(2) {
-        let (one, other) = (pair[0], pair[1]);
-        let lengths = (one.to - one.from) + (other.to - other.from);
-        let follows = other.from - one.to <= PAUSE_SHARE * lengths / 2.0;
-        if one.change * other.change >= 0.0 || !follows || lengths > 2.0 * LONGEST_SLOW_SWING {
-            return None;
-        }
-        speed += one.change;
-        // Half a sine of speed, from the middle of one pulse to that of the other.
-        ways.push(speed * lengths / PI);
-    }
-    let forth: f64 = ways.iter().map(|way| way.max(0.0)).sum();
-    let back: f64 = ways.iter().map(|way| -way.min(0.0)).sum();
-    let is_near = ways.iter().all(|way| way.abs() < cost::SHORT_DISTANCE);
-    let goes_back = back.min(forth) > cost::BACK * back.max(forth);
-    (is_near && goes_back).then(|| speed + pulses[pulses.len() - 1].change)
+    let seconds = |pulse: &Turned| pulse.to - pulse.from;
+    let goes_on = |pair: &[Turned]| {
+        let longest = seconds(&pair[0]).max(seconds(&pair[1]));
+        pair[0].change * pair[1].change < 0.0
+            && pair[1].from - pair[0].to <= PAUSE_SHARE * longest
+            && longest <= LONGEST_SLOW_SWING
+    };
+    let parts = pulses.iter().map(|pulse| (seconds(pulse), pulse.change));
+    let is_swing = pulses.windows(2).all(goes_on) && goes_back(parts.clone());
+    is_swing.then(|| parts.map(|(_, change)| change).sum())
 }
