@@ -1,7 +1,9 @@
 //! The result of `detect` as text.
 
 use super::table;
-use liftsim::detection::{AtRest, Brief, DetectReport, Detection, Event, Trip, Undecided, What};
+use liftsim::detection::{
+    AtRest, Brief, DetectReport, Detection, Event, Trip, Undecided, What, Why,
+};
 use liftsim::monitor::{Direction, Reference};
 use serde_json::Value;
 
@@ -135,22 +137,39 @@ fn other_ends(trip: &Trip) -> String {
 
 fn undecided(stretches: &[Undecided]) -> String {
     let told = |it: &Undecided| {
-        if it.either.is_empty() && it.or.is_empty() {
-            return format!(
-                "\nundecided, {:.1} to {:.1} s: a change of speed that fits no ride\n",
-                it.from, it.to
-            );
+        let unknown = match it.why {
+            Why::Close => None,
+            Why::NoRide => Some("a change of speed that fits no ride"),
+            Why::Frozen => Some("the sensor repeats one value"),
+        };
+        if let Some(why) = unknown {
+            return format!("\nundecided, {:.1} to {:.1} s: {why}\n", it.from, it.to);
         }
+        let more = match it.more {
+            0 => String::new(),
+            1 => ", or in another way".to_owned(),
+            more => format!(", or in {more} other ways"),
+        };
         format!(
-            "\nundecided, {:.1} to {:.1} s: either {}, or {} (log odds {:.1})\n",
+            "\nundecided, {:.1} to {:.1} s: either {}, or {} ({}){more}\n",
             it.from,
             it.to,
             briefly(&it.either),
             briefly(&it.or),
-            it.log_odds
+            likelier(it.log_odds),
         )
     };
     stretches.iter().take(MOST_TIMES).map(told).collect()
+}
+
+/// How much likelier the first of two explanations is.
+fn likelier(log_odds: f64) -> String {
+    let odds = libm::exp(log_odds).round();
+    if odds < 2.0 {
+        "about as likely".to_owned()
+    } else {
+        format!("the first is {odds} times as likely")
+    }
 }
 
 fn briefly(trips: &[Brief]) -> String {
@@ -176,6 +195,7 @@ fn events(events: &[Event]) -> String {
         (What::Shock, "shocks"),
         (What::Swing, "swings to and fro"),
         (What::Push, "changes of speed that belong to no ride"),
+        (What::LevelShift, "shifts of the sensor's level"),
         (What::SlowMotion, "slow motions"),
     ];
     let line = |(what, name): (What, &str)| {

@@ -3,7 +3,7 @@
 use super::Failure;
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
-use liftsim::detection::MonitorOptions;
+use liftsim::detection::{MonitorOptions, SLOW};
 use liftsim::explain::STRONGEST;
 use liftsim::monitor::{MOST_ORDER, SavedState, Settings};
 use liftsim::whiten::Order;
@@ -35,9 +35,6 @@ enum Lift {
     /// Platforms and hydraulic lifts below 0.2 m/s.
     Slow,
 }
-
-/// The slowest motion of a slow lift, m/s.
-const SLOW: f64 = 0.06;
 
 /// The settings that have a flag, named as the ends of their keys.
 #[derive(Debug, Args, Serialize)]

@@ -17,11 +17,11 @@ mod trip;
 pub use columns::columns;
 pub use decisions::AtRest;
 pub use options::{MonitorOptions, RecordingTable};
-pub use report::{DetectReport, Recorded, Warning};
+pub use report::{DetectReport, Recorded, SLOW, Warning};
 pub use trace::{Column, Trace};
-pub use trip::{Brief, End, Event, Trip, Undecided, What};
+pub use trip::{Brief, End, Event, Trip, Undecided, What, Why};
 
-use crate::explain::{Cut, Explanation, Prior};
+use crate::explain::{Cut, Explanation, Faults, Prior};
 use crate::monitor::{Design, Knowledge, Reference};
 use crate::recording::Sample;
 use decisions::Decisions;
@@ -44,6 +44,12 @@ pub struct Detection {
     pub at_rest: AtRest,
     /// The time constant of the sensor's high-pass filter, s, if the record was restored.
     pub high_pass: Option<f64>,
+    /// The times of impossible samples, s: they were replaced by what their neighbours read.
+    pub glitches: Vec<f64>,
+    /// Whether it was said to begin at rest or in motion, where the record contradicts that.
+    pub contradicted: Option<bool>,
+    /// Whether the settings are those of a saved state, which no flag changes.
+    has_state: bool,
     /// The thinned record, for a picture.
     pub trace: Trace,
 }
@@ -65,9 +71,11 @@ impl Detection {
             begins_at_rest,
             ..Prior::default()
         };
-        let cut = Cut::new(samples, design.samples.decimation(), design.block);
+        let (sound, faults) = Faults::removed(samples);
+        let cut = Cut::new(&sound, design.samples.decimation(), design.block);
         let explanation = Explanation::of(&cut, &prior);
         let rests = Rests::of(&explanation);
+        let has_state = reference.is_some();
         let reference = reference.or_else(|| rests.learn(&explanation, design));
         let decisions = Decisions::new(design, &explanation, reference.as_ref());
         let trips = trip::trips(&explanation, &decisions);
@@ -90,8 +98,11 @@ impl Detection {
             ),
             design: design.clone(),
             trips,
-            undecided: trip::undecided(&explanation, &events, prior.least_speed),
+            undecided: trip::undecided(&explanation, &events, prior.least_speed, &faults),
             events,
+            glitches: faults.glitches,
+            contradicted: begins_at_rest.filter(|_| explanation.begins_otherwise),
+            has_state,
         }
     }
 }

@@ -81,15 +81,24 @@ pub enum Warning {
     )]
     Shaken(f64),
     #[error(
-        "a motion of {speed:.2} m/s from {from:.1} to {to:.1} s is slower than a ride, {least} m/s \
-         (use --lift slow, or a lower --least-speed)"
+        "a motion of {speed:.3} m/s from {from:.1} to {to:.1} s is slower than a ride, {least} m/s ({remedy})"
     )]
     Slow {
         speed: f64,
         from: f64,
         to: f64,
         least: f64,
+        remedy: &'static str,
     },
+    #[error(
+        "the record does not look as if it began {0}, as --begins says (leave out --begins to see what it says itself)"
+    )]
+    Contradicted(&'static str),
+    #[error(
+        "{count} samples that no shock explains, the first at {first:.2} s, were replaced by what their neighbours \
+         read (look at the sensor's cable and supply)"
+    )]
+    Glitches { count: usize, first: f64 },
     #[error("{0} more stretches are undecided (--json lists them)")]
     MoreUndecided(usize),
     #[error("from {from:.1} to {to:.1} s the record does not decide{remedy}")]
@@ -180,6 +189,17 @@ impl Detection {
         ends.map_or(0.0, |(first, last)| moved / (last.times.1 - first.times.0))
     }
 
+    /// What shows slower motions as rides.
+    fn remedy_for_slow(&self) -> &'static str {
+        if self.has_state {
+            "leave out --state and use --lift slow, or save another state with it"
+        } else if self.design.settings.monitor.least_speed > SLOW {
+            "use --lift slow, or a lower --least-speed"
+        } else {
+            "use a lower --least-speed"
+        }
+    }
+
     /// The warnings for a recording with this rate, Hz.
     pub fn warnings(&self, rate: f64) -> Vec<Warning> {
         let (learnt, shaken) = (self.design.rate, self.shaken());
@@ -193,6 +213,7 @@ impl Detection {
             from: event.from,
             to: event.to,
             least: self.design.settings.monitor.least_speed,
+            remedy: self.remedy_for_slow(),
         });
         let more = self.undecided.len().saturating_sub(MOST_SAID);
         let undecided = self
@@ -211,6 +232,13 @@ impl Detection {
                 .filter(|level| !is_level_of_rest(*level))
                 .map(Warning::Level),
             level.is_none().then_some(Warning::NoRest),
+            self.contradicted.map(|at_rest| {
+                Warning::Contradicted(if at_rest { "at rest" } else { "in motion" })
+            }),
+            self.glitches.first().map(|&first| Warning::Glitches {
+                count: self.glitches.len(),
+                first,
+            }),
             (shaken > MOST_SHAKEN).then_some(Warning::Shaken(100.0 * shaken)),
         ]
         .into_iter()
@@ -221,6 +249,9 @@ impl Detection {
         .collect()
     }
 }
+
+/// The slowest motion of a slow lift, m/s: `--lift slow`.
+pub const SLOW: f64 = 0.06;
 
 /// The most undecided stretches that are warned of one by one.
 const MOST_SAID: usize = 8;

@@ -4,7 +4,7 @@
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
 use super::decisions::Decisions;
-use crate::explain::{self, Doubt, Explanation};
+use crate::explain::{self, Doubt, Explanation, Faults};
 use crate::monitor::{Decision, Direction};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -45,20 +45,35 @@ pub enum End {
     NotRecorded,
 }
 
-/// A stretch with two explanations that are close, or a change of speed without any.
+/// A stretch of which the record does not say what the cage did.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Undecided {
     pub from: f64,
     pub to: f64,
+    pub why: Why,
     /// The likelier trips.
     pub either: Vec<Brief>,
     /// The others.
     pub or: Vec<Brief>,
     /// How much likelier the first are: the logarithm of the odds.
     pub log_odds: f64,
+    /// How many other explanations are close.
+    pub more: usize,
     /// Whether it begins with the record.
     #[serde(skip)]
     is_first: bool,
+}
+
+/// Why a stretch is undecided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Why {
+    /// Two explanations are close.
+    Close,
+    /// A change of speed fits no ride.
+    NoRide,
+    /// The sensor repeats one value.
+    Frozen,
 }
 
 /// A trip in a few words.
@@ -89,6 +104,8 @@ pub enum What {
     Swing,
     /// A change of speed that belongs to no trip.
     Push,
+    /// The level of the sensor is another for a while: it was turned a little.
+    LevelShift,
     /// What would be a trip if it were faster than `least_speed`.
     SlowMotion,
 }
@@ -149,7 +166,9 @@ fn other<'a>(doubt: &'a Doubt, trip: &explain::Trip) -> Option<&'a explain::Trip
 /// Whether the two explanations differ in more than one end of each trip.
 fn has_others(doubt: &Doubt) -> bool {
     let is_new = |trip: &explain::Trip| !doubt.trips.iter().any(|other| other.is_like(trip));
-    doubt.trips.iter().any(|trip| other(doubt, trip).is_none()) || doubt.instead.iter().any(is_new)
+    doubt.trips.len() != doubt.instead.len()
+        || doubt.trips.iter().any(|trip| other(doubt, trip).is_none())
+        || doubt.instead.iter().any(is_new)
 }
 
 /// The stretches that are not decided: where another explanation has other trips, and where a change of speed fits
@@ -158,6 +177,7 @@ pub(super) fn undecided(
     explanation: &Explanation,
     events: &[Event],
     least_speed: f64,
+    faults: &Faults,
 ) -> Vec<Undecided> {
     let doubts = explanation
         .doubts
@@ -166,17 +186,24 @@ pub(super) fn undecided(
         .map(|doubt| Undecided::of(explanation, doubt));
     let pushes = events.iter();
     let pushes = pushes.filter(|it| it.what == What::Push && it.speed.abs() >= least_speed);
-    let pushes = pushes.map(|event| Undecided {
-        from: event.from,
-        to: event.to,
-        either: Vec::new(),
-        or: Vec::new(),
-        log_odds: 0.0,
-        is_first: false,
-    });
-    let mut undecided: Vec<Undecided> = doubts.chain(pushes).collect();
+    let pushes = pushes.map(|event| Undecided::unknown(event.from, event.to, Why::NoRide));
+    let frozen = faults.frozen.iter();
+    let frozen = frozen.map(|&(from, to)| Undecided::unknown(from, to, Why::Frozen));
+    let mut undecided: Vec<Undecided> = doubts.chain(pushes).chain(frozen).collect();
     undecided.sort_by(|a, b| a.from.total_cmp(&b.from));
-    undecided
+    merged(undecided)
+}
+
+/// Stretches in order of time, those that overlap as one.
+fn merged(stretches: Vec<Undecided>) -> Vec<Undecided> {
+    let mut merged: Vec<Undecided> = Vec::new();
+    for next in stretches {
+        match merged.last_mut() {
+            Some(last) if last.overlaps(&next) => last.merge(next),
+            _ => merged.push(next),
+        }
+    }
+    merged
 }
 
 /// The change with the main braking: the first of those that end the motion.
@@ -200,8 +227,10 @@ fn direction(trip: &explain::Trip) -> Direction {
 impl Undecided {
     /// What the user can do about it, in brackets after a space.
     pub(super) fn remedy(&self) -> &'static str {
-        if self.either.is_empty() && self.or.is_empty() {
-            return " (record the whole ride, with rest before and after it)";
+        match self.why {
+            Why::NoRide => return " (record the whole ride, with rest before and after it)",
+            Why::Frozen => return ": the sensor repeats one value (record again)",
+            Why::Close => {}
         }
         let begins = |trips: &[Brief]| trips.iter().any(|trip| trip.start.is_none());
         if self.is_first && begins(&self.either) != begins(&self.or) {
@@ -209,6 +238,54 @@ impl Undecided {
         } else {
             " (record a few seconds of rest before and after the ride)"
         }
+    }
+
+    fn unknown(from: f64, to: f64, why: Why) -> Self {
+        Self {
+            from,
+            to,
+            why,
+            either: Vec::new(),
+            or: Vec::new(),
+            log_odds: 0.0,
+            more: 0,
+            is_first: false,
+        }
+    }
+
+    /// Whether a later one is about the same stretch.
+    fn overlaps(&self, later: &Self) -> bool {
+        let is_about_rides = |it: &Self| it.why != Why::Frozen;
+        later.from <= self.to && is_about_rides(self) && is_about_rides(later)
+    }
+
+    /// With a later one: the closer explanation is told, and those of the likelier rides that it leaves alone.
+    fn merge(&mut self, later: Self) {
+        let (from, to) = (self.from.min(later.from), self.to.max(later.to));
+        let is_first = self.is_first || later.is_first;
+        let (mut closer, farther) = match (self.why, later.why) {
+            (Why::Close, Why::Close) if later.log_odds < self.log_odds => (later, self.clone()),
+            (Why::Close, _) => (self.clone(), later),
+            _ => (later, self.clone()),
+        };
+        if farther.why == Why::Close {
+            closer.more += farther.more + 1;
+        }
+        let known = closer.either.clone();
+        let new = farther
+            .either
+            .into_iter()
+            .filter(|trip| !known.contains(trip));
+        for trip in new {
+            closer.either.push(trip);
+            closer.or.push(trip);
+        }
+        *self = Self {
+            from,
+            to,
+            is_first,
+            ..closer
+        };
     }
 
     fn of(explanation: &Explanation, doubt: &Doubt) -> Self {
@@ -224,9 +301,11 @@ impl Undecided {
         Self {
             from: blocks[place.start].from,
             to: blocks[place.end - 1].to,
+            why: Why::Close,
             either: brief(&doubt.trips),
             or: brief(&doubt.instead),
             log_odds: doubt.margin,
+            more: 0,
             is_first: place.start == 0,
         }
     }
@@ -271,6 +350,7 @@ pub(super) fn events(explanation: &Explanation) -> Vec<Event> {
             to: pulses[pulses.len() - 1].to,
             what: match pulses.len() {
                 _ if is_shock => What::Shock,
+                1 if pulses[0].shift != 0.0 => What::LevelShift,
                 1 if !pulses[0].is_swing => What::Push,
                 _ => What::Swing,
             },
@@ -280,4 +360,49 @@ pub(super) fn events(explanation: &Explanation) -> Vec<Event> {
     let mut events: Vec<Event> = others.chain(slow).collect();
     events.sort_by(|a, b| a.from.total_cmp(&b.from));
     events
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn brief(start: f64, stop: f64) -> Brief {
+        Brief {
+            direction: Direction::Up,
+            start: Some(start),
+            stop: Some(stop),
+            speed: 1.0,
+        }
+    }
+
+    fn close(from: f64, to: f64, either: &[Brief], or: &[Brief], log_odds: f64) -> Undecided {
+        Undecided {
+            either: either.to_vec(),
+            or: or.to_vec(),
+            log_odds,
+            ..Undecided::unknown(from, to, Why::Close)
+        }
+    }
+
+    /// The closer explanation is told, with the rides of the other that it leaves alone; a frozen sensor stays apart.
+    #[test]
+    fn overlapping_doubts_are_one() {
+        let [first, second, third] = [brief(1.0, 5.0), brief(6.0, 9.0), brief(1.0, 9.0)];
+        let merged = merged(vec![
+            close(1.0, 9.0, &[first, second], &[third], 2.0),
+            close(1.0, 5.0, &[first], &[], 1.0),
+            Undecided::unknown(4.0, 7.0, Why::NoRide),
+            Undecided::unknown(8.0, 12.0, Why::Frozen),
+            close(20.0, 30.0, &[third], &[], 1.0),
+        ]);
+        let [one, frozen, other] = &merged[..] else {
+            panic!("{merged:?}");
+        };
+        assert_eq!((one.from, one.to, one.more), (1.0, 9.0, 1));
+        assert_eq!(
+            (&one.either[..], &one.or[..]),
+            (&[first, second][..], &[second][..])
+        );
+        assert_eq!((frozen.why, other.from), (Why::Frozen, 20.0));
+    }
 }

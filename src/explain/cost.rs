@@ -4,6 +4,7 @@
 //! squares of a normal error. The others are prior judgements about lifts, in one place, to be read and doubted.
 
 use super::pulse::Pulse;
+use libm::log1p;
 
 /// What is known of lifts beforehand.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,11 +39,19 @@ pub const TRIP: f64 = 1.0;
 /// A motion that began before the record, or goes on after it.
 pub const OPEN: f64 = 3.0;
 
-/// A start or a stop within a hole of the record.
+/// A start or a stop within a hole: usually, less in one longer than a few seconds, twice as much in one that can hardly
+/// hide it, s.
 pub const IN_HOLE: f64 = 1.5;
+const LONG_HOLE: f64 = 20.0;
+const SHORT_HOLE: f64 = 1.0;
 
-/// A motion that goes on across a hole.
+/// A motion that goes on across a hole: once, and for every so many seconds beyond the first few.
 pub const ACROSS_HOLE: f64 = 0.3;
+const MOTION_LASTS: f64 = 30.0;
+const FEW: f64 = 5.0;
+
+/// A cage hardly stops and starts again within this time, s.
+const STOPOVER: f64 = 10.0;
 
 /// What is all but impossible.
 pub const ABSURD: f64 = 30.0;
@@ -59,6 +68,12 @@ pub const RIPPLE: f64 = 0.1;
 /// A change of speed that is half of a swing.
 pub const HALF: f64 = 1.0;
 
+/// The level of the sensor shifts for a while.
+const SHIFT: f64 = 3.0;
+
+/// What a single period of a slow swing costs beside the speed that it leaves.
+pub const SLOW_SWING: f64 = 3.0;
+
 /// The most a long swing costs, whatever speed it seems to leave.
 const MOST_SWING: f64 = 6.0;
 
@@ -69,6 +84,9 @@ pub const MOST_CREEP: f64 = 4.0;
 
 /// The cage goes through zero speed and on the other way without a stop.
 pub const TURN: f64 = 6.0;
+
+/// A motion that goes on without any speed.
+pub const STANDS: f64 = 4.0;
 
 /// The cage gains speed again from where it crept.
 pub const RESTART: f64 = 6.0;
@@ -95,6 +113,20 @@ pub fn closing(speed: f64, tolerance: f64) -> f64 {
     ((speed / tolerance).powi(2) / 2.0).min(MOST_CLOSING)
 }
 
+/// A start or a stop within a hole of so many seconds.
+pub fn in_hole(seconds: f64) -> f64 {
+    if seconds < SHORT_HOLE {
+        2.0 * IN_HOLE
+    } else {
+        log1p(LONG_HOLE / seconds).min(IN_HOLE)
+    }
+}
+
+/// A stop and the next start within one hole.
+pub fn stopover(seconds: f64) -> f64 {
+    2.0 * in_hole(seconds) + (STOPOVER / seconds).powi(2).min(ABSURD)
+}
+
 /// A second stage of acceleration, `gap` seconds after the first.
 pub fn acceleration_stage(gap: f64) -> f64 {
     match gap {
@@ -105,6 +137,15 @@ pub fn acceleration_stage(gap: f64) -> f64 {
 }
 
 impl Prior {
+    /// A motion that goes on across a hole of so many seconds.
+    pub fn across_hole(&self, seconds: f64) -> f64 {
+        if seconds > self.longest_motion {
+            return ABSURD;
+        }
+        let long = (seconds - FEW).max(0.0) / MOTION_LASTS;
+        (ACROSS_HOLE + long).min(ABSURD)
+    }
+
     /// The standard deviation of a sum of changes of speed, m/s.
     pub fn tolerance(&self, top: f64, variance: f64) -> f64 {
         ((self.gain_error * top).powi(2) + ROUNDING * ROUNDING + variance).sqrt()
@@ -113,7 +154,9 @@ impl Prior {
     /// A pulse that changes no speed: something else shook the sensor.
     pub fn ignored(&self, pulse: &Pulse) -> f64 {
         if pulse.is_swing {
-            return self.disturbance(pulse.change).min(MOST_SWING);
+            // A long one ends with a speed that the level's error alone may leave.
+            let speed = (pulse.change.abs() - 2.0 * pulse.deviation).max(0.0);
+            return self.disturbance(speed).min(MOST_SWING);
         }
         let ratio = pulse.change.abs() / self.least_speed;
         let cost = if ratio < 1.0 {
@@ -123,6 +166,8 @@ impl Prior {
         };
         if pulse.is_violent {
             0.5 + cost / 4.0
+        } else if pulse.shift != 0.0 {
+            cost.min(SHIFT)
         } else {
             cost
         }

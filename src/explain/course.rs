@@ -40,9 +40,13 @@ impl Explanation {
         let mut speeds = vec![0.0; blocks.len()];
         for trip in &self.reading.trips {
             let range = self.blocks_of(trip);
+            let shifts = trip.changes.iter().map(|pulse| &self.record.pulses[*pulse]);
+            let shifts: Vec<_> = shifts.filter(|pulse| pulse.shift != 0.0).collect();
             let mut speed = 0.0;
             for block in range.clone() {
                 speed += self.record.change(block..block + 1);
+                let shifts = shifts.iter().filter(|pulse| pulse.blocks.contains(&block));
+                speed += shifts.map(|pulse| pulse.shift).sum::<f64>() * blocks[block].seconds;
                 speeds[block] = speed;
             }
             let is_open = (trip.start.is_none(), trip.stop.is_none());

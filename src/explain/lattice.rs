@@ -15,9 +15,6 @@ use std::ops::Range;
 /// An edge dearer than the usual explanation by this much cannot matter.
 const HOPELESS: f64 = 12.0;
 
-/// A hole shorter than this can hardly hide a start, s.
-const SHORT_HOLE: f64 = 1.0;
-
 /// What an edge says of its pulses.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Part {
@@ -32,6 +29,15 @@ pub enum Part {
         /// Whether it moves on both sides.
         moves_on: bool,
     },
+}
+
+/// A way to another explanation.
+#[derive(Clone, Copy, Debug)]
+pub enum Other {
+    /// By an edge.
+    By(usize),
+    /// Through a node.
+    Through(usize),
 }
 
 #[derive(Clone, Debug)]
@@ -69,6 +75,8 @@ impl Section {
 pub struct Lattice {
     edges: Vec<Edge>,
     sections: Vec<Section>,
+    /// The edges across each hole.
+    holes: Vec<Range<usize>>,
     nodes: usize,
     paths: Paths,
     /// The cheapest path with motion in a gap: its cost and edge.
@@ -88,6 +96,7 @@ impl Lattice {
         }
         let mut lattice = Self {
             edges: Vec::new(),
+            holes: Vec::new(),
             nodes: next.1 + 1,
             paths: Paths::default(),
             moving: vec![(f64::INFINITY, None); pulses.len() + sections.len()],
@@ -196,34 +205,23 @@ impl Lattice {
             self.edge(last.exit(is_up), end, cost::OPEN, stand.clone());
         }
         for (index, &seconds) in holes.iter().enumerate() {
-            let (before, after) = (
-                self.sections[index].clone(),
-                self.sections[index + 1].clone(),
-            );
-            let change = if seconds < SHORT_HOLE {
-                2.0 * cost::IN_HOLE
-            } else {
-                cost::IN_HOLE
-            };
+            let before = self.sections[index].clone();
+            let after = self.sections[index + 1].clone();
             let stands = before.rest(before.pulses.len());
+            let change = cost::in_hole(seconds);
+            let first_edge = self.edges.len();
             self.edge(stands, after.rest(0), 0.0, stand.clone());
             for is_up in [true, false] {
+                let (out, into) = (before.exit(is_up), after.entry(is_up));
                 let moves_on = Part::Hole { moves_on: true };
-                self.edge(
-                    before.exit(is_up),
-                    after.entry(is_up),
-                    cost::ACROSS_HOLE,
-                    moves_on,
-                );
-                self.edge(
-                    before.exit(is_up),
-                    after.entry(!is_up),
-                    2.0 * change,
-                    stand.clone(),
-                );
-                self.edge(stands, after.entry(is_up), change, stand.clone());
-                self.edge(before.exit(is_up), after.rest(0), change, stand.clone());
+                self.edge(out, into, prior.across_hole(seconds), moves_on);
+                for into in [into, after.entry(!is_up)] {
+                    self.edge(out, into, cost::stopover(seconds), stand.clone());
+                }
+                self.edge(stands, into, change, stand.clone());
+                self.edge(out, after.rest(0), change, stand.clone());
             }
+            self.holes.push(first_edge..self.edges.len());
         }
     }
 
@@ -265,7 +263,7 @@ impl Lattice {
 
     /// How much dearer than the cheapest explanation the cheapest is with the cage at rest, and with it moving, in
     /// each gap between pulses. A hole parts a gap in two.
-    pub fn margins(&self) -> Vec<(f64, f64)> {
+    fn margins(&self) -> Vec<(f64, f64)> {
         let rests = self
             .sections
             .iter()
@@ -284,15 +282,81 @@ impl Lattice {
         self.parts(&self.paths.best())
     }
 
-    /// Where the cheapest explanation with the cage at rest in this gap, or with it moving, leaves the cheapest of all
-    /// and comes back to it: the parts of the cheapest, and those of the other.
-    pub fn detour(&self, gap: usize, moves: bool) -> (Vec<&Part>, Vec<&Part>) {
-        let (best, other) = match self.moving[gap].1 {
-            Some(edge) if moves => self.paths.detour_by(edge),
-            None if moves => return (Vec::new(), Vec::new()),
-            _ => self.paths.detour_through(self.rest(gap)),
+    /// How much dearer than the cheapest explanation the cheapest other one is at each gap, where the cage moves instead
+    /// of resting or rests instead of moving, and at each hole, where it stops instead of going on or goes on; with
+    /// the way to it.
+    pub fn others(&self) -> impl Iterator<Item = (f64, Other)> + '_ {
+        let gaps = self.margins().into_iter().enumerate();
+        let gaps = gaps.map(|(gap, (rest, motion))| {
+            if rest >= motion {
+                (rest, Other::Through(self.rest(gap)))
+            } else {
+                let edge = self.moving[gap].1;
+                (
+                    motion,
+                    edge.map_or(Other::Through(self.rest(gap)), Other::By),
+                )
+            }
+        });
+        let holes = self.holes.iter().flat_map(|edges| {
+            [true, false].map(|goes_on| {
+                let of_kind = edges
+                    .clone()
+                    .filter(|edge| self.edges[*edge].part == Part::Hole { moves_on: goes_on });
+                let costs = of_kind.map(|edge| (self.paths.cost_by(edge), edge));
+                let cheapest = costs.min_by(|a, b| a.0.total_cmp(&b.0));
+                cheapest.map(|(cost, edge)| (cost - self.cost(), Other::By(edge)))
+            })
+        });
+        gaps.chain(holes.flatten())
+    }
+
+    /// Where another explanation leaves the cheapest of all and comes back to it: the parts of the cheapest, and those
+    /// of the other, from rest to rest.
+    pub fn detour(&self, other: Other) -> (Vec<&Part>, Vec<&Part>) {
+        let (best, other) = match other {
+            Other::By(edge) => self.paths.detour_by(edge),
+            Other::Through(node) => self.paths.detour_through(node),
         };
-        (self.parts(&best), self.parts(&other))
+        let Some(&first) = best.first() else {
+            return (Vec::new(), Vec::new());
+        };
+        let path = self.paths.best();
+        let from = self.edges[first].from;
+        let start = path.partition_point(|edge| self.edges[*edge].from < from);
+        let end = start + best.len();
+        let before = path[..start].iter().rev();
+        let before = before
+            .scan(from, |node, edge| {
+                let is_needed = !self.is_rest(*node);
+                *node = self.edges[*edge].from;
+                is_needed.then_some(())
+            })
+            .count();
+        let to = self.edges[path[end - 1]].to;
+        let after = path[end..].iter();
+        let after = after
+            .scan(to, |node, edge| {
+                let is_needed = !self.is_rest(*node);
+                *node = self.edges[*edge].to;
+                is_needed.then_some(())
+            })
+            .count();
+        let whole = |part: &[usize]| {
+            self.parts(&[&path[start - before..start], part, &path[end..end + after]].concat())
+        };
+        (whole(&best), whole(&other))
+    }
+
+    /// Whether the cage rests at a node.
+    fn is_rest(&self, node: usize) -> bool {
+        let after = self
+            .sections
+            .partition_point(|section| section.first_node <= node);
+        after > 0 && node < self.nodes - 1 && {
+            let it = &self.sections[after - 1];
+            (it.rest(0)..=it.rest(it.pulses.len())).contains(&node)
+        }
     }
 
     /// The node of rest in a gap.
@@ -347,6 +411,7 @@ mod tests {
                 deviation: 0.01,
                 is_violent: false,
                 is_swing: false,
+                shift: 0.0,
             };
             let pulses: Vec<Pulse> = changes.into_iter().enumerate().map(pulse).collect();
             let middle = pulses.len() / 2;

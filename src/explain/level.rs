@@ -1,16 +1,15 @@
 //! The level of a record: what the sensor reads without acceleration, at every block.
 //!
 //! Rest and uniform motion read the same, so the level is what most of a record agrees with. It drifts slowly and
-//! may step where the sensor is moved. The record is cut into windows of half a second, and the level is the path
-//! b through their means m that minimises
+//! may step where the sensor is moved. It is the cheapest path ([`super::steps`]) through the means of windows of half
+//! a second, in groups of three seconds: one step of the grid in that time is twice the drift of 0.1 m/s² a minute;
+//! a jump of a few steps costs what it takes to be there in 15 to 20 s.
 //!
-//! Σ min(1, ((mₖ − bₖ)/w)²) + 4 · (steps of the grid) + 40 · (jumps),
-//!
-//! found by dynamic programming on a grid of 0.01 m/s². A window far from the level costs 1 however far it is, so
-//! that a pulse of acceleration does not draw the level to itself. The path may go one step of the grid in three
-//! seconds, twice the drift of 0.1 m/s² a minute; anything lasting more than twenty seconds is a jump.
+//! A shift that does not last that long is found by a second path, through what the first leaves ([`Shift`]).
 
 use super::blocks::{Cut, median};
+use super::steps::{Costs, Segment, cut, path};
+use std::ops::Range;
 
 /// Length of a window, s.
 const WINDOW: f64 = 0.5;
@@ -18,13 +17,26 @@ const WINDOW: f64 = 0.5;
 /// Windows between two steps of the path.
 const GROUP: usize = 6;
 
-/// The step of the grid, m/s², and the most points in it.
-const STEP: f64 = 0.01;
-const MOST_POINTS: f64 = 600.0;
+/// What a path of the level for good costs.
+const LASTING: Costs = Costs {
+    step: 4.0,
+    jump: 6.0,
+    most: 40.0,
+};
 
-/// The costs of a step of the grid and of a jump, in windows off the level.
-const STEP_COST: f64 = 4.0;
-const JUMP_COST: f64 = 40.0;
+/// What one for a while costs, on top of it.
+const PASSING: Costs = Costs {
+    step: 3.0,
+    jump: 0.0,
+    most: 3.0,
+};
+
+/// A shift is larger than the first and smaller than the second, m/s².
+const SHIFTS: (f64, f64) = (0.015, 0.16);
+
+/// A shift comes and goes within this time, s, and within this share of it is the level on either side.
+const ABRUPT: f64 = 0.2;
+const SAME: f64 = 0.35;
 
 /// Windows on either side whose median refines the path.
 const REACH: usize = 30;
@@ -38,6 +50,17 @@ pub struct Level {
     pub width: f64,
     /// The cost of the path, in windows off the level.
     pub cost: f64,
+    /// Where it seems to be another for a while; they are part of `at`.
+    pub shifts: Vec<Shift>,
+}
+
+/// A shift of the level for a while, or a long and weak acceleration that is as flat and as abrupt.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shift {
+    /// Its blocks.
+    pub blocks: Range<usize>,
+    /// m/s².
+    pub size: f64,
 }
 
 impl Level {
@@ -51,82 +74,119 @@ impl Level {
         let width = (4.0 * median(differences.collect()))
             .min(white)
             .clamp(0.03, 0.3);
-        let (path, cost) = path(&means, width, pull);
-        let fine: Vec<f64> = (0..means.len())
-            .map(|window| refined(&means, &path, width, window))
-            .collect();
-        Self {
-            at: (0..record.blocks.len())
-                .map(|block| between(&fine, (block as f64 + 0.5) / per_window - 0.5))
-                .collect(),
+        let least = means.iter().copied().fold(f64::INFINITY, f64::min);
+        let greatest = means.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let (mut lasting, cost) = path(&means, (least, greatest), (GROUP, width), pull, LASTING);
+        let blocks: Vec<f64> = record.blocks.iter().map(|block| block.mean).collect();
+        let mut level = Self {
+            at: Vec::with_capacity(blocks.len()),
             width,
             cost,
+            shifts: Vec::new(),
+        };
+        for segment in cut(&mut lasting, GROUP, &blocks, record.blocks_in(WINDOW)) {
+            level.follow(&segment, &means, &lasting, per_window);
+        }
+        level.shift(record, &blocks);
+        level
+    }
+
+    /// The level of a segment: the median of the windows around that agree with the path.
+    fn follow(&mut self, segment: &Segment, means: &[f64], path: &[f64], per_window: f64) {
+        let windows = segment.windows.clone();
+        let fine: Vec<f64> = windows
+            .clone()
+            .map(|window| refined(means, path, self.width, window, &windows))
+            .collect();
+        let first = windows.start as f64;
+        let at = segment.blocks.clone().map(|block| {
+            let place = (block as f64 + 0.5) / per_window - 0.5 - first;
+            between(&fine, place)
+        });
+        self.at.extend(at);
+    }
+
+    /// Finds the shifts, and makes them part of the level.
+    fn shift(&mut self, record: &Cut, blocks: &[f64]) {
+        let per_window = record.blocks_in(WINDOW);
+        let off: Vec<f64> = blocks.iter().zip(&self.at).map(|(a, b)| a - b).collect();
+        let means: Vec<f64> = off
+            .chunks(per_window)
+            .map(|window| window.iter().sum::<f64>() / window.len() as f64)
+            .collect();
+        let (mut passing, _) = path(&means, (-SHIFTS.1, SHIFTS.1), (1, self.width), 0.0, PASSING);
+        for segment in cut(&mut passing, GROUP, &off, per_window) {
+            let near = segment
+                .windows
+                .filter(|window| (means[*window] - passing[*window]).abs() < self.width);
+            let shift = Shift {
+                size: median(near.map(|window| means[window]).collect()),
+                blocks: segment.blocks,
+            };
+            if shift.size.abs() > SHIFTS.0 && shift.is_abrupt(record, &off) {
+                self.shifts.extend(shift.without_holes(record));
+            }
+        }
+        for shift in &self.shifts {
+            let at = &mut self.at[shift.blocks.clone()];
+            at.iter_mut().for_each(|level| *level += shift.size);
         }
     }
 }
 
-/// The cheapest path, one value for each group of windows, and its cost.
-fn path(means: &[f64], width: f64, pull: f64) -> (Vec<f64>, f64) {
-    let mean = means.iter().sum::<f64>() / means.len() as f64;
-    let least = means.iter().copied().fold(f64::INFINITY, f64::min);
-    let greatest = means.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let step = STEP.max((greatest - least) / MOST_POINTS);
-    let points = ((greatest - least) / step).ceil() as usize + 1;
-    let value = |point: usize| least + point as f64 * step;
-    let mut costs = vec![0.0; points];
-    let mut origins: Vec<Vec<u16>> = Vec::new();
-    for group in means.chunks(GROUP) {
-        let cheapest = cheapest(&costs);
-        let origin: Vec<u16> = (0..points)
-            .map(|point| {
-                let near = point.saturating_sub(1)..=(point + 1).min(points - 1);
-                let candidates = near.chain([cheapest]);
-                let cost = |from: &usize| costs[*from] + move_cost(*from, point);
-                candidates
-                    .min_by(|a, b| cost(a).total_cmp(&cost(b)))
-                    .unwrap_or(point) as u16
-            })
-            .collect();
-        costs = (0..points)
-            .map(|point| {
-                let from = usize::from(origin[point]);
-                let far = pull * (value(point) - mean).abs() / 0.1;
-                let off = |mean: &f64| far + ((mean - value(point)) / width).powi(2).min(1.0);
-                costs[from] + move_cost(from, point) + group.iter().map(off).sum::<f64>()
-            })
-            .collect();
-        origins.push(origin);
+impl Shift {
+    /// Its parts between holes.
+    fn without_holes(self, record: &Cut) -> Vec<Self> {
+        let Range { start, end } = self.blocks;
+        let within = record
+            .ends
+            .iter()
+            .copied()
+            .filter(|hole| (start + 1..end).contains(hole));
+        let edges: Vec<usize> = [start].into_iter().chain(within).chain([end]).collect();
+        let part = |ends: &[usize]| Self {
+            blocks: ends[0]..ends[1],
+            size: self.size,
+        };
+        edges.windows(2).map(part).collect()
     }
-    let mut point = cheapest(&costs);
-    let cost = costs[point];
-    let mut path = vec![0.0; origins.len()];
-    for (place, origin) in path.iter_mut().zip(&origins).rev() {
-        *place = value(point);
-        point = usize::from(origin[point]);
-    }
-    (path, cost)
-}
 
-fn cheapest(costs: &[f64]) -> usize {
-    (0..costs.len())
-        .min_by(|a, b| costs[*a].total_cmp(&costs[*b]))
-        .unwrap_or(0)
-}
-
-fn move_cost(from: usize, to: usize) -> f64 {
-    match from.abs_diff(to) {
-        0 => 0.0,
-        1 => STEP_COST,
-        _ => JUMP_COST,
+    /// Whether it comes or goes at once.
+    fn is_abrupt(&self, record: &Cut, off: &[f64]) -> bool {
+        let (gap, reach) = (record.blocks_in(ABRUPT) / 2, record.blocks_in(WINDOW));
+        let mean = |blocks: Range<usize>| {
+            let length = blocks.len() as f64;
+            off[blocks].iter().sum::<f64>() / length
+        };
+        let is_edge = |block: usize, is_start: bool| {
+            let before = (block.saturating_sub(gap + reach), block.saturating_sub(gap));
+            let after = (
+                (block + gap).min(off.len()),
+                (block + gap + reach).min(off.len()),
+            );
+            if before.0 == before.1 || after.0 == after.1 {
+                return false;
+            }
+            let (before, after) = (mean(before.0..before.1), mean(after.0..after.1));
+            let (outside, inside) = if is_start {
+                (before, after)
+            } else {
+                (after, before)
+            };
+            let near = SAME * self.size.abs();
+            (inside - self.size).abs() < near && outside.abs() < near
+        };
+        is_edge(self.blocks.start, true) || is_edge(self.blocks.end, false)
     }
 }
 
 /// The median of the windows around that agree with the path.
-fn refined(means: &[f64], path: &[f64], width: f64, window: usize) -> f64 {
-    let here = path[window / GROUP];
-    let around = window.saturating_sub(REACH)..(window + REACH + 1).min(means.len());
+fn refined(means: &[f64], path: &[f64], width: f64, window: usize, within: &Range<usize>) -> f64 {
+    let here = path[window];
+    let from = window.saturating_sub(REACH).max(within.start);
+    let around = from..(window + REACH + 1).min(within.end);
     let near = around.filter(|other| {
-        let there = path[other / GROUP];
+        let there = path[*other];
         (means[*other] - there).abs() < width && (there - here).abs() < width
     });
     let near: Vec<f64> = near.map(|other| means[other]).collect();

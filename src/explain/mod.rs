@@ -20,7 +20,11 @@ mod progress;
 mod pulse;
 mod reading;
 mod restore;
+mod sound;
+mod steps;
 mod stretch;
+#[cfg(test)]
+mod tests;
 mod trips;
 
 pub use blocks::{Block, Blocks, Cut, STRONGEST};
@@ -31,6 +35,7 @@ pub use level::Level;
 pub(crate) use progress::{Progress, Swing, Turned};
 pub use pulse::{Pulse, Record};
 pub use reading::{Reading, Trip, is_near};
+pub use sound::Faults;
 pub use trips::Motion;
 
 use restore::HighPass;
@@ -56,6 +61,9 @@ const SLOW: f64 = 0.3;
 /// A difference in cost below this decides nothing.
 const DECIDED: f64 = 3.0;
 
+/// A beginning that makes the record so much dearer is contradicted by it.
+const CONTRADICTED: f64 = 6.0;
+
 /// A record explained.
 #[derive(Clone, Debug)]
 pub struct Explanation {
@@ -69,6 +77,8 @@ pub struct Explanation {
     pub doubts: Vec<Doubt>,
     /// What would be trips if they were faster.
     pub slow: Vec<Trip>,
+    /// Whether the record says that it begins otherwise than was said.
+    pub begins_otherwise: bool,
 }
 
 /// Two explanations that are close.
@@ -178,8 +188,19 @@ impl Explained {
         trips
     }
 
+    /// Whether the record is explained much better if nothing is said of how it begins.
+    fn begins_otherwise(&self, prior: &Prior) -> bool {
+        let free = Prior {
+            begins_at_rest: None,
+            ..*prior
+        };
+        let free = || Lattice::new(&free, &self.record.pulses, &self.record.stretches());
+        prior.begins_at_rest.is_some() && self.lattice.cost() - free().cost() >= CONTRADICTED
+    }
+
     fn finish(self, high_pass: Option<f64>, prior: &Prior) -> Explanation {
         Explanation {
+            begins_otherwise: self.begins_otherwise(prior),
             doubts: doubts(&self.record, &self.lattice),
             slow: self.slow(prior),
             reading: self.reading(),
@@ -192,12 +213,8 @@ impl Explained {
 /// The nearly as cheap explanations that have other trips.
 fn doubts(record: &Record, lattice: &Lattice) -> Vec<Doubt> {
     let mut doubts: Vec<Doubt> = Vec::new();
-    for (gap, (rest, motion)) in lattice.margins().into_iter().enumerate() {
-        let margin = rest.max(motion);
-        if margin > DECIDED {
-            continue;
-        }
-        let (best, other) = lattice.detour(gap, motion > rest);
+    for (margin, other) in lattice.others().filter(|it| it.0 <= DECIDED) {
+        let (best, other) = lattice.detour(other);
         let [trips, instead] = [best, other].map(|parts| Reading::of(record, &parts).trips);
         let only = |these: &[Trip], those: &[Trip]| {
             let only = these.iter().filter(|trip| !those.contains(trip));

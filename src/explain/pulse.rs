@@ -2,6 +2,7 @@
 
 use super::blocks::{Cut, median};
 use super::level::Level;
+use std::f64::consts::PI;
 use std::ops::Range;
 
 /// The record is smoothed over this time before it is cut into pulses, s.
@@ -19,6 +20,16 @@ pub const LEAST_IN_SWING: usize = 5;
 pub const LONGEST_PAUSE: f64 = 0.4;
 pub const LONGEST_SWING: f64 = 1.3;
 pub const FARTHEST_SWING: f64 = 0.5;
+
+/// A slow swing, of a rope: its pulses are no longer than this, s; pauses are at most this share of them; each changes
+/// the speed at most so many times as much as the one before; they leave at most this share of the largest; and they
+/// carry the sensor back at least this share of the way forth, and no farther than this, m.
+pub const LONGEST_SLOW_SWING: f64 = 6.0;
+pub const PAUSE_SHARE: f64 = 0.2;
+const MOST_UNLIKE: f64 = 2.5;
+const LEFT: f64 = 0.6;
+const BACK: f64 = 0.25;
+const FARTHEST_SLOW_SWING: f64 = 2.0;
 
 /// The smallest change of speed, m/s, and in deviations of what noise adds up to.
 const LEAST_CHANGE: f64 = 0.015;
@@ -48,6 +59,8 @@ pub struct Pulse {
     pub is_violent: bool,
     /// Whether it is a long swing to and fro.
     pub is_swing: bool,
+    /// What the level shifts by during it, m/s²; 0 for what the record shows above its level.
+    pub shift: f64,
 }
 
 impl Pulse {
@@ -123,6 +136,15 @@ impl Record {
             .sum()
     }
 
+    /// What a pulse changes the speed by in some of its blocks, m/s.
+    pub fn change_by(&self, pulse: &Pulse, blocks: Range<usize>) -> f64 {
+        let seconds: f64 = blocks
+            .clone()
+            .map(|block| self.cut.blocks[block].seconds)
+            .sum();
+        self.change(blocks) + pulse.shift * seconds
+    }
+
     fn smoothed(&self) -> Vec<f64> {
         let half = (SMOOTHING / 2.0 / self.cut.seconds).round() as usize;
         let mut smoothed = Vec::with_capacity(self.cut.blocks.len());
@@ -186,7 +208,25 @@ impl Record {
             }
             from = to;
         }
-        self.swings(self.joined(pulses, limits), limits)
+        let mut pulses = self.swings(self.joined(pulses, limits), limits);
+        pulses.extend(self.shifts(limits));
+        pulses.sort_by_key(|pulse| pulse.blocks.start);
+        pulses
+    }
+
+    /// The shifts of the level, each of which may as well be a long and weak acceleration.
+    fn shifts(&self, limits: Limits) -> impl Iterator<Item = Pulse> + '_ {
+        let shifts = self.level.shifts.iter();
+        let pulses = shifts.map(move |shift| {
+            let pulse = self.pulse(shift.blocks.clone(), limits);
+            Pulse {
+                change: shift.size * pulse.seconds(),
+                is_violent: false,
+                shift: shift.size,
+                ..pulse
+            }
+        });
+        pulses.filter(|pulse| pulse.change.abs() > LEAST_CHANGE)
     }
 
     /// A long swing to and fro is one pulse: a rope that bounces, somebody who walks. Its pulses are short, follow each
@@ -253,6 +293,7 @@ impl Record {
             to,
             is_violent: peak > limits.violent,
             is_swing: false,
+            shift: 0.0,
         }
     }
 
@@ -280,14 +321,63 @@ impl Record {
     }
 }
 
-/// How many pulses from the first on are one swing.
+/// How many pulses from the first on are one swing: those that are short, or alike and leave next to no speed. A lift
+/// does not turn so often without a rest or a uniform motion in between.
 fn swing(pulses: &[Pulse]) -> usize {
-    let goes_on = |pair: &[Pulse]| {
-        let turns = pair[0].change * pair[1].change < 0.0;
-        turns && pair[1].from - pair[0].to <= LONGEST_PAUSE && pair[1].seconds() <= LONGEST_SWING
+    let turns = |pair: &[Pulse]| pair[0].change * pair[1].change < 0.0;
+    let is_short = |pulse: &Pulse| pulse.seconds() <= LONGEST_SWING;
+    let follows = |pair: &[Pulse]| {
+        turns(pair) && pair[1].from - pair[0].to <= LONGEST_PAUSE && pair.iter().all(is_short)
     };
-    if pulses[0].seconds() > LONGEST_SWING {
-        return 0;
+    let short = if is_short(&pulses[0]) {
+        1 + pulses.windows(2).take_while(|pair| follows(pair)).count()
+    } else {
+        0
+    };
+    if short >= LEAST_IN_SWING {
+        return short;
     }
-    1 + pulses.windows(2).take_while(|pair| goes_on(pair)).count()
+    let is_like = |pair: &[Pulse]| {
+        let ratio = pair[1].change.abs() / pair[0].change.abs();
+        let longest = pair[0].seconds().max(pair[1].seconds());
+        let pause = pair[1].from - pair[0].to;
+        turns(pair)
+            && pause <= LONGEST_PAUSE.max(PAUSE_SHARE * longest)
+            && longest <= LONGEST_SLOW_SWING
+            && (1.0 / MOST_UNLIKE..=MOST_UNLIKE).contains(&ratio)
+    };
+    let alike = 1 + pulses.windows(2).take_while(|pair| is_like(pair)).count();
+    let is_swing = |count: &usize| {
+        let pulses = &pulses[..*count];
+        let most = pulses
+            .iter()
+            .map(|pulse| pulse.change.abs())
+            .fold(0.0, f64::max);
+        let left: f64 = pulses.iter().map(|pulse| pulse.change).sum();
+        let parts = pulses.iter().map(|pulse| (pulse.seconds(), pulse.change));
+        left.abs() <= LEFT * most && goes_back(parts)
+    };
+    (LEAST_IN_SWING..=alike)
+        .rev()
+        .find(is_swing)
+        .unwrap_or(short)
+}
+
+/// Whether pulses, of so many seconds and with such changes of speed, carry the sensor back and forth, at least this
+/// share as far, and never as far as to the next floor. Rides in one direction turn as often, but never go back.
+pub fn goes_back(pulses: impl Iterator<Item = (f64, f64)>) -> bool {
+    let (mut speed, mut back, mut forth, mut farthest) = (0.0f64, 0.0, 0.0, 0.0f64);
+    let mut before: Option<f64> = None;
+    for (seconds, change) in pulses {
+        if let Some(before) = before {
+            // Half a sine of speed, from the middle of one pulse to that of the other.
+            let way = speed * (before + seconds) / PI;
+            forth += way.max(0.0);
+            back -= way.min(0.0);
+            farthest = farthest.max(way.abs());
+        }
+        speed += change;
+        before = Some(seconds);
+    }
+    farthest < FARTHEST_SLOW_SWING && back.min(forth) > BACK * back.max(forth)
 }

@@ -177,7 +177,7 @@ impl Record {
     fn zero_of(&self, pulse: &Pulse, before: f64) -> f64 {
         let mut speed = before;
         for block in pulse.blocks.clone() {
-            speed += self.change(block..block + 1);
+            speed += self.change_by(pulse, block..block + 1);
             if speed * before <= 0.0 {
                 return self.cut.blocks[block].to;
             }
@@ -242,7 +242,7 @@ impl Record {
             return cut.ends.contains(&block);
         };
         let seconds = outermost.len() as f64 * cut.seconds;
-        let strength = self.change(outermost) / seconds;
+        let strength = self.change_by(pulse, outermost) / seconds;
         let is_stage = pulse.change.abs() > TURN * top;
         is_stage
             && strength * pulse.change.signum()
@@ -266,7 +266,7 @@ impl Record {
         let (mut speed, mut seconds, mut last) = (0.0f64, 0.0, pulse.blocks.start);
         for block in blocks {
             last = block;
-            speed += self.change(block..block + 1);
+            speed += self.change_by(pulse, block..block + 1);
             seconds += self.cut.blocks[block].seconds;
             let noise = 2.0 * pulse.deviation * seconds / (pulse.to - pulse.from);
             if speed.abs() > MOVING + noise {

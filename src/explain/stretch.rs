@@ -5,7 +5,7 @@
 
 use super::cost::{self, Prior};
 use super::progress::{Progress, Swing, Turned};
-use super::pulse::{LEAST_IN_SWING, Pulse};
+use super::pulse::{LEAST_IN_SWING, LONGEST_SLOW_SWING, PAUSE_SHARE, Pulse, goes_back};
 use std::ops::Range;
 
 /// The pulses of a stretch without holes.
@@ -61,7 +61,7 @@ impl<'a> Stretch<'a> {
     /// The disturbances that begin with a pulse: the pulse after, and the cost.
     pub fn disturbances(&self, first: usize) -> impl Iterator<Item = (usize, f64)> + Clone + '_ {
         let costs = self.disturbances[first].iter().copied();
-        (first + 2..).zip(costs)
+        (first + 2..).zip(costs).filter(|it| it.1.is_finite())
     }
 
     /// The motion that begins with a pulse, if that is strong enough.
@@ -86,7 +86,8 @@ impl<'a> Stretch<'a> {
             return false;
         };
         let before = self.pulses[next - 1];
-        !self.disturbances[next - 1].is_empty()
+        let is_swing = self.disturbances[next - 1].first();
+        is_swing.is_some_and(|cost| cost.is_finite())
             && after.change * before.change < 0.0
             && after.change.abs() > 0.3 * before.change.abs()
     }
@@ -110,17 +111,42 @@ impl<'a> Stretch<'a> {
     /// What a motion costs that goes on at the end.
     pub fn open(&self, motion: &Progress) -> f64 {
         let slow = (self.prior).implausible(motion.top, f64::INFINITY, f64::INFINITY);
-        motion.cost + motion.creeping(self.end) + slow
+        let tolerance = self.prior.tolerance(motion.top, motion.variance);
+        let stands = if motion.speed.abs() < tolerance {
+            cost::STANDS
+        } else {
+            0.0
+        };
+        motion.cost + motion.creeping(self.end) + slow + stands
     }
 }
 
-/// What the disturbances cost that begin with the first pulse: of two pulses, three and so on. Longer ones than these
-/// are one pulse already.
+/// What the disturbances cost that begin with the first pulse: of two pulses, of three and so on; infinite where they
+/// are none. Longer ones than these are one pulse already.
 fn disturbances(prior: &Prior, pulses: &[Turned]) -> Vec<f64> {
     let few = &pulses[..pulses.len().min(LEAST_IN_SWING - 1)];
-    let swings = few.iter().scan(Swing::default(), |swing, pulse| {
-        *swing = swing.with(pulse)?;
-        Some(prior.disturbance(swing.speed))
+    let swings = few.iter().scan(Some(Swing::default()), |swing, pulse| {
+        *swing = swing.and_then(|swing| swing.with(pulse));
+        Some(swing.map_or(f64::INFINITY, |swing| prior.disturbance(swing.speed)))
     });
-    swings.skip(1).collect()
+    let costs = swings.enumerate().map(|(last, cost)| {
+        let slow = slow_swing(&few[..=last]).map(|speed| prior.disturbance(speed));
+        slow.map_or(cost, |slow| cost.min(slow + cost::SLOW_SWING))
+    });
+    costs.skip(1).collect()
+}
+
+/// The speed that pulses leave if they may be a period of a slow swing: they turn each time, follow each other at once
+/// and go back and forth.
+fn slow_swing(pulses: &[Turned]) -> Option<f64> {
+    let seconds = |pulse: &Turned| pulse.to - pulse.from;
+    let goes_on = |pair: &[Turned]| {
+        let longest = seconds(&pair[0]).max(seconds(&pair[1]));
+        pair[0].change * pair[1].change < 0.0
+            && pair[1].from - pair[0].to <= PAUSE_SHARE * longest
+            && longest <= LONGEST_SLOW_SWING
+    };
+    let parts = pulses.iter().map(|pulse| (seconds(pulse), pulse.change));
+    let is_swing = pulses.windows(2).all(goes_on) && goes_back(parts.clone());
+    is_swing.then(|| parts.map(|(_, change)| change).sum())
 }

@@ -259,6 +259,7 @@ mod tests {
                     deviation: 0.01,
                     is_violent: false,
                     is_swing: false,
+                    shift: 0.0,
                 }
             });
             pulses.collect()

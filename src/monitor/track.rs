@@ -242,6 +242,7 @@ impl Track {
                 deviation: deviation.hypot(shock),
                 is_violent: is_shock,
                 is_swing: false,
+                shift: 0.0,
             };
             // A shock does not excuse the braking that it is part of.
             let is_violent = is_shock && it.seconds < LONGEST_SHOCK;

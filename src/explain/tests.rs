@@ -1,0 +1,169 @@
+//! Whole records, made by hand: a ride, and what else a sensor may show beside it.
+
+use super::*;
+use crate::recording::Sample;
+use std::f64::consts::TAU;
+
+/// Jerk, acceleration and speed of the ride, in SI units; its start and stop, s.
+const JERK: f64 = 1.0;
+const ACCELERATION: f64 = 0.7;
+const SPEED: f64 = 1.0;
+const RIDE: (f64, f64) = (20.0, 37.1);
+
+/// A pulse of acceleration with limited jerk that changes the speed by [`SPEED`].
+fn pulse(time: f64) -> f64 {
+    let rise = ACCELERATION / JERK;
+    let end = SPEED / ACCELERATION + rise;
+    (JERK * time)
+        .min(JERK * (end - time))
+        .clamp(0.0, ACCELERATION)
+}
+
+fn ride(time: f64) -> f64 {
+    pulse(time - RIDE.0) - pulse(time - 35.0)
+}
+
+/// So many seconds at 50 Hz, with a little noise, that hold the ride and something else.
+fn record(seconds: f64, other: impl Fn(f64) -> f64) -> Vec<Sample> {
+    let noise = |i: u32| f64::from(i.wrapping_mul(2_654_435_761) >> 16) / 65536.0 - 0.5;
+    let sample = |i: u32| {
+        let time = f64::from(i) / 50.0;
+        let acceleration = 9.81 + ride(time) + other(time) + 0.04 * noise(i);
+        Sample { time, acceleration }
+    };
+    (0..(50.0 * seconds) as u32).map(sample).collect()
+}
+
+fn explained(samples: &[Sample], begins_at_rest: Option<bool>) -> Explanation {
+    let prior = Prior {
+        begins_at_rest,
+        ..Prior::default()
+    };
+    Explanation::of(&Cut::new(samples, 2, 0.04), &prior)
+}
+
+fn is_the_ride(trip: &Trip) -> bool {
+    let near = |time: Option<f64>, truth: f64| time.is_some_and(|it| (it - truth).abs() < 0.5);
+    trip.is_up && near(trip.start, RIDE.0) && near(trip.stop, RIDE.1)
+}
+
+/// Whether the cheapest explanation is the ride and nothing else.
+fn is_right(explanation: &Explanation) -> bool {
+    matches!(&explanation.reading.trips[..], [trip] if is_the_ride(trip))
+}
+
+fn within(time: f64, from: f64, to: f64) -> f64 {
+    f64::from(u8::from((from..to).contains(&time)))
+}
+
+/// A phone is turned a little, for a while or for good, while the cage rests, starts, cruises or brakes. Where it is
+/// turned back as the cage starts or stops, when it was is not known, so that the ride may be undecided.
+#[test]
+fn a_level_that_shifts_makes_no_ride() {
+    let hides = |time: f64| ride(time - 0.1) != 0.0 || ride(time + 0.1) != 0.0;
+    for size in [0.06, -0.06, 0.1, -0.1] {
+        for from in [4.0, 10.0, 16.0, 24.0, 27.0, 31.0, 45.0] {
+            for to in [from + 4.0, from + 8.0, from + 13.0, f64::INFINITY] {
+                let found = explained(&record(60.0, |time| size * within(time, from, to)), None);
+                let is_told = is_right(&found) || (hides(to) && !found.doubts.is_empty());
+                assert!(is_told, "{size} {from} {to}: {:?}", found.doubts);
+            }
+        }
+    }
+}
+
+/// A ride of a lift that starts and stops at 0.06 m/s² is found, or said to be possible.
+#[test]
+fn a_soft_start_is_a_start() {
+    let soft = |time| 0.06 * (within(time, 50.0, 60.0) - within(time, 70.0, 80.0));
+    let found = explained(&record(90.0, soft), None);
+    let doubted = found.doubts.iter().flat_map(|doubt| &doubt.instead);
+    let mut all = found.reading.trips.iter().chain(doubted);
+    let near = |time: Option<f64>, truth: f64| time.is_some_and(|it| (it - truth).abs() < 1.0);
+    assert!(all.any(|trip| near(trip.start, 50.0) && near(trip.stop, 80.0)));
+}
+
+/// A cage bounces on its rope, slower than any step of a person, until that has decayed, or for a period: then that
+/// may be undecided.
+#[test]
+fn a_slow_swing_is_no_ride() {
+    for frequency in [0.15, 0.2, 0.25, 0.3, 0.35, 0.45] {
+        for speed in [0.2, 0.3, 0.6] {
+            for (periods, decay) in [(1.0, 0.0), (1.5, 0.0), (50.0, 0.05)] {
+                let bounce = |time: f64| {
+                    let phase = TAU * frequency * (time - 45.0);
+                    let is_on = within(phase, 0.0, TAU * periods);
+                    // The derivative of speed · sin φ · e^(−decay φ).
+                    let slope = phase.cos() - decay * phase.sin();
+                    is_on * speed * TAU * frequency * slope * (-decay * phase).exp()
+                };
+                let found = explained(&record(100.0, bounce), None);
+                let trips = &found.reading.trips;
+                let is_told = is_right(&found) || (periods < 2.0 && !found.doubts.is_empty());
+                assert!(is_told, "{frequency} {speed} {periods}: {trips:?}");
+            }
+        }
+    }
+}
+
+/// Rides of one floor in a row turn as often as a swing, with hardly a rest in between.
+#[test]
+fn short_rides_in_a_row_are_no_swing() {
+    let hops = |time: f64| {
+        let starts = [45.0, 50.2, 55.4, 60.6];
+        starts
+            .map(|start| pulse(time - start) - pulse(time - start - 2.13))
+            .iter()
+            .sum()
+    };
+    let found = explained(&record(80.0, hops), None);
+    assert_eq!(found.reading.trips.len(), 5, "{:?}", found.reading.trips);
+}
+
+/// The longer a hole in the cruise, the likelier the cage stopped in it; within a hole of a day it surely did.
+#[test]
+fn a_hole_may_hide_a_stop() {
+    let across = |seconds: f64| {
+        let samples = record(60.0, |_| 0.0).into_iter();
+        let kept = samples.filter(|it| !(26.0..29.0).contains(&it.time));
+        let later = kept.map(|it| Sample {
+            time: it.time + if it.time < 29.0 { 0.0 } else { seconds - 3.0 },
+            ..it
+        });
+        explained(&later.collect::<Vec<_>>(), None)
+    };
+    for seconds in [3.0, 5.0] {
+        let found = across(seconds);
+        assert_eq!(found.reading.trips.len(), 1, "{seconds}");
+        assert_eq!(found.doubts, [], "{seconds}");
+    }
+    let found = across(20.0);
+    assert!(
+        found
+            .doubts
+            .iter()
+            .any(|doubt| doubt.trips.len() != doubt.instead.len())
+    );
+    for seconds in [200.0, 86_400.0, 1e7] {
+        let trips = across(seconds).reading.trips;
+        let ends: Vec<_> = trips.iter().map(|trip| trip.start.is_some()).collect();
+        assert_eq!(ends, [true, false], "{seconds}: {trips:?}");
+    }
+}
+
+/// A beginning that is said and wrong is seen to be.
+#[test]
+fn a_wrong_beginning_is_seen() {
+    let whole = record(120.0, |time| -ride(time - 30.0) + ride(time - 60.0));
+    let cut: Vec<Sample> = whole.iter().copied().filter(|it| it.time > 28.0).collect();
+    for (samples, rests) in [(whole, true), (cut, false)] {
+        for said in [None, Some(rests), Some(!rests)] {
+            let found = explained(&samples, said);
+            assert_eq!(
+                found.begins_otherwise,
+                said == Some(!rests),
+                "{rests} {said:?}"
+            );
+        }
+    }
+}
