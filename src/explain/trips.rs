@@ -10,10 +10,10 @@ use std::collections::VecDeque;
 use std::ops::Range;
 
 /// The most partial motions kept at a pulse.
-const WIDTH: usize = 24;
+const WIDTH: usize = 48;
 
 /// A motion costs at most this much more than the usual explanation before it is given up.
-const HOPELESS: f64 = 24.0;
+const HOPELESS: f64 = 60.0;
 
 /// A motion is followed over so many pulses: one that is shaken more than that is left undecided.
 const MOST_FOLLOWED: usize = 120;
