@@ -539,7 +539,7 @@ fn impossible_rides_are_refused() {
             json!([0, 0, 0, 0, 0, 0, 3, 0]),
             "disturbed: must lie in [1, 3]",
         ),
-        ("lengths", json!(["-5"]), "at_rest: must lie in"),
+        ("lengths", json!(["-5"]), "stood: must lie in"),
     ] {
         let mut state = whole.clone();
         let counters = state["counts"]["counters"].as_object_mut().unwrap();
