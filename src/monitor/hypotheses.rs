@@ -1,6 +1,7 @@
 //! The plausible hypotheses on one level of the sensor.
 
-use super::hypothesis::{Hypothesis, Known, PENDING, passing};
+use super::hypothesis::Hypothesis;
+use super::prices::{Known, PENDING};
 use crate::explain::{Prior, Swing, Turned};
 
 /// The most hypotheses kept, and how much dearer than the cheapest they may be.
@@ -55,7 +56,7 @@ impl Hypotheses {
         let (made, pulses) = (&mut self.made, &self.pulses);
         for first in 0..=place {
             let ignored = if first == place {
-                pulse.ignored.min(passing(known, pulse))
+                pulse.ignored.min(known.passing(pulse))
             } else {
                 match swing(&pulses[first..]) {
                     Some(swing) => known.prior.disturbance(swing.speed),
@@ -107,7 +108,7 @@ impl Hypotheses {
                 take(hypothesis, aged, false);
                 continue;
             };
-            let ignored = pulse.ignored.min(passing(known, pulse));
+            let ignored = pulse.ignored.min(known.passing(pulse));
             if hypothesis.is_rest() {
                 take(hypothesis, aged + ignored, false);
                 if let Some(started) = hypothesis.started(known, pulse) {

@@ -6,9 +6,10 @@
 //! hypotheses from before, dearer by the cost of a shift. So motion and shift are both followed until the
 //! evidence decides.
 
-use super::hypothesis::{Cage, Hypothesis, Known};
-use super::noise::Noise;
-use super::track::{Noises, SETTLED, Smooth, Track};
+use super::hypothesis::{Cage, Hypothesis};
+use super::noise::{Noise, Noises};
+use super::prices::Known;
+use super::track::{SETTLED, Smooth, Track};
 use crate::explain::Block;
 use std::collections::VecDeque;
 

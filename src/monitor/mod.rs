@@ -38,13 +38,16 @@
 //! [^1]: see [`crate::signal`].
 
 mod decide;
+mod decisions;
 mod design;
+mod drum;
 mod event;
 mod history;
 mod hypotheses;
 mod hypothesis;
 mod live;
 mod noise;
+mod prices;
 mod reference;
 mod saved_state;
 mod sensor;
@@ -54,6 +57,7 @@ mod statement;
 mod tests;
 mod track;
 
+pub use decisions::Observation;
 pub use design::Design;
 pub use event::{Alarm, Decision, Direction, Doubt, Event, Fault, Kind, Span, State};
 pub use reference::Reference;
@@ -63,16 +67,16 @@ pub use settings::{Level, Limits, MOST_ORDER, Settings, SettingsError, Sizes, Wh
 
 use crate::explain::{Block, Blocks, Prior};
 use crate::recording::Sample;
-use decide::Windows;
 pub(crate) use decide::{Decider, Verdict};
-use history::History;
-use hypothesis::{Hypothesis, Known};
+use decisions::Decisions;
+use drum::Drum;
+use hypothesis::Hypothesis;
 use live::{Belief, Live};
+use prices::Known;
 use sensor::{Health, Sensor};
 use serde::{Deserialize, Serialize};
 pub(crate) use settings::LEAST_TRAINING;
 use statement::Statement;
-use std::ops::Range;
 
 /// Knowledge of a cage before its record begins.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -86,57 +90,29 @@ pub struct Knowledge {
     pub motion_shows: bool,
 }
 
-/// A block and its decision.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Observation {
-    /// Times of its first and last sample, s.
-    pub times: (f64, f64),
-    /// The mean as measured, m/s².
-    pub mean: f64,
-    /// The mean centred and whitened, m/s².
-    pub whitened: f64,
-    /// Whether the forward decision is H₁*, once there are enough blocks.
-    pub moves: Option<bool>,
-}
-
 /// A monitor of one cage.
 #[derive(Clone, Debug)]
 pub struct Monitor {
-    design: Design,
-    reference: Option<Reference>,
+    decisions: Decisions,
     blocks: Blocks,
-    history: History,
-    decider: Decider,
     live: Live,
     sensor: Sensor,
     /// Whether the noise hides a start.
     is_noisy: bool,
-    /// Whether motions of this cage look different from rest, and the mean square of whitened blocks, in that of the
-    /// reference.
+    /// Whether motions of this cage look different from rest.
     motion_shows: bool,
-    strength: f64,
     said: Statement,
-    /// The last time that the decision was H₁*, or could not be made, s.
-    moved: f64,
     /// The level when it was last certain, m/s².
     level: Option<f64>,
     /// Time of the last sample, s.
     last: Option<f64>,
-    /// The first block that the next reference may be learnt from.
-    learns_from: u64,
     /// The newest block, if a sample has just completed it.
     newest: Option<Observation>,
-    /// Since when the drum turns, s, and since when it does so beside a cage that may stand.
-    turns: Option<f64>,
-    slack: Option<f64>,
-    is_slack_told: bool,
+    drum: Drum,
     /// The latest jam that was told, s.
     jam: f64,
     events: Vec<Event>,
 }
-
-/// The longest braking whose decision is made, s.
-const LONGEST_BRAKING: f64 = 60.0;
 
 /// The error of a speed as a share of the highest. Start and stop are measured by one sensor, whose gain cancels.
 const GAIN_ERROR: f64 = 0.015;
@@ -147,15 +123,8 @@ const BEGINS_IN_MOTION: f64 = 3.0;
 /// The deviation of the smoothed record in which starts are not seen, m/s², and below which they are again.
 const NOISY: (f64, f64) = (0.1, 0.08);
 
-/// Blocks look like rest if their mean square is at most this many times that of the reference; it is followed over
-/// this time, s, and single ones count for at most so much.
-const CALM: (f64, f64, f64) = (2.0, 2.0, 9.0);
-
 /// A sensor was moved if its level jumps by this much, m/s².
 const MOVED: f64 = 0.15;
-
-/// By how much a slack alarm may go back before the doubt, s.
-const LOOKS_BACK: f64 = 1.5;
 
 impl Monitor {
     /// A monitor with this knowledge of its cage.
@@ -183,31 +152,20 @@ impl Monitor {
             .reference
             .as_ref()
             .map(|reference| reference.level);
-        let (samples, block) = (&design.samples, design.block);
-        let learnt = design.settings.whitening.training + samples.reference() + samples.shift();
-        let looked_back = 4 * samples.span() + (LONGEST_BRAKING / block) as usize;
         Self {
-            blocks: Blocks::new(samples.decimation(), block),
-            history: History::new(learnt.max(looked_back)),
-            decider: Decider::new(&design),
-            live: Live::new(known, block, begins, level),
+            blocks: Blocks::new(design.samples.decimation(), design.block),
+            live: Live::new(known, design.block, begins, level),
             sensor: Sensor::default(),
             is_noisy: false,
             motion_shows: knowledge.motion_shows && knowledge.reference.is_some(),
-            strength: CALM.2,
             said: Statement::unknown(0.0, Doubt::Beginning),
-            moved: f64::NEG_INFINITY,
             level: None,
             last: None,
-            learns_from: 0,
             newest: None,
-            turns: None,
-            slack: None,
-            is_slack_told: false,
+            drum: Drum::default(),
             jam: f64::NEG_INFINITY,
             events: Vec::with_capacity(8),
-            reference: knowledge.reference,
-            design,
+            decisions: Decisions::new(design, knowledge.reference),
         }
     }
 
@@ -218,12 +176,12 @@ impl Monitor {
 
     /// The settings, at the rate of the samples.
     pub fn design(&self) -> &Design {
-        &self.design
+        &self.decisions.design
     }
 
     /// The reference of rest, if it has one.
     pub fn reference(&self) -> Option<&Reference> {
-        self.reference.as_ref()
+        self.decisions.reference.as_ref()
     }
 
     /// The event before the first sample, which is taken at `time`.
@@ -277,7 +235,7 @@ impl Monitor {
         self.sensor.cross();
         self.forget(now, (now - from).max(0.0));
         if fault == Fault::Clock {
-            (self.turns, self.slack, self.jam) = (None, None, f64::NEG_INFINITY);
+            (self.drum, self.jam) = (Drum::default(), f64::NEG_INFINITY);
         }
         self.say(Statement::unknown(now, Doubt::Hole), now);
     }
@@ -292,9 +250,7 @@ impl Monitor {
                 f64::INFINITY
             },
         );
-        self.history.clear();
-        self.moved = f64::NEG_INFINITY;
-        self.learns_from = 0;
+        self.decisions.forget();
     }
 
     fn report(&mut self, fault: Fault, time: f64, now: f64) {
@@ -317,13 +273,13 @@ impl Monitor {
     }
 
     fn block(&mut self, block: Block, is_faulty: bool) {
-        self.history.push(block, self.reference.as_ref());
-        self.decide();
+        self.newest = self.decisions.step(block);
         if is_faulty {
             return;
         }
         self.live.step(block);
-        let belief = self.live.belief(self.is_calm());
+        let is_calm = self.motion_shows.then(|| self.decisions.is_calm());
+        let belief = self.live.belief(is_calm);
         let now = block.to;
         let was_noisy = self.is_noisy;
         self.judge_noise(&belief, now);
@@ -336,11 +292,10 @@ impl Monitor {
         self.say(statement, now);
         self.judge_level(&belief, now);
         if belief.in_pulse {
-            self.learns_from = self.history.end();
+            self.decisions.learn_no_earlier();
         }
         if self.said.state == State::REST {
-            self.learns_from = self.learns_from.max(self.history.at(self.said.since));
-            self.learn();
+            self.decisions.learn(self.said.since);
         }
     }
 
@@ -348,60 +303,11 @@ impl Monitor {
     fn confirmed(&self, statement: Statement, now: f64) -> Statement {
         let is_new = !self.said.state.moves();
         match statement.start {
-            Some(start) if is_new && self.moved < start => Statement::unknown(now, Doubt::Pulse),
+            Some(start) if is_new && !self.decisions.agree_since(start) => {
+                Statement::unknown(now, Doubt::Pulse)
+            }
             _ => statement,
         }
-    }
-
-    /// Whether the record looks like rest, if motions of the cage do not.
-    fn is_calm(&self) -> Option<bool> {
-        self.motion_shows.then_some(self.strength < CALM.0)
-    }
-
-    /// Makes the decision at the newest block.
-    fn decide(&mut self) {
-        let Some(reference) = &self.reference else {
-            self.moved = self.history.newest().0.to;
-            return;
-        };
-        let windows = Windows::forwards(&self.design, self.history.end());
-        let verdict = windows.and_then(|windows| {
-            (self.decider).decide(&self.design, reference, &self.history, &windows)
-        });
-        let block = self.history.newest();
-        let ratio = (block.1 / reference.deviation).powi(2).min(CALM.2);
-        if ratio.is_finite() {
-            self.strength += self.design.block / CALM.1 * (ratio - self.strength);
-        }
-        if verdict.as_ref().is_none_or(|verdict| verdict.moves) {
-            self.moved = block.0.to;
-        }
-        self.newest = Some(Observation {
-            times: (block.0.from, block.0.to),
-            mean: block.0.mean,
-            whitened: block.1,
-            moves: verdict.map(|verdict| verdict.moves),
-        });
-    }
-
-    /// The decision at a start, on the newest blocks, or at a stop, on its braking.
-    fn decision(&mut self, braking: Option<(f64, f64)>) -> Option<Decision> {
-        let reference = self.reference.as_ref()?;
-        let windows = match braking {
-            None => Windows::forwards(&self.design, self.history.end()),
-            Some((from, to)) => {
-                Windows::backwards(&self.design, self.history.at(from)..self.history.at(to))
-            }
-        }?;
-        let verdict = (self.decider).decide(&self.design, reference, &self.history, &windows)?;
-        let span = |blocks: &Range<u64>| {
-            (
-                self.history.starts(blocks.start),
-                self.history.ends(blocks.end),
-            )
-        };
-        let spans = [span(&windows.shift), span(&windows.scale)];
-        Some(verdict.decision(&self.design, reference.span, spans))
     }
 
     /// Reports a statement that differs from the last.
@@ -412,12 +318,12 @@ impl Monitor {
             return;
         }
         let mut event = statement.event(now);
-        let braking = statement.braking.filter(|_| statement.state == State::REST);
-        let starts = !was.state.moves() && statement.state.moves();
-        if let Kind::Change { decision, .. } = &mut event.kind
-            && (starts || braking.is_some())
-        {
-            *decision = self.decision(braking);
+        if let Kind::Change { decision, .. } = &mut event.kind {
+            *decision = match statement.braking {
+                Some(braking) if statement.state == State::REST => self.decisions.at_stop(braking),
+                _ if !was.state.moves() && statement.state.moves() => self.decisions.at_start(),
+                _ => None,
+            };
         }
         self.events.push(event);
     }
@@ -470,46 +376,13 @@ impl Monitor {
         }
     }
 
-    /// Learns the filter and X again from the latest blocks, if the cage has stood quietly for long enough.
-    fn learn(&mut self) {
-        let samples = &self.design.samples;
-        let needed = (self.design.settings.whitening.training + samples.reference()) as u64;
-        // Leave out the newest blocks: they may belong to a start that is not seen yet.
-        let to = self.history.end().saturating_sub(samples.shift() as u64);
-        if to < self.learns_from + needed {
-            return;
-        }
-        let Some(record) = self.history.blocks(to - needed..to) else {
-            return;
-        };
-        let span = (record[0].from, record[record.len() - 1].to);
-        let record: Vec<f64> = record.iter().map(|block| block.mean).collect();
-        let learnt = Reference::from_rest(&record, span, &self.design);
-        self.history.whiten(&learnt);
-        self.reference = Some(learnt);
-        self.learns_from = self.history.end();
-    }
-
     /// Raises the alarm if the drum pays out rope for too long and the cage may stand.
     fn watch_drum(&mut self, now: f64, turns: bool) {
-        if !turns || self.said.state.moves() {
-            self.slack = None;
-            self.is_slack_told = false;
-            if !turns {
-                self.turns = None;
-            } else {
-                self.turns.get_or_insert(now);
-            }
-            return;
-        }
-        let turns = *self.turns.get_or_insert(now);
-        // Where the motion has become doubtful, the cage may have stood since before.
-        let stands = self.said.rest.unwrap_or(now).clamp(now - LOOKS_BACK, now);
-        let since = *self.slack.get_or_insert(stands.max(turns));
-        let longest = self.design.settings.monitor.longest_slack;
-        if now - since >= longest - 1e-9 && !self.is_slack_told {
-            self.is_slack_told = true;
-            self.alarm(Alarm::Slack, since, now, self.said.state == State::REST);
+        let longest = self.design().settings.monitor.longest_slack;
+        let Statement { state, rest, .. } = self.said;
+        let slack = (self.drum).step(now, turns, state.moves(), rest, longest);
+        if let Some(since) = slack {
+            self.alarm(Alarm::Slack, since, now, state == State::REST);
         }
     }
 }

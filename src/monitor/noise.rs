@@ -57,6 +57,13 @@ impl Noise {
     }
 }
 
+/// The deviations of the smoothed record and of the mean of a longer time, m/s².
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Noises {
+    pub fast: f64,
+    pub slow: f64,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,7 +1,9 @@
 //! One level of the sensor, the pulses that leave it, and the hypotheses on them.
 
 use super::hypotheses::Hypotheses;
-use super::hypothesis::{Hypothesis, Known};
+use super::hypothesis::Hypothesis;
+use super::noise::Noises;
+use super::prices::Known;
 use crate::explain::{Pulse, Turned};
 
 /// How fast the level is followed: the time constant, and for how long no pulse may have been seen, s.
@@ -56,13 +58,6 @@ pub(super) struct Smooth {
     pub seconds: f64,
     pub mean: f64,
     /// The mean around it, and of the time before.
-    pub fast: f64,
-    pub slow: f64,
-}
-
-/// The deviations of the smoothed record and of the mean of a longer time, m/s².
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Noises {
     pub fast: f64,
     pub slow: f64,
 }
@@ -127,7 +122,8 @@ impl Track {
         0.75 * self.least().1
     }
 
-    /// Takes a block, and the least noise that there is; `settled` is the mean of one so much earlier that no pulse can have begun in it.
+    /// Takes a block, and the least noise that there is; `settled` is the mean of one so much earlier that no pulse can
+    /// have begun in it.
     pub fn step(&mut self, known: &Known, block: &Smooth, white: Noises, settled: Option<f64>) {
         self.noise.fast = white.fast;
         self.noise.slow = self.noise.slow.max(white.slow);
@@ -239,7 +235,7 @@ impl Track {
                 from: it.from,
                 to: it.to,
                 change: it.change,
-                deviation: deviation.hypot(shock),
+                deviation: libm::hypot(deviation, shock),
                 is_violent: is_shock,
                 is_swing: false,
                 shift: 0.0,

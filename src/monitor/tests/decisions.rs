@@ -1,0 +1,169 @@
+//! Decisions, and what they are made from.
+
+use super::*;
+
+/// W and T of every decision against a recount from the record at the stated times: means of five, no
+/// filter, ranks by sorting.
+#[test]
+fn decisions_are_those_of_a_recount() {
+    let mut settings = Settings::default();
+    settings.whitening.order = Order::Fixed(0);
+    let record = Record::quiet()
+        .rest(8.0)
+        .trip(1.0)
+        .rest(7.0)
+        .trip(-1.0)
+        .rest(5.0);
+    let mut monitor = Monitor::new(
+        settings.at(RATE).unwrap(),
+        Knowledge {
+            begins_at_rest: true,
+            ..Knowledge::default()
+        },
+    );
+    let blocks: Vec<f64> = record
+        .samples
+        .chunks_exact(5)
+        .map(|c| c.iter().sum::<f64>() / 5.0)
+        .collect();
+    let at = |(from, to): (f64, f64)| {
+        blocks[(from * 20.0).round() as usize..(to * 20.0).ceil() as usize].to_vec()
+    };
+    let events = record.watch(&mut monitor);
+    let mut counted = 0;
+    for event in events {
+        let Kind::Change {
+            decision: Some(decision),
+            ..
+        } = event.kind
+        else {
+            continue;
+        };
+        let x = at(decision.reference.unwrap());
+        let [y1, y2] = [decision.shift, decision.scale].map(at);
+        // X is the end of the record that the reference was learnt from.
+        let x = x[x.len() - 24..].to_vec();
+        assert_eq!([x.len(), y1.len(), y2.len()], [24, 12, 12]);
+        let others = || x.iter().chain(&y2);
+        let won = y1
+            .iter()
+            .map(|y| others().filter(|other| y > other).count() as u64);
+        let [low, high] = [f64::min, f64::max].map(|f| x.iter().copied().reduce(f).unwrap());
+        let naive = Statistics {
+            rank_sum: 78 + won.sum::<u64>(),
+            exceedances: y2.iter().filter(|y| **y < low || **y > high).count(),
+        };
+        let statistics = (decision.rank_sum, decision.exceedances);
+        let expected = (naive.rank_sum, naive.exceedances);
+        assert_eq!(statistics, expected, "{event:?}");
+        let Decision { lower, upper, .. } = decision;
+        let moves = lower.is_some_and(|w| naive.rank_sum <= w)
+            || upper.is_some_and(|w| naive.rank_sum >= w);
+        assert!(moves, "{decision:?}");
+        counted += 1;
+    }
+    assert_eq!(counted, 4);
+}
+
+/// One decision of each of 40 000 monitors on white noise, with X and a filter of order 0 from the noise
+/// before: its level is exact. Two-sided test at 1e-6.
+#[test]
+fn a_decision_at_rest_has_its_exact_size() {
+    let mut settings = Settings::default();
+    settings.whitening.order = Order::Fixed(0);
+    settings.detector.alpha = 0.01;
+    let design = settings.at(20.0).unwrap();
+    let trials = 40_000;
+    let mut alarms = 0;
+    let normal = Noise::new(Law::Normal).unwrap();
+    let stream = Stream::new(2014, "monitor size", "");
+    let mut blocks = vec![0.0; 24 + 24 + 24];
+    for trial in 0..trials {
+        normal.fill(&mut stream.at(trial), &mut blocks);
+        let reference = Reference::from_rest(&blocks[..48], (0.0, 0.0), &design);
+        let mut monitor = Monitor::new(
+            design.clone(),
+            Knowledge {
+                reference: Some(reference),
+                ..Knowledge::default()
+            },
+        );
+        for (i, acceleration) in blocks[48..].iter().enumerate() {
+            let sample = Sample {
+                time: i as f64 * 0.05,
+                acceleration: *acceleration,
+            };
+            monitor.step(sample, None);
+        }
+        alarms += u64::from(monitor.newest().unwrap().moves.unwrap());
+    }
+    let size = design.region.size();
+    let tail =
+        binomial::lower_tail(alarms, trials, size).min(binomial::upper_tail(alarms, trials, size));
+    println!("{alarms} of {trials} at exact size {size}: smaller tail {tail:.3e}");
+    assert!(tail > 5e-7);
+}
+
+/// The reference follows an offset that drifts by three times the weakest acceleration, 0.09 m/s² a minute.
+#[test]
+fn every_rest_is_learnt_anew() {
+    let mut record = Record::quiet();
+    for step in 0..2000 {
+        record = record.with(0.1, 0.3 * f64::from(step) / 2000.0, 1.0);
+    }
+    let mut monitor = standing();
+    let events = record.watch(&mut monitor);
+    assert_eq!(states(&events), [REST]);
+    let reference = monitor.reference().unwrap();
+    assert!(reference.span.unwrap().1 > record.now() - 12.0);
+    assert!((reference.level - 0.3).abs() < 0.05, "{}", reference.level);
+}
+
+#[test]
+fn a_saved_state_is_read_back_unchanged() {
+    let mut monitor = standing();
+    Record::quiet().rest(12.0).watch(&mut monitor);
+    let saved = SavedState {
+        settings: Settings::default(),
+        rate: RATE,
+        first_sample: None,
+        knowledge: Knowledge {
+            reference: monitor.reference().cloned(),
+            begins_at_rest: true,
+            motion_shows: false,
+        },
+    };
+    let read: SavedState = serde_json::from_str(&saved.to_json()).unwrap();
+    assert_eq!(read, saved);
+}
+
+/// Equal values have no ranks of their own, so random keys decide: decisions for motion are no more frequent
+/// than the exact size, and W stays within its range.
+#[test]
+fn a_constant_record_is_decided_by_keys() {
+    let design = design();
+    let reference = Reference::from_rest(&[9.81; 48], (0.0, 0.0), &design);
+    let mut monitor = Monitor::new(
+        design,
+        Knowledge {
+            reference: Some(reference),
+            begins_at_rest: true,
+            motion_shows: false,
+        },
+    );
+    let (mut moves, mut decisions) = (0u64, 0u64);
+    for i in 0..200_000 {
+        let sample = Sample {
+            time: f64::from(i) / RATE,
+            acceleration: 9.81,
+        };
+        monitor.step(sample, None);
+        if let Some(moved) = monitor.newest().and_then(|block| block.moves) {
+            (moves, decisions) = (moves + u64::from(moved), decisions + 1);
+        }
+    }
+    // New keys are drawn at every block, so that these decisions are independent.
+    let tail = binomial::upper_tail(moves, decisions, monitor.design().region.size());
+    println!("{moves} of {decisions}, upper tail {tail:.2e}");
+    assert!(tail > 1e-6);
+}

@@ -1,0 +1,92 @@
+//! Faults of the sensor and its clock, and the drum.
+
+use super::*;
+
+#[test]
+fn a_gap_makes_the_state_unknown() {
+    let record = Record::quiet()
+        .rest(8.0)
+        .with(2.0, 0.5, 1.0)
+        .with(4.0, 0.0, 2.0);
+    let mut monitor = standing();
+    let before = record.watch(&mut monitor);
+    assert_eq!(known(&before), [REST, ACCELERATING, INERTIAL]);
+    let time = record.now() + 10.0;
+    let sample = Sample {
+        time,
+        acceleration: 0.0,
+    };
+    let after = monitor.step(sample, None);
+    assert_eq!(faults(after), [Fault::Silent]);
+    assert_eq!(states(after), [State::Unknown]);
+    assert_eq!(after[1].time, time);
+}
+
+/// What each fault is told of, and that the state is unknown while it lasts.
+#[test]
+fn faults_of_the_sensor_are_told() {
+    let rest = || Record::quiet().rest(10.0);
+    let told = |record: Record| {
+        let mut monitor = standing();
+        let events = record.watch(&mut monitor);
+        (faults(&events), monitor.state())
+    };
+    let unknown = State::Unknown;
+    assert_eq!(
+        told(rest().with(3.0, 0.003, 0.0)),
+        (vec![Fault::Stuck], unknown)
+    );
+    assert_eq!(
+        told(rest().with(0.5, 19.6, 0.0)),
+        (vec![Fault::Saturated], unknown)
+    );
+    assert_eq!(told(rest().with(30.0, 0.0, 200.0)).0, [Fault::Noisy]);
+}
+
+/// One stamp far ahead, and the way back: two holes, and the next trips are seen.
+#[test]
+fn a_clock_that_is_set_back_costs_a_gap() {
+    let record = Record::quiet()
+        .rest(8.0)
+        .trip(1.0)
+        .rest(6.0)
+        .trip(-1.0)
+        .rest(6.0);
+    let mut monitor = standing();
+    let mut events = Vec::new();
+    for (i, acceleration) in record.samples.iter().enumerate() {
+        let time = if i == 600 { 1e6 } else { i as f64 / RATE };
+        let sample = Sample {
+            time,
+            acceleration: *acceleration,
+        };
+        events.extend_from_slice(monitor.step(sample, None));
+    }
+    assert_eq!(faults(&events), [Fault::Silent, Fault::Clock]);
+    assert_eq!(known(&events).last(), Some(&REST), "{events:?}");
+}
+
+#[test]
+fn a_drum_that_turns_without_the_cage_is_an_alarm() {
+    let record = Record::quiet().rest(8.0).trip(-1.0).rest(20.0);
+    let mut monitor = standing();
+    let turns = |time: f64| (8.0..20.2).contains(&time) || (30.0..36.0).contains(&time);
+    let mut events = Vec::new();
+    for (i, a) in record.samples.iter().enumerate() {
+        let time = i as f64 / RATE;
+        let sample = Sample {
+            time,
+            acceleration: *a,
+        };
+        events.extend_from_slice(monitor.step(sample, Some(turns(time))));
+    }
+    assert_eq!(alarms(&events), [Alarm::Slack]);
+    let alarm = events
+        .iter()
+        .find(|event| event.kind.alarm().is_some())
+        .unwrap();
+    assert!(
+        (alarm.time - 30.0).abs() < 0.1 && (alarm.reported - 33.0).abs() < 0.1,
+        "{alarm:?}"
+    );
+}
