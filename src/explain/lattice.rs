@@ -12,9 +12,6 @@ use super::stretch::Stretch;
 use super::trips::{Motion, Motions};
 use std::ops::Range;
 
-/// An edge dearer than the usual explanation by this much cannot matter.
-const HOPELESS: f64 = 12.0;
-
 /// What an edge says of its pulses.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Part {
@@ -146,10 +143,6 @@ impl Lattice {
         let forwards = Motions::new(stretch);
         let mut add = |motion: Motion, is_open: bool, is_reversed: bool| {
             let pulses = motion.pulses.clone();
-            let motions = if is_reversed { &reversed } else { &forwards };
-            if motions.excess(pulses.clone(), motion.cost) > HOPELESS {
-                return;
-            }
             let is_up = motion.top > 0.0;
             let (from, to) = match (is_open, is_reversed) {
                 (false, _) => (section.rest(pulses.start), section.rest(pulses.end)),

@@ -10,10 +10,12 @@ use std::collections::VecDeque;
 use std::ops::Range;
 
 /// The most partial motions kept at a pulse.
-const WIDTH: usize = 48;
+const WIDTH: usize = 32;
 
-/// A motion costs at most this much more than the usual explanation before it is given up.
-const HOPELESS: f64 = 60.0;
+/// A motion is given up that costs this much more than the usual explanation of its pulses up to here, and up to each of
+/// so many more: it may end at one that is dear to explain otherwise.
+const HOPELESS: f64 = 12.0;
+const AHEAD: usize = 6;
 
 /// A motion is followed over so many pulses: one that is shaken more than that is left undecided.
 const MOST_FOLLOWED: usize = 120;
@@ -105,29 +107,22 @@ impl<'a> Motions<'a> {
         usual
     }
 
-    /// How much dearer than the usual explanation of its pulses a motion is.
-    pub fn excess(&self, pulses: Range<usize>, cost: f64) -> f64 {
-        let (start, end) = if self.stretch.is_reversed {
-            (
-                self.stretch.pulses.len() - pulses.end,
-                self.stretch.pulses.len() - pulses.start,
-            )
-        } else {
-            (pulses.start, pulses.end)
-        };
-        cost - (self.usual[end] - self.usual[start])
-    }
-
-    /// The motions that begin with a pulse: those that end within the stretch, and those that go on.
+    /// The motions that begin with a pulse: those that end within the stretch, and those that go on. One much
+    /// dearer than the usual explanation of its pulses cannot matter.
     pub fn of(&self, first: usize, take: &mut impl FnMut(Motion, bool)) {
-        let most = |first: usize, pulse: usize| self.usual[pulse] - self.usual[first] + HOPELESS;
+        let most = |first: usize, pulse: usize| {
+            let ends = &self.usual[pulse..=(pulse + AHEAD).min(self.stretch.pulses.len())];
+            ends.iter().copied().fold(0.0, f64::max) - self.usual[first] + HOPELESS
+        };
         let far = self.stretch.pulses.len().min(first + MOST_FOLLOWED);
         self.follow(
             first,
             far,
             most,
             &mut |motion, cost, last, is_open, changes| {
-                take(self.motion(motion, cost, first..last + 1, changes), is_open);
+                if cost - (self.usual[last + 1] - self.usual[first]) <= HOPELESS {
+                    take(self.motion(motion, cost, first..last + 1, changes), is_open);
+                }
             },
         );
     }
