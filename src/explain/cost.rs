@@ -19,6 +19,8 @@ pub struct Prior {
     pub gain_error: f64,
     /// Whether the record begins at rest, if that is known.
     pub begins_at_rest: Option<bool>,
+    /// Whether it is cut out of a longer one, so that both its ends may as well lie in motion.
+    pub is_excerpt: bool,
 }
 
 impl Default for Prior {
@@ -29,6 +31,7 @@ impl Default for Prior {
             longest_motion: 900.0,
             gain_error: 0.03,
             begins_at_rest: None,
+            is_excerpt: false,
         }
     }
 }
@@ -39,11 +42,19 @@ pub const TRIP: f64 = 1.0;
 /// A motion that began before the record, or goes on after it.
 pub const OPEN: f64 = 3.0;
 
-/// A start or a stop within a hole: usually, less in one longer than a few seconds, twice as much in one that can hardly
-/// hide it, s.
+/// The record is cut out of a longer one: once, and either end, in motion or at rest. One in twenty is.
+pub const EXCERPT: f64 = 3.0;
+pub const EITHER: f64 = 0.7;
+
+/// A start or a stop within a hole: usually, less in one longer than a few seconds, more in one that can hardly hide a
+/// change of speed, which takes this long, s.
 pub const IN_HOLE: f64 = 1.5;
 const LONG_HOLE: f64 = 20.0;
-const SHORT_HOLE: f64 = 1.0;
+const CHANGE: f64 = 2.0;
+const MOST_IN_HOLE: f64 = 3.0 * IN_HOLE;
+
+/// A pulse that an end of a stretch cuts off is over just there.
+pub const CUT_OFF: f64 = 1.75;
 
 /// A motion that goes on across a hole: once, and for every so many seconds beyond the first few.
 pub const ACROSS_HOLE: f64 = 0.3;
@@ -115,17 +126,18 @@ pub fn closing(speed: f64, tolerance: f64) -> f64 {
 
 /// A start or a stop within a hole of so many seconds.
 pub fn in_hole(seconds: f64) -> f64 {
-    if seconds < SHORT_HOLE {
-        2.0 * IN_HOLE
-    } else {
-        log1p(LONG_HOLE / seconds).min(IN_HOLE)
-    }
+    let usual = log1p(LONG_HOLE / seconds).min(IN_HOLE);
+    (usual * (1.0 + (CHANGE / seconds).powi(4))).min(MOST_IN_HOLE)
 }
 
 /// A stop and the next start within one hole.
 pub fn stopover(seconds: f64) -> f64 {
     2.0 * in_hole(seconds) + (STOPOVER / seconds).powi(2).min(ABSURD)
 }
+
+/// A second stage of acceleration follows the first within this time, s, and costs this much more later.
+pub const LATE: f64 = 10.0;
+pub const LATE_STAGE: f64 = 4.0;
 
 /// A second stage of acceleration, `gap` seconds after the first.
 pub fn acceleration_stage(gap: f64) -> f64 {
@@ -144,6 +156,15 @@ impl Prior {
         }
         let long = (seconds - FEW).max(0.0) / MOTION_LASTS;
         (ACROSS_HOLE + long).min(ABSURD)
+    }
+
+    /// What the ends of the record cost: once, and each at rest and in motion.
+    pub fn ends(&self) -> (f64, f64, f64) {
+        if self.is_excerpt {
+            (EXCERPT, EITHER, EITHER)
+        } else {
+            (0.0, 0.0, OPEN)
+        }
     }
 
     /// The standard deviation of a sum of changes of speed, m/s.

@@ -25,7 +25,15 @@ pub struct Stretch<'a> {
 impl<'a> Stretch<'a> {
     /// In the order of the record; `begin` and `end` in s.
     pub fn new(prior: &'a Prior, pulses: &[Pulse], (begin, end): (f64, f64)) -> Self {
-        let turned = pulses.iter().map(|pulse| Turned::new(prior, pulse));
+        let turned = pulses.iter().map(|pulse| {
+            let mut turned = Turned::new(prior, pulse);
+            // Whoever starts or stops a recording may shake or turn the sensor.
+            let is_handled = turned.violent > 0.0 || pulse.shift != 0.0;
+            if !is_handled && (pulse.from <= begin || pulse.to >= end) {
+                turned.ignored += cost::CUT_OFF;
+            }
+            turned
+        });
         Self::of(prior, turned.collect(), (begin, end), false)
     }
 
@@ -58,6 +66,26 @@ impl<'a> Stretch<'a> {
         self.pulses[pulse].ignored
     }
 
+    /// Whether the stretch begins with a pulse, or ends with one: then it cuts the pulse off.
+    fn begins_with(&self, pulse: &Turned) -> bool {
+        pulse.from <= self.begin
+    }
+
+    fn ends_with(&self, pulse: &Turned) -> bool {
+        pulse.to >= self.end
+    }
+
+    /// The cost of a pulse that a motion goes past on its way through the stretch: one that is cut off may be the end or the
+    /// beginning of a change of its speed.
+    pub fn passed(&self, index: usize) -> f64 {
+        let pulse = &self.pulses[index];
+        if self.begins_with(pulse) || self.ends_with(pulse) {
+            pulse.ignored.min(cost::STAGE)
+        } else {
+            pulse.ignored
+        }
+    }
+
     /// The disturbances that begin with a pulse: the pulse after, and the cost.
     pub fn disturbances(&self, first: usize) -> impl Iterator<Item = (usize, f64)> + Clone + '_ {
         let costs = self.disturbances[first].iter().copied();
@@ -68,7 +96,11 @@ impl<'a> Stretch<'a> {
     pub fn start(&self, first: usize) -> Option<Progress> {
         let pulse = &self.pulses[first];
         let is_strong = pulse.change.abs() >= self.prior.least_speed / 8.0;
-        is_strong.then(|| Progress::start(pulse))
+        let mut start = Progress::start(pulse);
+        if self.begins_with(pulse) {
+            start.cost += cost::CUT_OFF;
+        }
+        is_strong.then_some(start)
     }
 
     /// The motion after pulses that together change its speed.
@@ -76,6 +108,10 @@ impl<'a> Stretch<'a> {
         let mut changed = motion.changed(&self.pulses[pulses.clone()]);
         if self.is_half(pulses.end) {
             changed.cost += cost::HALF;
+        }
+        let pause = self.pulses[pulses.start].from - motion.since;
+        if changed.speed.abs() > motion.speed.abs() && pause > cost::LATE {
+            changed.cost += cost::LATE_STAGE;
         }
         changed
     }
@@ -92,9 +128,12 @@ impl<'a> Stretch<'a> {
             && after.change.abs() > 0.3 * before.change.abs()
     }
 
-    /// A motion that goes on after a change.
-    pub fn going_on(&self, changed: Progress, before: &Progress) -> Progress {
-        let stage = if self.is_reversed {
+    /// A motion that goes on after a change by the pulses before `next`. Reversed, a stage of braking is a second one of
+    /// acceleration, unless the record begins within the first.
+    pub fn going_on(&self, changed: Progress, before: &Progress, next: usize) -> Progress {
+        let stage = if self.ends_with(&self.pulses[next - 1]) {
+            0.0
+        } else if self.is_reversed {
             cost::acceleration_stage(f64::INFINITY) / 2.0
         } else {
             cost::STAGE
@@ -105,7 +144,12 @@ impl<'a> Stretch<'a> {
     /// What a motion costs that ends with a pulse.
     pub fn closed(&self, motion: &Progress, first: usize, last: usize) -> f64 {
         let seconds = self.pulses[last].to - self.pulses[first].from;
-        motion.closed(self.prior, seconds)
+        let cut_off = if self.ends_with(&self.pulses[last]) {
+            cost::CUT_OFF
+        } else {
+            0.0
+        };
+        motion.closed(self.prior, seconds) + cut_off
     }
 
     /// What a motion costs that goes on at the end.

@@ -73,10 +73,18 @@ pub struct Motions<'a> {
 }
 
 impl<'a> Motions<'a> {
-    pub fn new(stretch: Stretch<'a>) -> Self {
+    /// Those of a stretch, with which the record begins or not.
+    pub fn new(stretch: Stretch<'a>, is_first: bool) -> Self {
         let usual = Vec::new();
         let mut motions = Self { stretch, usual };
         motions.usual = motions.usual();
+        if is_first {
+            // The first pulses may end a motion that began before the record: none costs more than with those after it.
+            let count = motions.stretch.pulses.len();
+            for first in (0..SHORT_TRIP.min(count)).rev() {
+                motions.usual[first] = motions.usual[first].min(motions.usual[first + 1]);
+            }
+        }
         motions
     }
 
@@ -177,7 +185,7 @@ impl<'a> Motions<'a> {
                     let changed = Listed { progress, latest };
                     let cost = self.stretch.closed(&progress, first, after - 1);
                     take(&changed, cost, after - 1, false, &changes);
-                    let progress = self.stretch.going_on(progress, &motion.progress);
+                    let progress = self.stretch.going_on(progress, &motion.progress, after);
                     wait(after, Listed { progress, latest });
                 }
             }
@@ -284,7 +292,7 @@ mod tests {
                 let changed = stretch.changed(&motion, next..after);
                 let closed = stretch.closed(&changed, first, after - 1);
                 note((after, false), closed);
-                waiting.push((stretch.going_on(changed, &motion), after));
+                waiting.push((stretch.going_on(changed, &motion, after), after));
             }
         }
         best
@@ -298,7 +306,7 @@ mod tests {
             let end = pulses.last().map_or(0.0, |pulse| pulse.to + 3.0);
             let forwards = Stretch::new(&prior, &pulses, (0.0, end));
             for stretch in [forwards.reversed(), forwards] {
-                let motions = Motions::new(stretch);
+                let motions = Motions::new(stretch, true);
                 let stretch = &motions.stretch;
                 for first in 0..pulses.len() {
                     let mut found = BTreeMap::new();
