@@ -146,6 +146,7 @@ impl Track {
             if is_up != it.is_up || fast.abs() < ONSET * least.0 {
                 *it = Excursion {
                     from: block.from,
+                    to: block.from,
                     is_up,
                     ..Excursion::default()
                 };
@@ -161,7 +162,8 @@ impl Track {
             let is_within = if it.is_strong {
                 sign * fast <= least.0.max(PLATEAU * it.most)
             } else {
-                sign * slow <= 0.5 * least.1
+                // A shock, which the longer mean remembers, may have begun it.
+                sign * slow <= 0.5 * least.1 || sign * fast < -least.0
             };
             it.foot = if is_within {
                 it.foot + block.seconds
@@ -212,6 +214,7 @@ impl Track {
         self.excursion = Excursion {
             is_up: !self.excursion.is_up,
             from: now,
+            to: now,
             ..Excursion::default()
         };
     }

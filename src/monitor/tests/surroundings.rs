@@ -90,3 +90,44 @@ fn a_drum_that_turns_without_the_cage_is_an_alarm() {
         "{alarm:?}"
     );
 }
+
+/// A shock while the cage starts or brakes, of any strength and at any moment, never makes it rest in motion.
+#[test]
+fn a_shock_on_a_start_or_a_braking_hides_neither() {
+    for (strength, offset, pulse) in itertools::iproduct!(
+        [-60.0, -30.0, -12.0, -6.0, 6.0, 12.0, 30.0],
+        [0.1, 0.5, 0.9, 1.3, 1.7],
+        [8.0, 18.0]
+    ) {
+        let record = Record::quiet()
+            .rest(8.0)
+            .trip(1.0)
+            .rest(8.0)
+            .trip(-1.0)
+            .rest(8.0);
+        let mut monitor = standing();
+        let shock = pulse + offset;
+        for (i, acceleration) in record.samples.iter().enumerate() {
+            let time = i as f64 / RATE;
+            let hit = if (shock..shock + 0.035).contains(&time) {
+                strength
+            } else {
+                0.0
+            };
+            monitor.step(
+                Sample {
+                    time,
+                    acceleration: acceleration + hit,
+                },
+                None,
+            );
+            let moves = [8.6..19.4, 28.6..39.4]
+                .iter()
+                .any(|trip| trip.contains(&time));
+            assert!(
+                !(moves && monitor.state() == REST),
+                "a shock of {strength} m/s² at {shock} s: rest at {time} s"
+            );
+        }
+    }
+}
