@@ -138,7 +138,9 @@ impl Hypothesis {
     ) {
         let total: f64 = pulses.iter().map(|pulse| pulse.change).sum();
         if let Cage::Moves(progress) = self.cage
-            && (pulses.iter()).all(|it| prices::is_ripple(progress.speed, it.change))
+            && prices::is_ripple(progress.speed, total)
+            && (pulses.iter())
+                .all(|it| it.is_shock() || prices::is_ripple(progress.speed, it.change))
         {
             let variance = progress.variance + total * total / 2.0;
             return take(Self {

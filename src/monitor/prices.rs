@@ -72,7 +72,7 @@ const RIPPLE: (f64, f64) = (0.08, 0.1);
 
 /// By how much better a motion must be excluded that is faster than the least speed, m/s, by this; and all beyond the
 /// least speed where the record is not well explained.
-const FAST: (f64, f64) = (4.0, 0.5);
+const FAST: (f64, f64) = (3.5, 0.5);
 pub const STRAINED: f64 = 2.0;
 
 /// By how much better motions must be excluded that go back to one that was not seen to begin: one trip read backwards

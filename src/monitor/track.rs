@@ -202,7 +202,9 @@ impl Track {
             self.noise.slow += share * (1.25 * slow.abs() - self.noise.slow);
         }
         if let Some(settled) = settled.filter(|_| self.quiet > SETTLED + 1.0) {
-            self.level += (seconds / FOLLOWS).min(1.0) * (settled - self.level);
+            // What is as far away as a shock is not of the level.
+            let away = (settled - self.level).clamp(-FAST.1, FAST.1);
+            self.level += (seconds / FOLLOWS).min(1.0) * away;
         }
     }
 
