@@ -112,7 +112,8 @@ fn high_pass(cut: &Cut, prior: &Prior) -> Option<HighPass> {
     let best_of = |filters: Vec<HighPass>| {
         let costs = filters.into_iter().filter_map(|filter| {
             let record = filter.undone(cut, prior);
-            if record.pulses.len() > most {
+            let is_hopeless = OFF_LEVEL * record.level.cost + HIGH_PASS >= plain.cost();
+            if record.pulses.len() > most || is_hopeless {
                 return None;
             }
             let restored = Explained::of(record, &filter.prior(prior));
