@@ -68,7 +68,25 @@ impl<'a> Stretch<'a> {
     pub fn start(&self, first: usize) -> Option<Progress> {
         let pulse = &self.pulses[first];
         let is_strong = pulse.change.abs() >= self.prior.least_speed / 8.0;
-        is_strong.then(|| Progress::start(pulse))
+        let mut start = Progress::start(pulse);
+        // Reversed, the start is the stop.
+        if self.is_reversed {
+            start.cost += self.unfinished(first);
+        }
+        is_strong.then_some(start)
+    }
+
+    /// What it costs to stop with a pulse that goes on beside the next one: a shift of the level that is taken for a change
+    /// of speed.
+    fn unfinished(&self, pulse: usize) -> f64 {
+        let here = &self.pulses[pulse];
+        let goes_on = if self.is_reversed {
+            pulse > 0 && self.pulses[pulse - 1].to > here.from
+        } else {
+            let next = self.pulses.get(pulse + 1);
+            next.is_some_and(|next| next.from < here.to)
+        };
+        if goes_on { cost::ABSURD } else { 0.0 }
     }
 
     /// The motion after pulses that together change its speed.
@@ -105,7 +123,12 @@ impl<'a> Stretch<'a> {
     /// What a motion costs that ends with a pulse.
     pub fn closed(&self, motion: &Progress, first: usize, last: usize) -> f64 {
         let seconds = self.pulses[last].to - self.pulses[first].from;
-        motion.closed(self.prior, seconds)
+        let unfinished = if self.is_reversed {
+            0.0
+        } else {
+            self.unfinished(last)
+        };
+        motion.closed(self.prior, seconds) + unfinished
     }
 
     /// What a motion costs that goes on at the end.
