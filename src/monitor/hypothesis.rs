@@ -104,8 +104,11 @@ impl Hypothesis {
         } else {
             0.0
         };
-        let guess = if self.is_guess { prices::GUESS } else { 0.0 };
-        guess.max(fast + strained)
+        if self.is_guess {
+            strained.max(prices::GUESS)
+        } else {
+            strained + fast
+        }
     }
 
     /// The motion that a pulse begins, if it is strong enough.
