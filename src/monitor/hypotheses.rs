@@ -175,16 +175,9 @@ fn under_shocks(known: &Known, pulses: &[Turned]) -> Option<(Turned, f64)> {
     let change = sum(false, |it| it.change);
     let seconds = |shocks| sum(shocks, |it| it.to - it.from);
     let hidden = change / seconds(false) * seconds(true);
-    let pulse = Pulse {
-        blocks: 0..0,
-        from: pulses[0].from,
-        to: pulses[pulses.len() - 1].to,
-        change: change + hidden,
-        deviation: libm::hypot(sum(false, |it| it.variance).sqrt(), hidden / 2.0),
-        is_violent: false,
-        is_swing: false,
-        shift: 0.0,
-    };
+    let span = (pulses[0].from, pulses[pulses.len() - 1].to);
+    let deviation = libm::hypot(sum(false, |it| it.variance).sqrt(), hidden / 2.0);
+    let pulse = Pulse::passing(span, change + hidden, deviation);
     Some((Turned::new(&known.prior, &pulse), SHOCK * shocks as f64))
 }
 

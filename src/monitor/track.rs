@@ -236,14 +236,8 @@ impl Track {
         let is_pulse = it.change.abs() > LEAST_CHANGE.max(LEAST_DEVIATIONS * deviation) || is_shock;
         is_pulse.then(|| {
             let pulse = Pulse {
-                blocks: 0..0,
-                from: it.from,
-                to: it.to,
-                change: it.change,
-                deviation: libm::hypot(deviation, shock),
                 is_violent: is_shock,
-                is_swing: false,
-                shift: 0.0,
+                ..Pulse::passing((it.from, it.to), it.change, libm::hypot(deviation, shock))
             };
             // A shock does not excuse the braking that it is part of.
             let is_violent = is_shock && it.seconds < LONGEST_SHOCK;
