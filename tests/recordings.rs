@@ -24,6 +24,8 @@ struct Stated {
     stop: Option<f64>,
     direction: Direction,
     tolerance: f64,
+    /// How far it goes, m, up positive, and the tolerance.
+    distance: Option<(f64, f64)>,
 }
 
 /// A recording in memory.
@@ -73,6 +75,30 @@ impl Known {
         }
         Ok(worst)
     }
+
+    /// The largest error of a distance, as a share of its tolerance. Of a ride that may have begun before the record
+    /// the first speed is not known.
+    fn worst_distance(&self, found: &Detection) -> f64 {
+        let position = |time: f64| {
+            let columns = found.trace.columns();
+            let column = columns.partition_point(|column| column.times.1 < time);
+            let (low, high) = columns[column.min(columns.len() - 1)].position;
+            f64::midpoint(low, high)
+        };
+        let error = |stated: &Stated| {
+            let (distance, tolerance) = stated.distance?;
+            let is_whole = stated.start? - stated.tolerance > self.samples[0].time;
+            let is_it = |trip: &&Trip| {
+                let starts = trip.start.zip(stated.start);
+                starts.is_some_and(|(a, b)| (a - b).abs() <= stated.tolerance)
+            };
+            let trip = found.trips.iter().find(is_it)?;
+            let gone = position(trip.stop?) - position(trip.start?);
+            println!("{:40} {gone:.2} m, {distance} stated", self.name);
+            is_whole.then_some((gone - distance).abs() / tolerance)
+        };
+        self.trips.iter().filter_map(error).fold(0.0, f64::max)
+    }
 }
 
 /// The recordings of the table, by their files, if available; those that the program was chosen on.
@@ -98,6 +124,7 @@ fn real() -> Vec<Known> {
                 Direction::Down
             },
             tolerance: number("tolerance_s").expect("a tolerance"),
+            distance: number("distance").zip(number("tolerance_m")),
         }));
     }
     assert!(!files.is_empty(), "the table has rows");
@@ -125,6 +152,8 @@ fn real_rides_are_found_where_they_are_stated() {
             recording.name,
             recording.trips.len()
         );
+        let distance = recording.worst_distance(&found);
+        assert!(distance <= 1.0, "{}: {distance}", recording.name);
         assert_eq!(
             found.high_pass.is_some(),
             recording.name.contains("highpassed"),
@@ -368,6 +397,7 @@ fn simulated(case: &Case) -> Known {
             Direction::Down
         },
         tolerance: TOLERANCE,
+        distance: None,
     };
     Known {
         name: case.name.to_owned(),
@@ -611,6 +641,7 @@ fn a_levelling_lift_has_not_stopped() {
             stop: Some(stop),
             direction: Direction::Up,
             tolerance: 0.3,
+            distance: None,
         }],
     };
     let found = known.detect(&Settings::default());

@@ -90,7 +90,8 @@ pub struct Setup {
 pub fn check_strength(acceleration: f64) -> anyhow::Result<()> {
     if acceleration.abs() > STRONGEST {
         return Err(anyhow!(
-            "accelerations must lie within {STRONGEST} m/s^2, got {acceleration} (are they in another unit?)"
+            "accelerations must lie within {STRONGEST} m/s^2, got {acceleration} (give the unit: --unit g, mg, or \
+             counts with --scale)"
         ));
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! The x axis: one key and the values it takes, as a list or as `{ from, to, step }`.
 
-use super::read::Refusal;
+use super::refusal::Refusal;
 use super::source::Conflict;
 use super::tree::{Node, Value};
 use crate::suggest::among;

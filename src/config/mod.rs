@@ -3,11 +3,12 @@
 
 mod axis;
 mod read;
+mod refusal;
 mod source;
 mod tree;
 
 pub use axis::{Axis, AxisValue};
-pub use read::Refusal;
+pub use refusal::Refusal;
 pub use source::{ConfigError, Conflict, Source};
 pub use tree::{Node, Table, Value};
 

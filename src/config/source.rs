@@ -1,6 +1,6 @@
 //! A config's text, and errors that point into it: file, line and column, the problem and the remedy.
 
-use super::read::Refusal;
+use super::refusal::Refusal;
 use super::tree::Node;
 use crate::rule::OutOfRange;
 use serde::de::DeserializeOwned;

@@ -160,11 +160,13 @@ impl Lattice {
         };
         for first in 0..section.pulses.len() {
             forwards.of(first, &mut |motion, is_open| add(motion, is_open, false));
-            reversed.of(first, &mut |motion, is_open| {
-                if is_open {
-                    add(motion, true, true);
-                }
-            });
+            if reversed.reach_the_end(first) {
+                reversed.of(first, &mut |motion, is_open| {
+                    if is_open {
+                        add(motion, true, true);
+                    }
+                });
+            }
         }
         for is_up in [true, false] {
             let part = Part::Through(section.pulses.clone());

@@ -43,8 +43,10 @@ use restore::HighPass;
 /// A record is hardly ever at its level where more than this share of its windows is off it.
 const OFTEN: f64 = 0.25;
 
-/// A restored record with more than so many times the pulses is none.
+/// A restored record with more than so many times the pulses is none; nor is a filter found in a part with more than
+/// these, a pulse every three seconds.
 const MORE_PULSES: usize = 3;
+const MOST_PULSES: usize = 100;
 
 /// A high-pass filter must explain a record better by this much.
 const HIGH_PASS: f64 = 4.0;
@@ -108,11 +110,16 @@ impl Explanation {
 /// The high-pass filter that explains a record clearly better than none.
 fn high_pass(cut: &Cut, prior: &Prior) -> Option<HighPass> {
     let plain = Explained::plain(cut, prior);
-    let most = MORE_PULSES * (plain.record.pulses.len() + 10);
+    let pulses = plain.record.pulses.len();
+    if pulses > MOST_PULSES {
+        return None;
+    }
+    let most = MOST_PULSES.min(MORE_PULSES * (pulses + 10));
     let best_of = |filters: Vec<HighPass>| {
         let costs = filters.into_iter().filter_map(|filter| {
             let record = filter.undone(cut, prior);
-            if record.pulses.len() > most {
+            let is_hopeless = OFF_LEVEL * record.level.cost + HIGH_PASS >= plain.cost();
+            if record.pulses.len() > most || is_hopeless {
                 return None;
             }
             let restored = Explained::of(record, &filter.prior(prior));

@@ -38,6 +38,11 @@ impl Turned {
         }
     }
 
+    /// Whether it is stronger than any acceleration of a lift.
+    pub fn is_shock(&self) -> bool {
+        self.violent > 0.0
+    }
+
     /// With time reversed.
     pub fn reversed(&self) -> Self {
         Self {

@@ -64,6 +64,20 @@ pub struct Pulse {
 }
 
 impl Pulse {
+    /// A plain change of speed of a record that is not kept, from a time to another, s, with its deviation, m/s.
+    pub fn passing((from, to): (f64, f64), change: f64, deviation: f64) -> Self {
+        Self {
+            blocks: 0..0,
+            from,
+            to,
+            change,
+            deviation,
+            is_violent: false,
+            is_swing: false,
+            shift: 0.0,
+        }
+    }
+
     /// s
     pub fn seconds(&self) -> f64 {
         self.to - self.from

@@ -167,7 +167,9 @@ impl Record {
             speeds[turn + 1],
             motion.speed,
         );
+        let next = &self.pulses[motion.changes[turn + 1]];
         let time = self.zero_of(&self.pulses[pulse], speeds[turn]);
+        let time = time.min(next.from);
         let (mut first, mut second) = (self.trip(&first, before), self.trip(&second, speeds[turn]));
         (first.stop, second.start) = (Some(time), Some(time));
         vec![first, second]
@@ -199,15 +201,20 @@ impl Record {
         let after = |place: usize| speeds.iter().skip(place).position(|speed| !is_fast(speed));
         let slow = after(fast).map(|count| fast + count);
         let change = |place: usize| &self.pulses[motion.changes[place]];
+        // A shift of the level may go on beside other changes, which end what it began.
+        let end = |place: usize| {
+            let next = (place + 1 < motion.changes.len()).then(|| change(place + 1).from);
+            change(place).to.min(next.unwrap_or(f64::INFINITY))
+        };
         let (first, last) = (change(0), change(motion.changes.len() - 1));
         let levels = slow.filter(|place| motion.is_open.1 || *place < motion.changes.len());
         Trip {
             is_up: motion.top > 0.0,
             start: (!motion.is_open.0 && !self.is_cut_off(first, first.blocks.start, top))
-                .then(|| self.leaves_zero(first)),
-            inertial: fast.checked_sub(1).map(|place| change(place).to),
+                .then(|| self.leaves_zero(first).min(end(0))),
+            inertial: fast.checked_sub(1).map(end),
             braking: slow.map(|place| change(place - 1).from),
-            levelling: levels.map(|place| change(place - 1).to),
+            levelling: levels.map(|place| end(place - 1)),
             stop: (!motion.is_open.1 && !self.is_cut_off(last, last.blocks.end, top))
                 .then(|| self.reaches_zero(last)),
             speed: top,

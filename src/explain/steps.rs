@@ -45,18 +45,25 @@ pub fn path(
     let step = STEP.max((greatest - least) / MOST_POINTS);
     let points = ((greatest - least) / step).ceil() as usize + 1;
     let value = |point: usize| least + point as f64 * step;
+    let values: Vec<f64> = (0..points).map(value).collect();
+    let far: Vec<f64> = (values.iter())
+        .map(|value| pull * (value - mean).abs() / 0.1)
+        .collect();
     let mut totals = vec![0.0; points];
     let mut origins: Vec<Vec<u16>> = Vec::new();
+    let mut off = vec![0.0; points];
     for windows in means.chunks(group) {
-        let origin = origins_of(&totals, costs);
-        totals = (0..points)
-            .map(|point| {
-                let from = usize::from(origin[point]);
-                let far = pull * (value(point) - mean).abs() / 0.1;
-                let off = |mean: &f64| far + ((mean - value(point)) / width).powi(2).min(1.0);
-                totals[from] + costs.of(from, point) + windows.iter().map(off).sum::<f64>()
-            })
-            .collect();
+        // Window by window, so that neighbouring points are computed side by side.
+        off.fill(0.0);
+        for mean in windows {
+            for ((off, value), far) in off.iter_mut().zip(&values).zip(&far) {
+                *off += far + ((mean - value) / width).powi(2).min(1.0);
+            }
+        }
+        let (origin, before) = origins_of(&totals, costs);
+        for ((total, before), off) in totals.iter_mut().zip(before).zip(&off) {
+            *total = before + off;
+        }
         origins.push(origin);
     }
     let mut point = cheapest(&totals);
@@ -69,28 +76,32 @@ pub fn path(
     (path, cost)
 }
 
-/// The cheapest point before each: itself or a neighbour, the best of those near enough for a jump by steps, or the
-/// cheapest of all.
-fn origins_of(totals: &[f64], costs: Costs) -> Vec<u16> {
+/// The cheapest point before each, and what it costs to come from there: itself or a neighbour, the best of those near
+/// enough for a jump by steps, or the cheapest of all.
+fn origins_of(totals: &[f64], costs: Costs) -> (Vec<u16>, Vec<f64>) {
     let last = totals.len() - 1;
     let cheapest = cheapest(totals);
     let by_steps = |from: usize, to: usize| totals[from] + costs.step * from.abs_diff(to) as f64;
     let mut stepped: Vec<usize> = (0..totals.len()).collect();
-    let order = (1..=last).map(|point| (point, point - 1));
-    for (point, beside) in order.clone().chain(order.rev().map(|(a, b)| (b, a))) {
+    let mut spread = |point: usize, beside: usize| {
         if by_steps(stepped[beside], point) < by_steps(stepped[point], point) {
             stepped[point] = stepped[beside];
         }
-    }
-    let origin = |point: usize| {
-        let near = point.saturating_sub(1)..=(point + 1).min(last);
-        let candidates = near.chain([stepped[point], cheapest]);
-        let cost = |from: &usize| totals[*from] + costs.of(*from, point);
-        candidates
-            .min_by(|a, b| cost(a).total_cmp(&cost(b)))
-            .unwrap_or(point) as u16
     };
-    (0..totals.len()).map(origin).collect()
+    (1..=last).for_each(|point| spread(point, point - 1));
+    (1..=last).rev().for_each(|point| spread(point - 1, point));
+    let origin = |point: usize| {
+        let near = [point.saturating_sub(1), point, (point + 1).min(last)];
+        let mut best = (near[0] as u16, f64::INFINITY);
+        for from in near.into_iter().chain([stepped[point], cheapest]) {
+            let cost = totals[from] + costs.of(from, point);
+            if cost < best.1 {
+                best = (from as u16, cost);
+            }
+        }
+        best
+    };
+    (0..totals.len()).map(origin).unzip()
 }
 
 fn cheapest(totals: &[f64]) -> usize {

@@ -100,7 +100,24 @@ impl<'a> Stretch<'a> {
         if self.begins_with(pulse) {
             start.cost += cost::CUT_OFF;
         }
+        // Reversed, the start is the stop.
+        if self.is_reversed {
+            start.cost += self.unfinished(first);
+        }
         is_strong.then_some(start)
+    }
+
+    /// What it costs to stop with a pulse that goes on beside the next one: a shift of the level that is taken for a change
+    /// of speed.
+    fn unfinished(&self, pulse: usize) -> f64 {
+        let here = &self.pulses[pulse];
+        let goes_on = if self.is_reversed {
+            pulse > 0 && self.pulses[pulse - 1].to > here.from
+        } else {
+            let next = self.pulses.get(pulse + 1);
+            next.is_some_and(|next| next.from < here.to)
+        };
+        if goes_on { cost::ABSURD } else { 0.0 }
     }
 
     /// The motion after pulses that together change its speed.
@@ -149,7 +166,12 @@ impl<'a> Stretch<'a> {
         } else {
             0.0
         };
-        motion.closed(self.prior, seconds) + cut_off
+        let unfinished = if self.is_reversed {
+            0.0
+        } else {
+            self.unfinished(last)
+        };
+        motion.closed(self.prior, seconds) + cut_off + unfinished
     }
 
     /// What a motion costs that goes on at the end.

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::recording::Sample;
+use proptest::prelude::*;
 use std::f64::consts::TAU;
 
 /// Jerk, acceleration and speed of the ride, in SI units; its start and stop, s.
@@ -165,5 +166,37 @@ fn a_wrong_beginning_is_seen() {
                 "{rests} {said:?}"
             );
         }
+    }
+}
+
+/// Stretches at 5 Hz: how long, s, and the acceleration in each. Weak and long ones may be shifts of the level.
+fn stretches() -> impl Strategy<Value = Vec<(f64, f64)>> {
+    let acceleration = prop::sample::select(vec![
+        0.0, 0.0, 0.0, 0.03, -0.03, 0.06, -0.06, 0.12, -0.12, 0.3, -0.3, 1.0, -1.0, 3.0, -3.0,
+    ]);
+    prop::collection::vec((0.2..8.0f64, acceleration), 1..40)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { rng_seed: prop::test_runner::RngSeed::Fixed(2014), cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Whatever a record holds, the phases of a trip are in order, and no trip begins before the one before it ends.
+    #[test]
+    fn a_trip_follows_another(stretches in stretches(), noise in prop::sample::select(vec![0.0, 0.02])) {
+        let mut samples: Vec<Sample> = Vec::new();
+        for (seconds, acceleration) in stretches {
+            for _ in 0..(5.0 * seconds) as u32 {
+                let number = samples.len() as u32;
+                let draw = f64::from(number.wrapping_mul(2_654_435_761) >> 16) / 65536.0 - 0.5;
+                let acceleration = acceleration + noise * draw;
+                samples.push(Sample { time: f64::from(number) / 5.0, acceleration });
+            }
+        }
+        let found = Explanation::of(&Cut::new(&samples, 1, 0.2), &Prior::default());
+        let times = found.reading.trips.iter().flat_map(|trip| {
+            [trip.start, trip.inertial, trip.braking, trip.levelling, trip.stop]
+        });
+        let times: Vec<f64> = times.flatten().collect();
+        prop_assert!(times.is_sorted(), "{:?}", found.reading.trips);
     }
 }

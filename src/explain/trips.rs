@@ -6,7 +6,7 @@
 
 use super::progress::Progress;
 use super::stretch::Stretch;
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::ops::Range;
 
 /// The most partial motions kept at a pulse.
@@ -105,7 +105,7 @@ impl<'a> Motions<'a> {
                 first,
                 far,
                 |_, _| f64::INFINITY,
-                &mut |_, cost, last, is_open, _| {
+                &mut |_, cost, last, is_open| {
                     if !is_open {
                         note(last + 1, cost);
                     }
@@ -115,37 +115,50 @@ impl<'a> Motions<'a> {
         usual
     }
 
-    /// The motions that begin with a pulse: those that end within the stretch, and those that go on. One much
-    /// dearer than the usual explanation of its pulses cannot matter.
+    /// The motions that begin with a pulse: those that end within the stretch, and those that go on; of those over the
+    /// same pulses the cheapest. One much dearer than the usual explanation of its pulses cannot matter.
     pub fn of(&self, first: usize, take: &mut impl FnMut(Motion, bool)) {
         let most = |first: usize, pulse: usize| {
             let ends = &self.usual[pulse..=(pulse + AHEAD).min(self.stretch.pulses.len())];
             ends.iter().copied().fold(0.0, f64::max) - self.usual[first] + HOPELESS
         };
         let far = self.stretch.pulses.len().min(first + MOST_FOLLOWED);
-        self.follow(
-            first,
-            far,
-            most,
-            &mut |motion, cost, last, is_open, changes| {
-                if cost - (self.usual[last + 1] - self.usual[first]) <= HOPELESS {
-                    take(self.motion(motion, cost, first..last + 1, changes), is_open);
-                }
-            },
-        );
+        // By where they end: which was found when, its cost, and the motion.
+        let mut cheapest: BTreeMap<(usize, bool), (usize, f64, Listed)> = BTreeMap::new();
+        let mut found = 0;
+        let changes = self.follow(first, far, most, &mut |motion, cost, last, is_open| {
+            found += 1;
+            let known = cheapest.get(&(last, is_open));
+            if cost - (self.usual[last + 1] - self.usual[first]) <= HOPELESS
+                && known.is_none_or(|known| cost < known.1)
+            {
+                cheapest.insert((last, is_open), (found, cost, *motion));
+            }
+        });
+        let mut cheapest: Vec<_> = cheapest.into_iter().collect();
+        cheapest.sort_unstable_by_key(|it| it.1.0);
+        for ((last, is_open), (_, cost, motion)) in cheapest {
+            let pulses = first..last + 1;
+            take(self.motion(&motion, cost, pulses, &changes), is_open);
+        }
+    }
+
+    /// Whether motions that begin with a pulse are followed to the end of the stretch, so that one may go on after it.
+    pub fn reach_the_end(&self, first: usize) -> bool {
+        first + MOST_FOLLOWED >= self.stretch.pulses.len()
     }
 
     /// Follows the motions that begin with a pulse over those before `far`, while they cost less than `most` of the first
-    /// pulse and the next. Takes each at its last pulse, with its whole cost.
+    /// pulse and the next. Takes each at its last pulse, with its whole cost; returns their changes.
     fn follow(
         &self,
         first: usize,
         far: usize,
         most: impl Fn(usize, usize) -> f64,
-        take: &mut impl FnMut(&Listed, f64, usize, bool, &Changes),
-    ) {
+        take: &mut impl FnMut(&Listed, f64, usize, bool),
+    ) -> Changes {
         let Some(progress) = self.stretch.start(first) else {
-            return;
+            return Changes::new();
         };
         let mut changes: Changes = vec![(None, first)];
         let mut waiting = VecDeque::from([vec![Listed {
@@ -154,13 +167,14 @@ impl<'a> Motions<'a> {
         }]]);
         for pulse in first + 1..far {
             let mut here = waiting.pop_front().unwrap_or_default();
+            let most = most(first, pulse);
+            here.retain(|motion| motion.progress.cost < most);
             here.sort_by(|a, b| a.progress.cost.total_cmp(&b.progress.cost));
             here.truncate(WIDTH);
-            here.retain(|motion| motion.progress.cost < most(first, pulse));
             let is_over = self.stretch.pulses[pulse].from - self.stretch.pulses[first].from
                 > self.stretch.prior.longest_motion;
             if is_over || (here.is_empty() && waiting.iter().all(Vec::is_empty)) {
-                return;
+                return changes;
             }
             for motion in here {
                 let mut wait = |until: usize, motion: Listed| {
@@ -184,19 +198,19 @@ impl<'a> Motions<'a> {
                     }
                     let changed = Listed { progress, latest };
                     let cost = self.stretch.closed(&progress, first, after - 1);
-                    take(&changed, cost, after - 1, false, &changes);
+                    take(&changed, cost, after - 1, false);
                     let progress = self.stretch.going_on(progress, &motion.progress, after);
                     wait(after, Listed { progress, latest });
                 }
             }
         }
-        if far < self.stretch.pulses.len() {
-            return;
+        if far == self.stretch.pulses.len() {
+            for motion in waiting.front().into_iter().flatten() {
+                let cost = self.stretch.open(&motion.progress);
+                take(motion, cost, self.stretch.pulses.len() - 1, true);
+            }
         }
-        for motion in waiting.front().into_iter().flatten() {
-            let cost = self.stretch.open(&motion.progress);
-            take(motion, cost, self.stretch.pulses.len() - 1, true, &changes);
-        }
+        changes
     }
 
     /// As it is in the order of the record.
@@ -240,7 +254,6 @@ mod tests {
     use super::super::pulse::Pulse;
     use super::*;
     use proptest::prelude::*;
-    use std::collections::BTreeMap;
 
     /// A few pulses in a row, some of them close to each other.
     pub(crate) fn pulses() -> impl Strategy<Value = Vec<Pulse>> {
@@ -299,7 +312,8 @@ mod tests {
     }
 
     proptest! {
-        /// What is given up early would not have been the cheapest, unless it is hopeless.
+        /// What is given up early would not have been the cheapest, unless it is hopeless. No two are over the same
+        /// pulses: a record of a few kilobytes that is all pulses would have a million.
         #[test]
         fn the_cheapest_motions_are_found(pulses in pulses()) {
             let prior = Prior::default();
@@ -316,8 +330,8 @@ mod tests {
                         } else {
                             motion.pulses.end
                         };
-                        let known = found.entry((edge, is_open)).or_insert(f64::INFINITY);
-                        *known = motion.cost.min(*known);
+                        let known = found.insert((edge, is_open), motion.cost);
+                        assert_eq!(known, None, "one for each end");
                     });
                     for (key, cost) in exhaustive(stretch, first) {
                         if cost < motions.usual[key.0] - motions.usual[first] + 8.0 {

@@ -2,7 +2,7 @@
 
 use super::hypothesis::Hypothesis;
 use super::prices::{Known, PENDING};
-use crate::explain::{Prior, Swing, Turned};
+use crate::explain::{Prior, Pulse, Swing, Turned};
 
 /// The most hypotheses kept, and how much dearer than the cheapest they may be.
 const MOST: usize = 16;
@@ -25,6 +25,10 @@ const UNSEEN: f64 = 0.3;
 
 /// The most pulses in a disturbance.
 const MOST_PULSES: usize = 12;
+
+/// Pulses no farther apart than this, s, may be one under a shock, which costs this.
+const APART: f64 = 0.1;
+const SHOCK: f64 = 0.5;
 
 impl Hypotheses {
     pub fn new(now: &[Hypothesis]) -> Self {
@@ -55,6 +59,12 @@ impl Hypotheses {
         self.pulses.push(*pulse);
         let (made, pulses) = (&mut self.made, &self.pulses);
         for first in 0..=place {
+            if let Some((under, shocks)) = under_shocks(known, &pulses[first..]) {
+                for hypothesis in &self.before[first] {
+                    let hypothesis = hypothesis.dearer(shocks);
+                    hypothesis.explain(known, &[under], under.ignored, &mut |it| made.push(it));
+                }
+            }
             let ignored = if first == place {
                 pulse.ignored.min(known.passing(pulse))
             } else {
@@ -149,6 +159,26 @@ impl Hypotheses {
             }
         }
     }
+}
+
+/// The pulse that goes on under shocks, which leave its beginning or its end to be seen, and what the shocks cost.
+fn under_shocks(known: &Known, pulses: &[Turned]) -> Option<(Turned, f64)> {
+    let of = |shocks: bool| (pulses.iter()).filter(move |it| it.is_shock() == shocks);
+    let sum = |shocks: bool, of_one: fn(&Turned) -> f64| of(shocks).map(of_one).sum::<f64>();
+    let shocks = of(true).count();
+    let first = of(false).next().filter(|_| shocks > 0)?;
+    let is_one = pulses.windows(2).all(|it| it[1].from - it[0].to < APART)
+        && of(false).all(|it| it.change * first.change > 0.0);
+    if !is_one {
+        return None;
+    }
+    let change = sum(false, |it| it.change);
+    let seconds = |shocks| sum(shocks, |it| it.to - it.from);
+    let hidden = change / seconds(false) * seconds(true);
+    let span = (pulses[0].from, pulses[pulses.len() - 1].to);
+    let deviation = libm::hypot(sum(false, |it| it.variance).sqrt(), hidden / 2.0);
+    let pulse = Pulse::passing(span, change + hidden, deviation);
+    Some((Turned::new(&known.prior, &pulse), SHOCK * shocks as f64))
 }
 
 fn swing(pulses: &[Turned]) -> Option<Swing> {

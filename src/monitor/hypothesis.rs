@@ -89,20 +89,26 @@ impl Hypothesis {
 
     /// How much worse than others it is not to believe it, nats.
     pub fn danger(&self, known: &Known, is_strained: bool) -> f64 {
-        let fast = match self.cage {
+        let least = known.prior.least_speed;
+        let (fast, is_fast) = match self.cage {
             Cage::Rest => return 0.0,
-            Cage::Open => prices::FAST,
+            Cage::Open => (0.0, true),
+            Cage::Moves(progress) if progress.creeps => (0.0, false),
             Cage::Moves(progress) => {
-                let is_fast = progress.speed.abs() > known.prior.least_speed;
-                if is_fast && !progress.creeps {
-                    prices::FAST
-                } else {
-                    0.0
-                }
+                let speed = progress.speed.abs();
+                (prices::fast_unseen(speed - least), speed > least)
             }
         };
-        let guess = if self.is_guess { prices::GUESS } else { 0.0 };
-        if is_strained { fast.max(guess) } else { guess }
+        let strained = if is_strained && is_fast {
+            prices::STRAINED
+        } else {
+            0.0
+        };
+        if self.is_guess {
+            strained.max(prices::GUESS)
+        } else {
+            strained + fast
+        }
     }
 
     /// The motion that a pulse begins, if it is strong enough.
@@ -136,6 +142,8 @@ impl Hypothesis {
         let total: f64 = pulses.iter().map(|pulse| pulse.change).sum();
         if let Cage::Moves(progress) = self.cage
             && prices::is_ripple(progress.speed, total)
+            && (pulses.iter())
+                .all(|it| it.is_shock() || prices::is_ripple(progress.speed, it.change))
         {
             let variance = progress.variance + total * total / 2.0;
             return take(Self {
@@ -173,10 +181,7 @@ impl Hypothesis {
                     ..progress
                 };
                 let changed = before.changed(pulses);
-                take(Self {
-                    ignored: self.ignored,
-                    ..self.stopped(pulses, self.closing(known, pulses, &changed))
-                });
+                take(self.stopped(pulses, self.closing(known, pulses, &changed)));
                 take(self.going_on(known, pulses, changed, &progress));
             }
             _ => {}
@@ -188,7 +193,8 @@ impl Hypothesis {
         let (first, last) = (&pulses[0], &pulses[pulses.len() - 1]);
         Self {
             is_guess: self.is_guess,
-            is_jam: pulses.iter().any(|pulse| pulse.violent > 0.0),
+            is_jam: pulses.iter().any(|pulse| pulse.is_shock()),
+            ignored: self.ignored,
             braking: Some((first.from, last.to)),
             ..Self::rest(last.to, cost)
         }

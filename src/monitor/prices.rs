@@ -70,8 +70,10 @@ pub const CHANGING: f64 = 0.3;
 /// Changes of speed by less than this share of it are taken for noise, at this cost.
 const RIPPLE: (f64, f64) = (0.08, 0.1);
 
-/// By how much better a motion beyond the least speed must be excluded.
-pub const FAST: f64 = 2.0;
+/// By how much better a motion must be excluded that is faster than the least speed, m/s, by this; and all beyond the
+/// least speed where the record is not well explained.
+const FAST: (f64, f64) = (3.5, 0.5);
+pub const STRAINED: f64 = 2.0;
 
 /// By how much better motions must be excluded that go back to one that was not seen to begin: one trip read backwards
 /// looks as good.
@@ -139,11 +141,7 @@ pub fn unlike(start_is_soft: bool, is_soft: bool) -> f64 {
 
 /// A start by a pulse as violent as this.
 pub fn violent_start(pulse: &Turned) -> f64 {
-    if pulse.violent > 0.0 {
-        VIOLENT_START
-    } else {
-        0.0
-    }
+    if pulse.is_shock() { VIOLENT_START } else { 0.0 }
 }
 
 /// A start as short as this pulse.
@@ -183,6 +181,11 @@ pub fn again(motion: &Progress, change: f64) -> f64 {
     } else {
         0.0
     }
+}
+
+/// Not believing a motion that is faster than the least speed by so much, m/s.
+pub fn fast_unseen(by: f64) -> f64 {
+    FAST.0 * (by / FAST.1).clamp(0.0, 1.0)
 }
 
 /// Levelling so many seconds after the start.

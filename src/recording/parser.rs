@@ -93,7 +93,7 @@ impl Parser {
             }
         }
         let last = self.splitter.cell(line, expected - 1);
-        let has_exponent = memchr::memchr2(b'e', b'E', last).is_some();
+        let has_exponent = last.iter().any(|c| matches!(c, b'e' | b'E'));
         if !is_ended && self.had_exponent && !has_exponent && self.reads(expected - 1) {
             return Ok(None);
         }

@@ -72,22 +72,13 @@ impl Splitter {
             self.split_at_blanks(line, start);
             return self.cells.len();
         }
-        let rest = &line[start..];
         let (mut from, byte) = (start, self.delimiter.byte());
-        let ends = memchr::memchr_iter(byte, rest).map(|end| start + end);
-        if memchr::memchr(b'"', rest).is_none() {
-            for end in ends {
+        let mut is_quoted = false;
+        for (end, c) in (start..).zip(&line[start..]) {
+            is_quoted ^= *c == b'"';
+            if *c == byte && !is_quoted {
                 self.cells.push(from..end);
                 from = end + 1;
-            }
-        } else {
-            let mut is_quoted = false;
-            for (end, c) in (start..).zip(rest) {
-                is_quoted ^= *c == b'"';
-                if *c == byte && !is_quoted {
-                    self.cells.push(from..end);
-                    from = end + 1;
-                }
             }
         }
         self.cells.push(from..line.len());

@@ -20,6 +20,9 @@ pub(super) enum Repeats {
 /// the usual time between stamps. The first stamp may have begun before the record, so that its samples
 /// stand at its end; the last may go on after it.
 pub(super) fn spread(samples: &mut Vec<Sample>) -> Repeats {
+    if samples.windows(2).all(|pair| pair[0].time != pair[1].time) {
+        return Repeats::LeftOut(0);
+    }
     let groups: Vec<usize> = samples
         .chunk_by(|a, b| a.time == b.time)
         .map(<[_]>::len)

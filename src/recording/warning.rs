@@ -144,8 +144,13 @@ pub(super) fn of_rows(columns: &Columns, repeats: Repeats, samples: u64) -> Vec<
     warnings
 }
 
-/// The warnings about the vertical and the signal.
-pub(super) fn of_signal(facts: &Facts, vertical: &Vertical, is_reversed: bool) -> Vec<Warning> {
+/// The warnings about the vertical and the signal, which will be resampled if it `is_even`.
+pub(super) fn of_signal(
+    facts: &Facts,
+    vertical: &Vertical,
+    is_reversed: bool,
+    is_even: bool,
+) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let is_turned = matches!(vertical.reason, Reason::Gravity { turned, .. } if turned > 0.0);
     if is_reversed || is_turned || vertical.reason == Reason::Nothing {
@@ -160,7 +165,7 @@ pub(super) fn of_signal(facts: &Facts, vertical: &Vertical, is_reversed: bool) -
     if facts.mean.abs() > BEYOND_GRAVITY {
         warnings.push(Warning::PerhapsCounts(facts.mean));
     }
-    if facts.jitter > UNEVEN {
+    if facts.jitter > UNEVEN && !is_even {
         let jitter = facts.jitter;
         warnings.push(Warning::Uneven { jitter });
     }

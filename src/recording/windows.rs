@@ -31,8 +31,14 @@ impl Windows {
     pub fn of(columns: &Columns) -> Self {
         let mut windows = Self::default();
         let window_of = |time: f64| (time / WINDOW).floor();
+        let mut rest = &columns.times[..];
         let mut rows = 0..0;
-        for times in (columns.times).chunk_by(|a, b| window_of(*a) == window_of(*b)) {
+        while let Some(first) = rest.first() {
+            // Times increase, and twice a time is exact: rounding each of them down would take longer.
+            let end = window_of(*first) + 1.0;
+            let others = rest.iter().skip(1).take_while(|time| **time / WINDOW < end);
+            let (times, after) = rest.split_at(1 + others.count());
+            rest = after;
             rows = rows.end..rows.end + times.len();
             let mut mean = [0.0; 3];
             for (mean, axis) in mean.iter_mut().zip(&columns.axes) {

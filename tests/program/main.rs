@@ -7,6 +7,7 @@ mod gate;
 mod keys;
 mod order;
 mod recordings;
+mod remedies;
 mod replay;
 mod results;
 mod shards;

@@ -90,3 +90,41 @@ fn a_drum_that_turns_without_the_cage_is_an_alarm() {
         "{alarm:?}"
     );
 }
+
+/// A shock while the cage starts or brakes, of any strength and at any moment, never makes it rest in motion.
+#[test]
+fn a_shock_on_a_start_or_a_braking_hides_neither() {
+    let strengths = [-60.0, -30.0, -12.0, -6.0, 6.0, 12.0, 30.0];
+    let times = [8.1, 8.5, 8.9, 9.3, 9.7, 18.1, 18.5, 18.9, 19.3, 19.7];
+    for (strength, shock) in strengths.iter().flat_map(|it| times.map(|time| (it, time))) {
+        let record = Record::quiet()
+            .rest(8.0)
+            .trip(1.0)
+            .rest(8.0)
+            .trip(-1.0)
+            .rest(8.0);
+        let mut monitor = standing();
+        for (i, acceleration) in record.samples.iter().enumerate() {
+            let time = i as f64 / RATE;
+            let hit = if (shock..shock + 0.035).contains(&time) {
+                *strength
+            } else {
+                0.0
+            };
+            monitor.step(
+                Sample {
+                    time,
+                    acceleration: acceleration + hit,
+                },
+                None,
+            );
+            let moves = [9.5..19.4, 29.5..39.4]
+                .iter()
+                .any(|trip| trip.contains(&time));
+            assert!(
+                !(moves && monitor.state() == REST),
+                "a shock of {strength} m/s² at {shock} s: rest at {time} s"
+            );
+        }
+    }
+}

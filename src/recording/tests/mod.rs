@@ -10,6 +10,7 @@ mod archives;
 mod formats;
 mod real;
 mod refusals;
+mod vertical;
 mod workbooks;
 
 fn open(text: &str) -> Recording {
