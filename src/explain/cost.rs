@@ -19,8 +19,6 @@ pub struct Prior {
     pub gain_error: f64,
     /// Whether the record begins at rest, if that is known.
     pub begins_at_rest: Option<bool>,
-    /// Whether it is cut out of a longer one, so that both its ends may as well lie in motion.
-    pub is_excerpt: bool,
 }
 
 impl Default for Prior {
@@ -31,7 +29,6 @@ impl Default for Prior {
             longest_motion: 900.0,
             gain_error: 0.03,
             begins_at_rest: None,
-            is_excerpt: false,
         }
     }
 }
@@ -41,10 +38,6 @@ pub const TRIP: f64 = 1.0;
 
 /// A motion that began before the record, or goes on after it.
 pub const OPEN: f64 = 3.0;
-
-/// The record is cut out of a longer one: once, and either end, in motion or at rest. One in twenty is.
-pub const EXCERPT: f64 = 3.0;
-pub const EITHER: f64 = 0.7;
 
 /// A start or a stop within a hole: usually, less in one longer than a few seconds, more in one that can hardly hide a
 /// change of speed, which takes this long, s.
@@ -72,6 +65,9 @@ pub const VIOLENT: f64 = 4.0;
 
 /// A change of speed that leaves the cage at another speed and not at rest: a stage of braking.
 pub const STAGE: f64 = 0.5;
+
+/// A stage that leaves just half of the speed: two trips that are read as one show it always, a stage of braking by chance.
+pub const HALVED: f64 = 2.5;
 
 /// A change of speed too small for a stage.
 pub const RIPPLE: f64 = 0.1;
@@ -135,16 +131,12 @@ pub fn stopover(seconds: f64) -> f64 {
     2.0 * in_hole(seconds) + (STOPOVER / seconds).powi(2).min(ABSURD)
 }
 
-/// A second stage of acceleration follows the first within this time, s, and costs this much more later.
-pub const LATE: f64 = 10.0;
-pub const LATE_STAGE: f64 = 4.0;
-
 /// A second stage of acceleration, `gap` seconds after the first.
 pub fn acceleration_stage(gap: f64) -> f64 {
     match gap {
         ..1.0 => 0.5,
         ..3.0 => 2.0,
-        _ => 6.0,
+        _ => 10.0,
     }
 }
 
@@ -156,15 +148,6 @@ impl Prior {
         }
         let long = (seconds - FEW).max(0.0) / MOTION_LASTS;
         (ACROSS_HOLE + long).min(ABSURD)
-    }
-
-    /// What the ends of the record cost: once, and each at rest and in motion.
-    pub fn ends(&self) -> (f64, f64, f64) {
-        if self.is_excerpt {
-            (EXCERPT, EITHER, EITHER)
-        } else {
-            (0.0, 0.0, OPEN)
-        }
     }
 
     /// The standard deviation of a sum of changes of speed, m/s.

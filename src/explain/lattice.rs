@@ -181,19 +181,24 @@ impl Lattice {
             self.sections[self.sections.len() - 1].clone(),
         );
         let end = self.nodes - 1;
-        let (once, rests, moves) = prior.ends();
-        let (begins_at_rest, begins_in_motion) = match prior.begins_at_rest {
-            Some(true) => (0.0, cost::ABSURD),
-            Some(false) => (cost::ABSURD, 0.0),
-            None => (rests, moves),
+        let rest = |is_known: Option<bool>| {
+            if is_known == Some(false) {
+                cost::ABSURD
+            } else {
+                0.0
+            }
+        };
+        let motion = match prior.begins_at_rest {
+            Some(true) => cost::ABSURD,
+            Some(false) => 0.0,
+            None => cost::OPEN,
         };
         let stand = Part::Hole { moves_on: false };
-        self.edge(0, first.rest(0), once + begins_at_rest, stand.clone());
-        self.edge(last.rest(last.pulses.len()), end, rests, stand.clone());
+        self.edge(0, first.rest(0), rest(prior.begins_at_rest), stand.clone());
+        self.edge(last.rest(last.pulses.len()), end, 0.0, stand.clone());
         for is_up in [true, false] {
-            let entry = first.entry(is_up);
-            self.edge(0, entry, once + begins_in_motion, stand.clone());
-            self.edge(last.exit(is_up), end, moves, stand.clone());
+            self.edge(0, first.entry(is_up), motion, stand.clone());
+            self.edge(last.exit(is_up), end, cost::OPEN, stand.clone());
         }
         for (index, &seconds) in holes.iter().enumerate() {
             let before = self.sections[index].clone();
@@ -305,13 +310,16 @@ impl Lattice {
     /// Where another explanation leaves the cheapest of all and comes back to it: the parts of the cheapest, and those
     /// of the other, from rest to rest.
     pub fn detour(&self, other: Other) -> (Vec<&Part>, Vec<&Part>) {
-        let (best, other) = self.ways(other);
+        let (best, other) = match other {
+            Other::By(edge) => self.paths.detour_by(edge),
+            Other::Through(node) => self.paths.detour_through(node),
+        };
         let Some(&first) = best.first() else {
             return (Vec::new(), Vec::new());
         };
         let path = self.paths.best();
         let from = self.edges[first].from;
-        let start = self.place(&path, from);
+        let start = path.partition_point(|edge| self.edges[*edge].from < from);
         let end = start + best.len();
         let before = path[..start].iter().rev();
         let before = before
@@ -334,29 +342,6 @@ impl Lattice {
             self.parts(&[&path[start - before..start], part, &path[end..end + after]].concat())
         };
         (whole(&best), whole(&other))
-    }
-
-    /// The parts of another explanation, from the beginning of the record to its end.
-    pub fn whole(&self, other: Other) -> Vec<&Part> {
-        let (best, other) = self.ways(other);
-        let path = self.paths.best();
-        let start = best
-            .first()
-            .map_or(0, |first| self.place(&path, self.edges[*first].from));
-        self.parts(&[&path[..start], &other, &path[start + best.len()..]].concat())
-    }
-
-    /// Where another explanation leaves the cheapest of all: its edges, and those of the other.
-    fn ways(&self, other: Other) -> (Vec<usize>, Vec<usize>) {
-        match other {
-            Other::By(edge) => self.paths.detour_by(edge),
-            Other::Through(node) => self.paths.detour_through(node),
-        }
-    }
-
-    /// The place in a path at which it leaves a node.
-    fn place(&self, path: &[usize], node: usize) -> usize {
-        path.partition_point(|edge| self.edges[*edge].from < node)
     }
 
     /// Whether the cage rests at a node.

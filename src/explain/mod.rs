@@ -206,70 +206,14 @@ impl Explained {
     }
 
     fn finish(self, high_pass: Option<f64>, prior: &Prior) -> Explanation {
-        let (reading, doubts) = self.readings(prior);
         Explanation {
             begins_otherwise: self.begins_otherwise(prior),
+            doubts: doubts(&self.record, &self.lattice),
             slow: self.slow(prior),
-            reading,
-            doubts,
+            reading: self.reading(),
             record: self.record,
             high_pass,
         }
-    }
-
-    /// The cheapest reading and its doubts. Where a motion may be open, the record may as well be cut out of a longer
-    /// one: then it is likelier that both its ends are.
-    fn readings(&self, prior: &Prior) -> (Reading, Vec<Doubt>) {
-        let of = |lattice: &Lattice| {
-            let reading = Reading::of(&self.record, &lattice.best());
-            (reading, doubts(&self.record, lattice))
-        };
-        let usual = of(&self.lattice);
-        let doubted = usual.1.iter().flat_map(|doubt| &doubt.instead);
-        let mut trips = usual.0.trips.iter().chain(doubted);
-        if !trips.any(|trip| self.record.leaves_open(trip)) {
-            return usual;
-        }
-        let excerpt = Prior {
-            is_excerpt: true,
-            ..*prior
-        };
-        let excerpt = Lattice::new(&excerpt, &self.record.pulses, &self.record.stretches());
-        let (mut best, other) = if excerpt.cost() < self.lattice.cost() {
-            (of(&excerpt), &self.lattice)
-        } else {
-            (usual, &excerpt)
-        };
-        let dearer = (excerpt.cost() - self.lattice.cost()).abs();
-        let cheapest = (dearer, other.best());
-        let others = other
-            .others()
-            .filter(|(margin, _)| margin + dearer <= DECIDED);
-        let others = others.map(|(margin, way)| (margin + dearer, other.whole(way)));
-        let close = [cheapest].into_iter().filter(|_| dearer <= DECIDED);
-        let close = close.chain(others);
-        for (margin, parts) in close.take(LATEST) {
-            let trips = Reading::of(&self.record, &parts).trips;
-            let doubt = Doubt::between(&best.0.trips, &trips, margin);
-            best.1.extend(doubt.filter(|doubt| !best.1.contains(doubt)));
-        }
-        best
-    }
-}
-
-impl Doubt {
-    /// Between these trips and those, if they differ.
-    fn between(trips: &[Trip], instead: &[Trip], margin: f64) -> Option<Self> {
-        let only = |these: &[Trip], those: &[Trip]| {
-            let only = these.iter().filter(|trip| !those.contains(trip));
-            only.cloned().collect::<Vec<_>>()
-        };
-        let doubt = Self {
-            trips: only(trips, instead),
-            instead: only(instead, trips),
-            margin,
-        };
-        (!doubt.trips.is_empty() || !doubt.instead.is_empty()).then_some(doubt)
     }
 }
 
@@ -279,11 +223,20 @@ fn doubts(record: &Record, lattice: &Lattice) -> Vec<Doubt> {
     for (margin, other) in lattice.others().filter(|it| it.0 <= DECIDED) {
         let (best, other) = lattice.detour(other);
         let [trips, instead] = [best, other].map(|parts| Reading::of(record, &parts).trips);
-        let Some(doubt) = Doubt::between(&trips, &instead, margin) else {
-            continue;
+        let only = |these: &[Trip], those: &[Trip]| {
+            let only = these.iter().filter(|trip| !those.contains(trip));
+            only.cloned().collect::<Vec<_>>()
         };
+        let doubt = Doubt {
+            trips: only(&trips, &instead),
+            instead: only(&instead, &trips),
+            margin,
+        };
+        let is_empty = doubt.trips.is_empty() && doubt.instead.is_empty();
         let mut latest = doubts.iter().rev().take(LATEST);
-        if !latest.any(|known| known.trips == doubt.trips && known.instead == doubt.instead) {
+        if !is_empty
+            && !latest.any(|known| known.trips == doubt.trips && known.instead == doubt.instead)
+        {
             doubts.push(doubt);
         }
     }

@@ -104,7 +104,8 @@ impl Progress {
         }
         changed.top = changed.top.max(changed.speed.abs());
         changed.cost += self.creeping(pulses[0].from);
-        if self.is_slow && changed.speed.abs() > RESTARTED * changed.top {
+        let gained = changed.speed.abs() - self.speed.abs();
+        if self.creeps && gained > RESTARTED * changed.top {
             changed.cost += cost::RESTART;
         } else if total * self.speed > 0.0 {
             changed.cost += cost::acceleration_stage(pause);
@@ -116,6 +117,8 @@ impl Progress {
     pub fn going_on(self, prior: &Prior, before: &Self, stage: f64) -> Self {
         let is_slow = self.speed.abs() < 2.0 * prior.tolerance(self.top, self.variance);
         let is_braking = self.speed.abs() < before.speed.abs();
+        let is_halved =
+            (self.speed - before.speed / 2.0).abs() < prior.tolerance(self.top, self.variance);
         let is_turned = self.speed != 0.0 && (self.speed > 0.0) != self.is_up;
         let cost = if is_slow {
             cost::CREEP
@@ -123,6 +126,8 @@ impl Progress {
             cost::TURN
         } else if is_braking && before.speed.abs() - self.speed.abs() < 0.2 * before.top {
             cost::RIPPLE
+        } else if is_braking && is_halved {
+            stage + cost::HALVED
         } else if is_braking {
             stage
         } else {

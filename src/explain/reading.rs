@@ -225,21 +225,6 @@ impl Record {
         }
     }
 
-    /// Whether a trip begins before the record, or goes on after it.
-    pub fn leaves_open(&self, trip: &Trip) -> bool {
-        let hole = |pulse: &Pulse| {
-            self.cut
-                .ends
-                .partition_point(|end| *end <= pulse.blocks.start)
-        };
-        let (first, last) = (
-            &self.pulses[trip.pulses.start],
-            &self.pulses[trip.pulses.end - 1],
-        );
-        (trip.start.is_none() && hole(first) == 0)
-            || (trip.stop.is_none() && hole(last) + 1 >= self.cut.ends.len())
-    }
-
     /// The speeds before each change, and after the last, m/s.
     fn speeds(&self, motion: &Motion, before: f64) -> Vec<f64> {
         let mut speed = before;

@@ -126,10 +126,6 @@ impl<'a> Stretch<'a> {
         if self.is_half(pulses.end) {
             changed.cost += cost::HALF;
         }
-        let pause = self.pulses[pulses.start].from - motion.since;
-        if changed.speed.abs() > motion.speed.abs() && pause > cost::LATE {
-            changed.cost += cost::LATE_STAGE;
-        }
         changed
     }
 

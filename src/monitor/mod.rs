@@ -137,7 +137,6 @@ impl Monitor {
                 longest_motion: limits.longest_motion,
                 gain_error: GAIN_ERROR,
                 begins_at_rest: None,
-                is_excerpt: false,
             },
             soft: limits.least_acceleration,
         };
