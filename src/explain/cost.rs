@@ -49,6 +49,9 @@ const MOST_IN_HOLE: f64 = 3.0 * IN_HOLE;
 /// A pulse that an end of a stretch cuts off is over just there.
 pub const CUT_OFF: f64 = 1.75;
 
+/// What is seen of the change is too slow for a trip.
+pub const PART: f64 = 2.0;
+
 /// A motion that goes on across a hole: once, and for every so many seconds beyond the first few.
 pub const ACROSS_HOLE: f64 = 0.3;
 const MOTION_LASTS: f64 = 30.0;
@@ -141,7 +144,10 @@ pub fn acceleration_stage(gap: f64) -> f64 {
 }
 
 impl Prior {
-    /// A motion that goes on across a hole of so many seconds.
+    /// What is seen of the change is too slow for a trip.
+pub const PART: f64 = 2.0;
+
+/// A motion that goes on across a hole of so many seconds.
     pub fn across_hole(&self, seconds: f64) -> f64 {
         if seconds > self.longest_motion {
             return ABSURD;

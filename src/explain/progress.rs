@@ -64,6 +64,8 @@ pub(crate) struct Progress {
     /// End of the latest change, s.
     pub since: f64,
     pub distance: f64,
+    /// How far it has been from where it began, m.
+    pub farthest: f64,
     pub creeps: bool,
     /// Whether it does so at hardly any speed.
     pub is_slow: bool,
@@ -81,6 +83,7 @@ impl Progress {
             cost: cost::TRIP + pulse.violent,
             since: pulse.to,
             distance: pulse.change * (pulse.to - pulse.from) / 2.0,
+            farthest: 0.0,
             creeps: false,
             is_slow: false,
             is_up: pulse.change > 0.0,
@@ -96,6 +99,7 @@ impl Progress {
             let coast = pulse.from - changed.since;
             changed.distance += changed.speed * coast
                 + (changed.speed + pulse.change / 2.0) * (pulse.to - pulse.from);
+            changed.farthest = changed.farthest.max(changed.distance.abs());
             changed.speed += pulse.change;
             changed.variance += pulse.variance;
             changed.cost += pulse.violent;
@@ -135,7 +139,7 @@ impl Progress {
         };
         Self {
             cost: self.cost + cost,
-            creeps: is_slow || (is_braking && cost > cost::RIPPLE),
+            creeps: is_slow || (is_braking && !is_turned && cost > cost::RIPPLE),
             is_slow,
             ..self
         }
@@ -145,7 +149,7 @@ impl Progress {
     pub fn closed(&self, prior: &Prior, seconds: f64) -> f64 {
         self.cost
             + cost::closing(self.speed, prior.tolerance(self.top, self.variance))
-            + prior.implausible(self.top, self.distance, seconds)
+            + prior.implausible(self.top, self.farthest, seconds)
     }
 
     /// The cost of creeping until a time.
