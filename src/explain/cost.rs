@@ -145,9 +145,9 @@ pub fn acceleration_stage(gap: f64) -> f64 {
 
 impl Prior {
     /// What is seen of the change is too slow for a trip.
-pub const PART: f64 = 2.0;
+    pub const PART: f64 = 2.0;
 
-/// A motion that goes on across a hole of so many seconds.
+    /// A motion that goes on across a hole of so many seconds.
     pub fn across_hole(&self, seconds: f64) -> f64 {
         if seconds > self.longest_motion {
             return ABSURD;

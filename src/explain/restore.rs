@@ -17,7 +17,7 @@ const TIME_CONSTANTS: [f64; 15] = [
 const NEARBY: [f64; 4] = [0.85, 0.92, 1.08, 1.17];
 
 /// What a filter leaves of a constant, m/s²: a record farther from zero has none.
-const NO_LEVEL: f64 = 0.4;
+const NO_LEVEL: f64 = 0.05;
 
 /// The error of a restored record's speeds, as a share.
 const RESTORED_ERROR: f64 = 0.08;

@@ -174,7 +174,11 @@ impl<'a> Stretch<'a> {
     pub fn open(&self, motion: &Progress) -> f64 {
         let slow = (self.prior).implausible(motion.top, f64::INFINITY, f64::INFINITY);
         // Of a change that the end cuts off nobody knows how fast it became.
-        let slow = if motion.since >= self.end { slow.min(cost::PART) } else { slow };
+        let slow = if motion.since >= self.end {
+            slow.min(cost::PART)
+        } else {
+            slow
+        };
         let tolerance = self.prior.tolerance(motion.top, motion.variance);
         let stands = if motion.speed.abs() < tolerance {
             cost::STANDS

@@ -64,6 +64,9 @@ pub struct Told {
     pub missed: u64,
     /// Trips told where none went in that direction.
     pub false_trips: u64,
+    /// True trips whose start and stop the record shows, with rest enough before and after; and those of them found.
+    pub between_rests: u64,
+    pub found_between_rests: u64,
 }
 
 impl Told {
@@ -76,10 +79,12 @@ impl Told {
             let along = |found: &&Found| found.is_along(trip);
             let mut found = outcome.trips.iter().filter(along);
             let is_undecided = |&(from, to): &(f64, f64)| from < trip.stop && trip.start < to;
-            let count = if found
-                .clone()
-                .any(|found| found.fits(trip, record, tolerance))
-            {
+            let is_found = (found.clone()).any(|found| found.fits(trip, record, tolerance));
+            if is_between_rests(record, trip) {
+                told.between_rests += 1;
+                told.found_between_rests += u64::from(is_found);
+            }
+            let count = if is_found {
                 &mut told.found
             } else if outcome.undecided.iter().any(is_undecided) {
                 &mut told.undecided
@@ -122,6 +127,19 @@ impl Found {
 
 /// A pulse that a hole cuts off within this time of an end shows nothing of that end, s.
 const CUT_OFF: f64 = 0.6;
+
+/// A shorter rest is none, s.
+const REST: f64 = 1.0;
+
+/// Whether the record shows the start and the stop of a trip, and rest before and after it.
+fn is_between_rests(record: &Record, trip: &Journey) -> bool {
+    let is_at_rest = |from: f64, to: f64| {
+        let moves = |other: &Journey| other.start < to && from < other.stop;
+        let shown = [from, to].map(|time| is_recorded(record, time));
+        shown == [true; 2] && !record.journeys.iter().any(moves)
+    };
+    is_at_rest(trip.start - REST, trip.start) && is_at_rest(trip.stop, trip.stop + REST)
+}
 
 /// Whether the record shows the time: not outside it, and not in or at the edge of a hole.
 fn is_recorded(record: &Record, time: f64) -> bool {

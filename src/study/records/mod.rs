@@ -8,6 +8,7 @@
 //! | `missed_silently` | trips | none of these |
 //! | `false_trips` | records | trips told where none went in that direction, per record |
 //! | `false_records` | records | records with one |
+//! | `found_between_rests` | trips between rests | found, of those whose start and stop the record shows, with a second of rest before and after |
 //!
 //! | outcome of `monitor` | of | is |
 //! |---|---|---|

@@ -19,7 +19,7 @@ impl Watch {
         let (one, trips) = (Some(1), Some(MOST_TRIPS));
         match self {
             Self::Detect => Shape {
-                most: vec![trips, trips, trips, trips, None, one],
+                most: vec![trips, trips, trips, trips, None, one, trips, trips],
                 ..Shape::default()
             },
             Self::Monitor => Shape {
@@ -38,7 +38,11 @@ impl Watch {
         let counts: Vec<f64> = sums.counts.iter().map(|count| *count as f64).collect();
         let within = |name, part: f64, most: f64| Rule::Within(0.0, most, "").check(name, &part);
         match self {
-            Self::Detect => within("false_records", counts[5], counts[4]),
+            Self::Detect => {
+                within("false_records", counts[5], counts[4])?;
+                within("trips between rests", counts[6], counts[..4].iter().sum())?;
+                within("found_between_rests", counts[7], counts[6].min(counts[0]))
+            }
             Self::Monitor => {
                 let [starts, stops] = [0, 1].map(|at| sums.values[at].count(|_| true));
                 let [stood, known] = [0, 1].map(|at| sums.lengths[at].value());
@@ -76,6 +80,12 @@ impl Watch {
                         confidence,
                     ),
                     of_records("false_records", counts[5]),
+                    share(
+                        "found_between_rests",
+                        tally(counts[7], counts[6]),
+                        "trips between rests",
+                        confidence,
+                    ),
                 ]
             }
             Self::Monitor => {
@@ -129,6 +139,8 @@ impl From<Told> for Sums {
             told.missed,
             told.false_trips,
             u64::from(told.false_trips > 0),
+            told.between_rests,
+            told.found_between_rests,
         ])
     }
 }

@@ -88,6 +88,11 @@ fn ends_outside_a_record_need_not_be_told() {
         [2, 0, 0, 0, 0]
     );
     assert_eq!(told(&cut, &[], &[]), [0, 0, 0, 2, 0]);
+    // Nor are they between rests that the record shows.
+    let between = |record: &Record| Told::new(record, &Outcome::default(), 0.2, 0.5).between_rests;
+    assert_eq!(between(&record(0.0, 60.0)), 2);
+    assert_eq!(between(&record(8.0, 40.5)), 1);
+    assert_eq!(between(&cut), 0);
     // What a record does not hold is not asked for.
     assert_eq!(told(&record(20.0, 29.0), &[], &[]), [0; 5]);
 }
@@ -120,7 +125,7 @@ const HEAD: &str = "question = \"?\"\nseed = 5\ntrials = 3\n[records]\n";
 
 #[test]
 fn outcomes_of_each_class() {
-    for (watch, outcomes) in [("detect", 6), ("monitor", 13)] {
+    for (watch, outcomes) in [("detect", 7), ("monitor", 13)] {
         let class = "class = [\"ordinary\", \"drum\"]\n";
         let study: Records = read(&format!("{HEAD}watch = \"{watch}\"\n{class}"));
         let rows = rows(&study, 3);
