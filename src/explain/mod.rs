@@ -206,10 +206,12 @@ impl Explained {
     }
 
     fn finish(self, high_pass: Option<f64>, prior: &Prior) -> Explanation {
+        let (slow, doubts) =
+            rayon::join(|| self.slow(prior), || doubts(&self.record, &self.lattice));
         Explanation {
             begins_otherwise: self.begins_otherwise(prior),
-            doubts: doubts(&self.record, &self.lattice),
-            slow: self.slow(prior),
+            doubts,
+            slow,
             reading: self.reading(),
             record: self.record,
             high_pass,
