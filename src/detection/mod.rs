@@ -44,6 +44,8 @@ pub struct Detection {
     pub at_rest: AtRest,
     /// The time constant of the sensor's high-pass filter, s, if the record was restored.
     pub high_pass: Option<f64>,
+    /// Whether no such filter was looked for, as too much moves the sensor.
+    pub is_busy: bool,
     /// The times of impossible samples, s: they were replaced by what their neighbours read.
     pub glitches: Vec<f64>,
     /// Whether it was said to begin at rest or in motion, where the record contradicts that.
@@ -91,6 +93,7 @@ impl Detection {
                 reference: reference.clone(),
             },
             high_pass: explanation.high_pass,
+            is_busy: explanation.is_busy,
             trace: Trace::of(
                 &explanation.record.cut.blocks,
                 decisions.whitened(),

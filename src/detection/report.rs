@@ -99,6 +99,11 @@ pub enum Warning {
          read (look at the sensor's cable and supply)"
     )]
     Glitches { count: usize, first: f64 },
+    #[error(
+        "too much moves the sensor to see whether it removes slow acceleration, as many phones do (choose a part of \
+         the record with quiet rides by --from and --to)"
+    )]
+    Busy,
     #[error("{0} more stretches are undecided (--json lists them)")]
     MoreUndecided(usize),
     #[error("from {from:.1} to {to:.1} s the record does not decide{remedy}")]
@@ -227,6 +232,7 @@ impl Detection {
             });
         [
             self.high_pass.map(Warning::HighPass),
+            self.is_busy.then_some(Warning::Busy),
             ((rate / learnt - 1.0).abs() > 0.05).then_some(Warning::Rate { learnt, got: rate }),
             level
                 .filter(|level| !is_level_of_rest(*level))

@@ -73,6 +73,8 @@ pub struct Explanation {
     pub record: Record,
     /// The time constant of the filter, s.
     pub high_pass: Option<f64>,
+    /// Whether a filter was not looked for, as too much moves the sensor.
+    pub is_busy: bool,
     /// The cheapest explanation.
     pub reading: Reading,
     /// Where another is nearly as cheap.
@@ -99,20 +101,34 @@ impl Explanation {
     pub fn of(cut: &Cut, prior: &Prior) -> Self {
         let plain = Explained::plain(cut, prior);
         let part = plain.record.telling_part();
-        let Some(filter) = part.and_then(|part| high_pass(&part, prior)) else {
-            return plain.finish(None, prior);
-        };
-        let record = filter.undone(cut, prior);
-        Explained::of(record, &filter.prior(prior)).finish(Some(filter.time_constant), prior)
+        let filter = part.map_or(Ok(None), |part| high_pass(&part, prior));
+        if let Ok(Some(filter)) = filter {
+            let restored = Explained::of(filter.undone(cut, prior), &filter.prior(prior));
+            return Self {
+                high_pass: Some(filter.time_constant),
+                ..restored.finish(prior)
+            };
+        }
+        Self {
+            is_busy: filter.is_err(),
+            ..plain.finish(prior)
+        }
     }
 }
 
+/// Too many pulses to look for a filter.
+struct Busy;
+
 /// The high-pass filter that explains a record clearly better than none.
-fn high_pass(cut: &Cut, prior: &Prior) -> Option<HighPass> {
+fn high_pass(cut: &Cut, prior: &Prior) -> Result<Option<HighPass>, Busy> {
+    let filters = HighPass::all(cut);
+    if filters.is_empty() {
+        return Ok(None);
+    }
     let plain = Explained::plain(cut, prior);
     let pulses = plain.record.pulses.len();
     if pulses > MOST_PULSES {
-        return None;
+        return Err(Busy);
     }
     let most = MOST_PULSES.min(MORE_PULSES * (pulses + 10));
     let best_of = |filters: Vec<HighPass>| {
@@ -130,10 +146,12 @@ fn high_pass(cut: &Cut, prior: &Prior) -> Option<HighPass> {
         });
         costs.min_by(|a, b| a.0.total_cmp(&b.0))
     };
-    let rough = best_of(HighPass::all(cut))?;
+    let Some(rough) = best_of(filters) else {
+        return Ok(None);
+    };
     let finer = best_of(rough.1.nearby(cut));
     let finer = finer.filter(|finer| finer.0 < rough.0);
-    Some(finer.unwrap_or(rough).1)
+    Ok(Some(finer.unwrap_or(rough).1))
 }
 
 /// A record explained under one assumption about its filter.
@@ -205,7 +223,7 @@ impl Explained {
         prior.begins_at_rest.is_some() && self.lattice.cost() - free().cost() >= CONTRADICTED
     }
 
-    fn finish(self, high_pass: Option<f64>, prior: &Prior) -> Explanation {
+    fn finish(self, prior: &Prior) -> Explanation {
         let (slow, doubts) =
             rayon::join(|| self.slow(prior), || doubts(&self.record, &self.lattice));
         Explanation {
@@ -214,7 +232,8 @@ impl Explained {
             slow,
             reading: self.reading(),
             record: self.record,
-            high_pass,
+            high_pass: None,
+            is_busy: false,
         }
     }
 }

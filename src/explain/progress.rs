@@ -108,13 +108,17 @@ impl Progress {
         }
         changed.top = changed.top.max(changed.speed.abs());
         changed.cost += self.creeping(pulses[0].from);
-        let gained = changed.speed.abs() - self.speed.abs();
-        if self.creeps && gained > RESTARTED * changed.top {
+        if self.is_slow && changed.regains_speed(self) {
             changed.cost += cost::RESTART;
         } else if total * self.speed > 0.0 {
             changed.cost += cost::acceleration_stage(pause);
         }
         changed
+    }
+
+    /// Whether it is much faster than before.
+    pub fn regains_speed(&self, before: &Self) -> bool {
+        self.speed.abs() - before.speed.abs() > RESTARTED * self.top
     }
 
     /// The motion that goes on after it has changed from `before`; `stage` is the cost of a stage of braking.

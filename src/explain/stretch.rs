@@ -126,6 +126,10 @@ impl<'a> Stretch<'a> {
         if self.is_half(pulses.end) {
             changed.cost += cost::HALF;
         }
+        // Only where the rest of the record can say otherwise: a monitor must not exclude it.
+        if motion.creeps && !motion.is_slow && changed.regains_speed(motion) {
+            changed.cost += cost::RESTART;
+        }
         changed
     }
 

@@ -70,11 +70,30 @@ fn slow(speed: f64) -> String {
     ride_at(speed, "time,az\n", |_, t, a| format!("{t},{}", GRAVITY + a))
 }
 
+/// The ride, and another at half its speed: read upside down, a lift that speeds up and slows down without a stop.
+fn two_speeds() -> String {
+    let row = |t: f64, a: f64| format!("{t},{}", GRAVITY + a);
+    let slower = ride_at(0.5, "", |_, t, a| row(34.0 + t, a));
+    ride("time,az\n", |_, t, a| row(t, a)) + &slower
+}
+
 /// The last part of the ride, which begins in motion or at rest.
 fn late() -> String {
     let whole = scaled(1.0);
     let rows = whole.lines().skip(1201);
     "time,az\n".to_owned() + &rows.map(|row| row.to_owned() + "\n").collect::<String>()
+}
+
+/// Pushes without gravity for four minutes, two to either side in turn, before the ride.
+fn pushed() -> String {
+    let rows = (0..24000).map(|i| {
+        let time = f64::from(i) / 100.0;
+        let sign = if time % 8.0 < 4.0 { 0.2 } else { -0.2 };
+        let push = sign * pulse(time % 2.0, 1.0) + 0.03 * noise(i);
+        format!("{time},{push}\n")
+    });
+    let ride = ride("", |_, t, a| format!("{},{a}", 240.0 + t));
+    "time,az\n".to_owned() + &rows.collect::<String>() + &ride
 }
 
 /// What cannot be read, or is read wrongly.
@@ -225,6 +244,12 @@ fn of_reading() -> Vec<Case> {
 fn of_detection() -> Vec<Case> {
     let at_a_least = "use --lift slow, or a lower --least-speed";
     vec![
+        case(
+            pushed(),
+            &[],
+            "by --from and --to",
+            &["--from", "240", "--to", "274"],
+        ),
         case(slow(0.15), &[], at_a_least, &["--lift", "slow"]),
         case(slow(0.15), &[], at_a_least, &["--least-speed", "0.1"]),
         case(
@@ -234,7 +259,7 @@ fn of_detection() -> Vec<Case> {
             &["--lift", "slow"],
         ),
         case(
-            scaled(1.0),
+            two_speeds(),
             &["--begins", "motion"],
             "(leave out --begins to see what it says itself)",
             &[],
