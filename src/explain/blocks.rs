@@ -128,6 +128,11 @@ impl Cut {
         }
     }
 
+    /// How long it is without its holes, s.
+    pub fn recorded(&self) -> f64 {
+        self.blocks.iter().map(|block| block.seconds).sum()
+    }
+
     /// The means of windows of about this length, s.
     pub fn window_means(&self, seconds: f64) -> Vec<f64> {
         let windows = self.blocks.chunks(self.blocks_in(seconds));

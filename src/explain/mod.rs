@@ -106,12 +106,12 @@ impl Explanation {
             let restored = Explained::of(filter.undone(cut, prior), &filter.prior(prior));
             return Self {
                 high_pass: Some(filter.time_constant),
-                ..restored.finish(prior)
+                ..restored.finish()
             };
         }
         Self {
             is_busy: filter.is_err(),
-            ..plain.finish(prior)
+            ..plain.finish()
         }
     }
 }
@@ -157,13 +157,20 @@ fn high_pass(cut: &Cut, prior: &Prior) -> Result<Option<HighPass>, Busy> {
 /// A record explained under one assumption about its filter.
 struct Explained {
     record: Record,
+    /// What is known beforehand of this record.
+    prior: Prior,
     lattice: Lattice,
 }
 
 impl Explained {
     fn of(record: Record, prior: &Prior) -> Self {
-        let lattice = Lattice::new(prior, &record.pulses, &record.stretches());
-        Self { record, lattice }
+        let prior = prior.in_record(record.cut.recorded(), &record.pulses);
+        let lattice = Lattice::new(&prior, &record.pulses, &record.stretches());
+        Self {
+            record,
+            prior,
+            lattice,
+        }
     }
 
     /// As it is. Where the record is hardly ever at its level, the level may be its mean.
@@ -202,32 +209,32 @@ impl Explained {
     }
 
     /// The trips below the least speed.
-    fn slow(&self, prior: &Prior) -> Vec<Trip> {
+    fn slow(&self) -> Vec<Trip> {
+        let least_speed = self.prior.least_speed;
         let slower = Prior {
-            least_speed: SLOW * prior.least_speed,
-            ..*prior
+            least_speed: SLOW * least_speed,
+            ..self.prior
         };
         let lattice = Lattice::new(&slower, &self.record.pulses, &self.record.stretches());
         let mut trips = Reading::of(&self.record, &lattice.best()).trips;
-        trips.retain(|trip| trip.speed < prior.least_speed && trip.start.is_some());
+        trips.retain(|trip| trip.speed < least_speed && trip.start.is_some());
         trips
     }
 
     /// Whether the record is explained much better if nothing is said of how it begins.
-    fn begins_otherwise(&self, prior: &Prior) -> bool {
+    fn begins_otherwise(&self) -> bool {
         let free = Prior {
             begins_at_rest: None,
-            ..*prior
+            ..self.prior
         };
         let free = || Lattice::new(&free, &self.record.pulses, &self.record.stretches());
-        prior.begins_at_rest.is_some() && self.lattice.cost() - free().cost() >= CONTRADICTED
+        self.prior.begins_at_rest.is_some() && self.lattice.cost() - free().cost() >= CONTRADICTED
     }
 
-    fn finish(self, prior: &Prior) -> Explanation {
-        let (slow, doubts) =
-            rayon::join(|| self.slow(prior), || doubts(&self.record, &self.lattice));
+    fn finish(self) -> Explanation {
+        let (slow, doubts) = rayon::join(|| self.slow(), || doubts(&self.record, &self.lattice));
         Explanation {
-            begins_otherwise: self.begins_otherwise(prior),
+            begins_otherwise: self.begins_otherwise(),
             doubts,
             slow,
             reading: self.reading(),

@@ -112,7 +112,6 @@ impl Record {
 /// What a record reads on average: over all of it, or over what lies near its median. The first is right where the cage
 /// stands at both ends, the second where it does not.
 fn offsets(cut: &Cut) -> [f64; 2] {
-    let seconds: f64 = cut.blocks.iter().map(|block| block.seconds).sum();
     let area: f64 = cut
         .blocks
         .iter()
@@ -125,7 +124,10 @@ fn offsets(cut: &Cut) -> [f64; 2] {
         .into_iter()
         .filter(|mean| (mean - middle).abs() <= 4.0 * spread);
     let near: Vec<f64> = near.collect();
-    [area / seconds, near.iter().sum::<f64>() / near.len() as f64]
+    [
+        area / cut.recorded(),
+        near.iter().sum::<f64>() / near.len() as f64,
+    ]
 }
 
 #[cfg(test)]

@@ -25,8 +25,10 @@ pub struct Stretch<'a> {
 impl<'a> Stretch<'a> {
     /// In the order of the record; `begin` and `end` in s.
     pub fn new(prior: &'a Prior, pulses: &[Pulse], (begin, end): (f64, f64)) -> Self {
+        let handled = prior.handled();
         let turned = pulses.iter().map(|pulse| {
-            let mut turned = Turned::new(prior, pulse);
+            let is_inside = begin + cost::HANDLED <= pulse.from && pulse.to <= end - cost::HANDLED;
+            let mut turned = Turned::new(if is_inside { prior } else { &handled }, pulse);
             // Whoever starts or stops a recording may shake or turn the sensor.
             let is_handled = turned.violent > 0.0 || pulse.shift != 0.0;
             if !is_handled && (pulse.from <= begin || pulse.to >= end) {

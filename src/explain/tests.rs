@@ -73,6 +73,47 @@ fn a_level_that_shifts_makes_no_ride() {
     }
 }
 
+/// A cage creeps to its landing at 0.09 m/s. In a calm record the pulse that ends it can hardly be anything else; among
+/// footsteps it can.
+#[test]
+fn a_calm_record_shows_where_the_cage_stands() {
+    let creep = |time: f64| 0.09 * (pulse(time - 35.0) - pulse(time - 42.0));
+    let step = |time: f64| {
+        let phase = time % 3.0;
+        0.1 * within(time, 45.0, 80.0) * (within(phase, 1.0, 1.5) - within(phase, 1.7, 2.2))
+    };
+    let calm = explained(&record(100.0, creep), None);
+    let [trip] = &calm.reading.trips[..] else {
+        panic!("{:?}", calm.reading.trips)
+    };
+    assert!(trip.stop.is_some_and(|stop| (stop - 44.0).abs() < 1.0));
+    assert_eq!(calm.doubts, []);
+    let busy = explained(&record(100.0, |time| creep(time) + step(time)), None);
+    assert!(!busy.doubts.is_empty());
+}
+
+/// The cage turns at a landing at once: it is as far from where it began as it went, however near it ends.
+#[test]
+fn there_and_back_without_a_rest_are_two_rides() {
+    let back = |time: f64| -pulse(time - 37.2) + pulse(time - 52.2);
+    let found = explained(&record(80.0, back), Some(true));
+    let ups: Vec<bool> = found.reading.trips.iter().map(|trip| trip.is_up).collect();
+    assert_eq!(ups, [true, false]);
+    assert_eq!(found.doubts, []);
+}
+
+/// A hole leaves only a piece of the braking, too slow for a ride: it may still be one.
+#[test]
+fn a_piece_of_a_change_may_be_one() {
+    let samples = record(70.0, |_| 0.0).into_iter();
+    let kept = samples.filter(|it| !(18.0..36.4).contains(&it.time));
+    let found = explained(&kept.collect::<Vec<_>>(), None);
+    let doubted = found.doubts.iter().flat_map(|doubt| &doubt.instead);
+    let mut all = found.reading.trips.iter().chain(doubted);
+    let stop = |trip: &Trip| trip.stop.is_some_and(|stop| (stop - RIDE.1).abs() < 0.5);
+    assert!(all.any(|trip| trip.is_up && stop(trip)));
+}
+
 /// A ride of a lift that starts and stops at 0.06 m/s² is found, or said to be possible.
 #[test]
 fn a_soft_start_is_a_start() {

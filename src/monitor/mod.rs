@@ -136,7 +136,7 @@ impl Monitor {
                 most_acceleration: limits.most_acceleration,
                 longest_motion: limits.longest_motion,
                 gain_error: GAIN_ERROR,
-                begins_at_rest: None,
+                ..Prior::default()
             },
             soft: limits.least_acceleration,
         };
