@@ -138,7 +138,7 @@ fn other_ends(trip: &Trip) -> String {
 fn undecided(stretches: &[Undecided]) -> String {
     let told = |it: &Undecided| {
         let unknown = match it.why {
-            Why::Close => None,
+            Why::Close | Why::Filter => None,
             Why::NoRide => Some("a change of speed that fits no ride"),
             Why::Frozen => Some("the sensor repeats one value"),
         };

@@ -4,7 +4,7 @@
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
 use super::decisions::Decisions;
-use crate::explain::{self, Doubt, Explanation, Faults};
+use crate::explain::{self, Cause, Doubt, Explanation, Faults};
 use crate::monitor::{Decision, Direction};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -70,6 +70,8 @@ pub struct Undecided {
 pub enum Why {
     /// Two explanations are close.
     Close,
+    /// Two rides there and back may be one, behind a high-pass filter.
+    Filter,
     /// A change of speed fits no ride.
     NoRide,
     /// The sensor repeats one value.
@@ -230,6 +232,10 @@ impl Undecided {
         match self.why {
             Why::NoRide => return " (record the whole ride, with rest before and after it)",
             Why::Frozen => return ": the sensor repeats one value (record again)",
+            Why::Filter => {
+                return ", as a sensor that removes slow acceleration would show one ride as two (record the \
+                        acceleration with gravity)";
+            }
             Why::Close => {}
         }
         let begins = |trips: &[Brief]| trips.iter().any(|trip| trip.start.is_none());
@@ -255,7 +261,7 @@ impl Undecided {
 
     /// Whether a later one is about the same stretch.
     fn overlaps(&self, later: &Self) -> bool {
-        let is_about_rides = |it: &Self| it.why != Why::Frozen;
+        let is_about_rides = |it: &Self| matches!(it.why, Why::Close | Why::NoRide);
         later.from <= self.to && is_about_rides(self) && is_about_rides(later)
     }
 
@@ -301,7 +307,10 @@ impl Undecided {
         Self {
             from: blocks[place.start].from,
             to: blocks[place.end - 1].to,
-            why: Why::Close,
+            why: match doubt.cause {
+                Cause::Cage => Why::Close,
+                Cause::Filter => Why::Filter,
+            },
             either: brief(&doubt.trips),
             or: brief(&doubt.instead),
             log_odds: doubt.margin,

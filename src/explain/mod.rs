@@ -13,6 +13,7 @@
 mod blocks;
 pub(crate) mod cost;
 mod course;
+mod hops;
 mod lattice;
 mod level;
 mod path;
@@ -94,6 +95,17 @@ pub struct Doubt {
     pub instead: Vec<Trip>,
     /// How much dearer the other is, nats.
     pub margin: f64,
+    /// What would make the other right.
+    pub cause: Cause,
+}
+
+/// What would make another explanation right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// The cage moved otherwise.
+    Cage,
+    /// The sensor has a filter that the record does not show.
+    Filter,
 }
 
 impl Explanation {
@@ -109,10 +121,13 @@ impl Explanation {
                 ..restored.finish()
             };
         }
-        Self {
+        let mut plain = Self {
             is_busy: filter.is_err(),
             ..plain.finish()
-        }
+        };
+        let hops = plain.record.hops(&plain.reading.trips);
+        plain.doubts.extend(hops);
+        plain
     }
 }
 
@@ -259,6 +274,7 @@ fn doubts(record: &Record, lattice: &Lattice) -> Vec<Doubt> {
             trips: only(&trips, &instead),
             instead: only(&instead, &trips),
             margin,
+            cause: Cause::Cage,
         };
         let is_empty = doubt.trips.is_empty() && doubt.instead.is_empty();
         let mut latest = doubts.iter().rev().take(LATEST);

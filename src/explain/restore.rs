@@ -50,9 +50,7 @@ impl HighPass {
     }
 
     fn with(cut: &Cut, time_constants: &[f64]) -> Vec<Self> {
-        let offsets = offsets(cut)
-            .into_iter()
-            .filter(|offset| offset.abs() < NO_LEVEL);
+        let offsets = offsets(cut).into_iter().filter(is_none);
         let filters = offsets.flat_map(|offset| {
             time_constants.iter().map(move |&time_constant| Self {
                 time_constant,
@@ -107,6 +105,15 @@ impl Record {
             ..*cut
         })
     }
+}
+
+/// Whether a record reads more on average than a filter lets through.
+pub fn has_level(cut: &Cut) -> bool {
+    !offsets(cut).iter().any(is_none)
+}
+
+fn is_none(offset: &f64) -> bool {
+    offset.abs() < NO_LEVEL
 }
 
 /// What a record reads on average: over all of it, or over what lies near its median. The first is right where the cage

@@ -162,6 +162,40 @@ fn short_rides_in_a_row_are_no_swing() {
     assert_eq!(found.reading.trips.len(), 5, "{:?}", found.reading.trips);
 }
 
+/// Behind a high pass a ride is restored, or nothing is said of it that is not doubted: no hop of its start or its stop
+/// is taken for a ride.
+#[test]
+fn no_ride_behind_a_filter_is_two_without_a_word() {
+    for time_constant in [0.3, 0.5, 0.7, 1.0, 2.0, 5.0] {
+        for (slower, faster) in [(1.0, 1.0), (2.0, 1.0), (3.0, 1.0), (3.0, 0.5), (4.0, 0.7)] {
+            let mut low = 0.0;
+            let share = 1.0 - (-1.0 / (50.0 * time_constant) as f64).exp();
+            let other =
+                |time: f64| faster * ride(20.0 + (time - 20.0) / slower) - ride(time) - 9.81;
+            let behind = record(130.0, other).into_iter().map(|it| {
+                let acceleration = it.acceleration - low;
+                low += share * acceleration;
+                Sample { acceleration, ..it }
+            });
+            let found = explained(&behind.collect::<Vec<_>>(), None);
+            let is_doubted =
+                |trip: &Trip| found.doubts.iter().any(|doubt| doubt.trips.contains(trip));
+            let mut decided = found.reading.trips.iter().filter(|trip| !is_doubted(trip));
+            let stop = 20.0 + slower * (RIDE.1 - 20.0);
+            let is_it = |trip: &Trip| {
+                let near =
+                    |time: Option<f64>, truth: f64| time.is_some_and(|it| (it - truth).abs() < 3.0);
+                trip.is_up && near(trip.start, 20.0) && near(trip.stop, stop)
+            };
+            assert!(
+                decided.all(is_it),
+                "{time_constant} {slower} {faster}: {:?}",
+                found.reading.trips
+            );
+        }
+    }
+}
+
 /// The longer a hole in the cruise, the likelier the cage stopped in it; within a hole of a day it surely did.
 #[test]
 fn a_hole_may_hide_a_stop() {
