@@ -169,7 +169,7 @@ fn no_ride_behind_a_filter_is_two_without_a_word() {
     for time_constant in [0.3, 0.5, 0.7, 1.0, 2.0, 5.0] {
         for (slower, faster) in [(1.0, 1.0), (2.0, 1.0), (3.0, 1.0), (3.0, 0.5), (4.0, 0.7)] {
             let mut low = 0.0;
-            let share = 1.0 - (-1.0 / (50.0 * time_constant) as f64).exp();
+            let share = 1.0 - (-1.0 / (50.0f64 * time_constant)).exp();
             let other =
                 |time: f64| faster * ride(20.0 + (time - 20.0) / slower) - ride(time) - 9.81;
             let behind = record(130.0, other).into_iter().map(|it| {
