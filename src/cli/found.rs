@@ -150,13 +150,18 @@ fn undecided(stretches: &[Undecided]) -> String {
             1 => ", or in another way".to_owned(),
             more => format!(", or in {more} other ways"),
         };
+        let odds = if it.why == Why::Filter {
+            String::new()
+        } else {
+            format!(" ({})", likelier(it.log_odds))
+        };
         format!(
-            "\nundecided, {:.1} to {:.1} s: either {}, or {} ({}){more}\n",
+            "\nundecided, {:.1} to {:.1} s: either {}, or {}{}{more}\n",
             it.from,
             it.to,
             briefly(&it.either),
             briefly(&it.or),
-            likelier(it.log_odds),
+            odds,
         )
     };
     stretches.iter().take(MOST_TIMES).map(told).collect()

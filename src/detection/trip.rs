@@ -233,8 +233,8 @@ impl Undecided {
             Why::NoRide => return " (record the whole ride, with rest before and after it)",
             Why::Frozen => return ": the sensor repeats one value (record again)",
             Why::Filter => {
-                return ", as a sensor that removes slow acceleration would show one ride as two (record the \
-                        acceleration with gravity)";
+                return ", because a phone that filters out slow acceleration would show one ride as these two \
+                        (record the acceleration with gravity)";
             }
             Why::Close => {}
         }

@@ -19,8 +19,6 @@ pub struct Prior {
     pub gain_error: f64,
     /// Whether the record begins at rest, if that is known.
     pub begins_at_rest: Option<bool>,
-    /// What a weak pulse costs at least if it is something else, nats: more in a calm record.
-    pub calm: f64,
 }
 
 impl Default for Prior {
@@ -31,7 +29,6 @@ impl Default for Prior {
             longest_motion: 900.0,
             gain_error: 0.03,
             begins_at_rest: None,
-            calm: 0.0,
         }
     }
 }
@@ -69,9 +66,10 @@ pub const ABSURD: f64 = 30.0;
 /// A shock as a change of speed: a jam.
 pub const VIOLENT: f64 = 4.0;
 
-/// A weak pulse within this time of a stop, s, may belong to it by chance; where few show in a record that is unlikely,
-/// and costs up to this much.
+/// A weak pulse within this time of a stop, s, may belong to it by chance; where few show around it, s, that is
+/// unlikely, and costs up to this much.
 const BY_CHANCE: f64 = 5.0;
+pub const AROUND: f64 = 60.0;
 const MOST_CALM: f64 = 2.0;
 
 /// Whoever starts or ends a recording, or whatever made a hole in it, moves the sensor for so long, s.
@@ -80,8 +78,9 @@ pub const HANDLED: f64 = 3.0;
 /// A change of speed that leaves the cage at another speed and not at rest: a stage of braking.
 pub const STAGE: f64 = 0.5;
 
-/// A stage that leaves just half of the speed: two trips that are read as one show it always, a stage of braking by chance.
-pub const HALVED: f64 = 2.5;
+/// A stage that doubles the speed, or halves it. Two trips at one speed that are read as one always show it; a lift does
+/// by chance, as far as the speeds can be told apart.
+pub const HALVED: f64 = 2.0;
 
 /// A change of speed too small for a stage.
 pub const RIPPLE: f64 = 0.1;
@@ -150,25 +149,21 @@ pub fn acceleration_stage(gap: f64) -> f64 {
     match gap {
         ..1.0 => 0.5,
         ..3.0 => 2.0,
-        _ => 10.0,
+        _ => 6.0,
     }
 }
 
 impl Prior {
-    /// For a record of so many seconds with these pulses. The weak ones are its own measure of how often something
-    /// else than the cage moves the sensor: at a rate λ one comes by chance within t of a stop with odds of λt to 1.
-    pub fn in_record(self, seconds: f64, pulses: &[Pulse]) -> Self {
-        let is_weak = |pulse: &&Pulse| pulse.change.abs() < self.least_speed && !pulse.is_violent;
-        let weak = pulses.iter().filter(is_weak).count().max(1) as f64;
-        Self {
-            calm: log1p(seconds / (BY_CHANCE * weak)).min(MOST_CALM),
-            ..self
-        }
+    /// What a weak pulse costs at least if it is something else, where so many show in so many seconds. At a rate λ one
+    /// comes by chance within t of a stop with odds of λt to 1.
+    pub fn calm(seconds: f64, weak: usize) -> f64 {
+        log1p(seconds / (BY_CHANCE * weak.max(1) as f64)).min(MOST_CALM)
     }
 
-    /// For the seconds in which somebody may handle the sensor.
-    pub fn handled(self) -> Self {
-        Self { calm: 0.0, ..self }
+    /// Whether a pulse is one of those that anything near the sensor may leave.
+    pub fn is_weak(&self, pulse: &Pulse) -> bool {
+        let is_plain = !pulse.is_violent && !pulse.is_swing && pulse.shift == 0.0;
+        is_plain && pulse.change.abs() < self.least_speed
     }
 
     /// A motion that goes on across a hole of so many seconds.
@@ -194,7 +189,7 @@ impl Prior {
         }
         let ratio = pulse.change.abs() / self.least_speed;
         let cost = if ratio < 1.0 {
-            (0.2 + 3.8 * ratio * ratio).max(self.calm)
+            0.2 + 3.8 * ratio * ratio
         } else {
             (4.0 + 5.0 * (ratio - 1.0)).min(14.0)
         };

@@ -5,53 +5,61 @@
 
 use super::pulse::Record;
 use super::reading::Trip;
-use super::restore::has_level;
+use super::restore::is_near_zero;
 use super::{Cause, Doubt};
 
-/// A hop is no farther than this, m, and as far as the one back but for this share.
+/// A hop is no farther than this, m, and as far as the one back but for this share; it lasts no longer than an
+/// acceleration, so that its two changes of speed follow within this time, s.
 const FARTHEST: f64 = 4.0;
 const UNLIKE: f64 = 0.25;
+const PAUSE: f64 = 6.0;
 
 impl Record {
-    /// The doubts about trips in pairs there and back, if all are and the sensor reads nothing on average.
+    /// The doubts about hops there and back, if the sensor reads nothing on average.
     pub fn hops(&self, trips: &[Trip]) -> Vec<Doubt> {
-        let (pairs, rest) = trips.as_chunks::<2>();
-        let are_hops = |[out, back]: &[Trip; 2]| {
-            let [out, back] = [out, back].map(|trip| self.distance(trip));
-            let farthest = out.abs().max(back.abs());
-            farthest <= FARTHEST && (out + back).abs() <= UNLIKE * farthest
-        };
-        if !rest.is_empty() || !pairs.iter().all(are_hops) || has_level(&self.cut) {
-            return Vec::new();
+        let mut doubts = Vec::new();
+        let mut rest = if is_near_zero(&self.cut) { trips } else { &[] };
+        while let [out, back, ..] = rest {
+            let are_hops = self.are_hops(out, back);
+            if are_hops {
+                doubts.push(one_ride(out, back));
+            }
+            rest = &rest[if are_hops { 2 } else { 1 }..];
         }
-        let doubt = |[out, back]: &[Trip; 2]| Doubt {
-            trips: vec![out.clone(), back.clone()],
-            instead: vec![Trip {
-                braking: back.start,
-                levelling: None,
-                stop: back.stop,
-                pulses: out.pulses.start..back.pulses.end,
-                changes: [&out.changes[..], &back.changes].concat(),
-                ..out.clone()
-            }],
-            margin: 0.0,
-            cause: Cause::Filter,
-        };
-        pairs.iter().map(doubt).collect()
+        doubts
     }
 
-    /// About how far a trip goes, m, up positive: at its speed from the middle of its first change to that of its last.
-    fn distance(&self, trip: &Trip) -> f64 {
-        let middle = |change: usize| {
-            let pulse = &self.pulses[change];
-            (pulse.from + pulse.to) / 2.0
+    fn are_hops(&self, out: &Trip, back: &Trip) -> bool {
+        let (Some(there), Some(again)) = (self.hop(out), self.hop(back)) else {
+            return false;
         };
-        let changes = trip.changes.first().zip(trip.changes.last());
-        let seconds = changes.map_or(0.0, |(first, last)| middle(*last) - middle(*first));
-        if trip.is_up {
-            trip.speed * seconds
-        } else {
-            -trip.speed * seconds
-        }
+        out.is_up != back.is_up && (there - again).abs() <= UNLIKE * there.max(again)
+    }
+
+    /// About how far a trip goes if it is a hop, m: at its speed from the middle of its first change to that of its last.
+    fn hop(&self, trip: &Trip) -> Option<f64> {
+        trip.start.and(trip.stop)?;
+        let (first, last) = (trip.changes.first()?, trip.changes.last()?);
+        let (first, last) = (&self.pulses[*first], &self.pulses[*last]);
+        let middle = (last.from + last.to - first.from - first.to) / 2.0;
+        let distance = trip.speed * middle;
+        (last.from - first.to <= PAUSE && distance <= FARTHEST).then_some(distance)
+    }
+}
+
+/// The doubt that two hops are a ride which starts with one and stops with the other.
+fn one_ride(out: &Trip, back: &Trip) -> Doubt {
+    Doubt {
+        trips: vec![out.clone(), back.clone()],
+        instead: vec![Trip {
+            braking: back.start,
+            levelling: None,
+            stop: back.stop,
+            pulses: out.pulses.start..back.pulses.end,
+            changes: [&out.changes[..], &back.changes].concat(),
+            ..out.clone()
+        }],
+        margin: 0.0,
+        cause: Cause::Filter,
     }
 }

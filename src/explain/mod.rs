@@ -172,19 +172,16 @@ fn high_pass(cut: &Cut, prior: &Prior) -> Result<Option<HighPass>, Busy> {
 /// A record explained under one assumption about its filter.
 struct Explained {
     record: Record,
-    /// What is known beforehand of this record.
     prior: Prior,
     lattice: Lattice,
 }
 
 impl Explained {
     fn of(record: Record, prior: &Prior) -> Self {
-        let prior = prior.in_record(record.cut.recorded(), &record.pulses);
-        let lattice = Lattice::new(&prior, &record.pulses, &record.stretches());
         Self {
+            lattice: Lattice::new(prior, &record.pulses, &record.stretches()),
+            prior: *prior,
             record,
-            prior,
-            lattice,
         }
     }
 

@@ -97,9 +97,10 @@ impl Progress {
         let mut total = 0.0;
         for pulse in pulses {
             let coast = pulse.from - changed.since;
-            changed.distance += changed.speed * coast
-                + (changed.speed + pulse.change / 2.0) * (pulse.to - pulse.from);
-            changed.farthest = changed.farthest.max(changed.distance.abs());
+            changed.distance += changed.speed * coast;
+            let turn = changed.turn(pulse);
+            changed.distance += (changed.speed + pulse.change / 2.0) * (pulse.to - pulse.from);
+            changed.farthest = turn.max(changed.distance.abs()).max(changed.farthest);
             changed.speed += pulse.change;
             changed.variance += pulse.variance;
             changed.cost += pulse.violent;
@@ -108,7 +109,7 @@ impl Progress {
         }
         changed.top = changed.top.max(changed.speed.abs());
         changed.cost += self.creeping(pulses[0].from);
-        if self.is_slow && changed.regains_speed(self) {
+        if self.is_slow && changed.speed.abs() > RESTARTED * changed.top {
             changed.cost += cost::RESTART;
         } else if total * self.speed > 0.0 {
             changed.cost += cost::acceleration_stage(pause);
@@ -116,17 +117,20 @@ impl Progress {
         changed
     }
 
-    /// Whether it is much faster than before.
-    pub fn regains_speed(&self, before: &Self) -> bool {
-        self.speed.abs() - before.speed.abs() > RESTARTED * self.top
+    /// How far from its beginning it turns during a pulse of even acceleration, m; 0 if it does not.
+    fn turn(&self, pulse: &Turned) -> f64 {
+        let part = -self.speed / pulse.change;
+        if (0.0..1.0).contains(&part) {
+            (self.distance + self.speed * part * (pulse.to - pulse.from) / 2.0).abs()
+        } else {
+            0.0
+        }
     }
 
     /// The motion that goes on after it has changed from `before`; `stage` is the cost of a stage of braking.
     pub fn going_on(self, prior: &Prior, before: &Self, stage: f64) -> Self {
         let is_slow = self.speed.abs() < 2.0 * prior.tolerance(self.top, self.variance);
         let is_braking = self.speed.abs() < before.speed.abs();
-        let is_halved =
-            (self.speed - before.speed / 2.0).abs() < prior.tolerance(self.top, self.variance);
         let is_turned = self.speed != 0.0 && (self.speed > 0.0) != self.is_up;
         let cost = if is_slow {
             cost::CREEP
@@ -134,8 +138,6 @@ impl Progress {
             cost::TURN
         } else if is_braking && before.speed.abs() - self.speed.abs() < 0.2 * before.top {
             cost::RIPPLE
-        } else if is_braking && is_halved {
-            stage + cost::HALVED
         } else if is_braking {
             stage
         } else {

@@ -17,7 +17,10 @@ const TIME_CONSTANTS: [f64; 15] = [
 const NEARBY: [f64; 4] = [0.85, 0.92, 1.08, 1.17];
 
 /// What a filter leaves of a constant, m/s²: a record farther from zero has none.
-const NO_LEVEL: f64 = 0.05;
+const NO_LEVEL: f64 = 0.4;
+
+/// What one without an offset of its own leaves, m/s².
+const ZERO: f64 = 0.05;
 
 /// The error of a restored record's speeds, as a share.
 const RESTORED_ERROR: f64 = 0.08;
@@ -50,7 +53,9 @@ impl HighPass {
     }
 
     fn with(cut: &Cut, time_constants: &[f64]) -> Vec<Self> {
-        let offsets = offsets(cut).into_iter().filter(is_none);
+        let offsets = offsets(cut)
+            .into_iter()
+            .filter(|offset| offset.abs() < NO_LEVEL);
         let filters = offsets.flat_map(|offset| {
             time_constants.iter().map(move |&time_constant| Self {
                 time_constant,
@@ -107,13 +112,9 @@ impl Record {
     }
 }
 
-/// Whether a record reads more on average than a filter lets through.
-pub fn has_level(cut: &Cut) -> bool {
-    !offsets(cut).iter().any(is_none)
-}
-
-fn is_none(offset: &f64) -> bool {
-    offset.abs() < NO_LEVEL
+/// Whether a record reads nothing on average.
+pub fn is_near_zero(cut: &Cut) -> bool {
+    offsets(cut).iter().any(|offset| offset.abs() < ZERO)
 }
 
 /// What a record reads on average: over all of it, or over what lies near its median. The first is right where the cage

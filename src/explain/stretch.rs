@@ -25,13 +25,20 @@ pub struct Stretch<'a> {
 impl<'a> Stretch<'a> {
     /// In the order of the record; `begin` and `end` in s.
     pub fn new(prior: &'a Prior, pulses: &[Pulse], (begin, end): (f64, f64)) -> Self {
-        let handled = prior.handled();
+        let weak: Vec<&Pulse> = pulses.iter().filter(|it| prior.is_weak(it)).collect();
         let turned = pulses.iter().map(|pulse| {
+            let mut turned = Turned::new(prior, pulse);
             let is_inside = begin + cost::HANDLED <= pulse.from && pulse.to <= end - cost::HANDLED;
-            let mut turned = Turned::new(if is_inside { prior } else { &handled }, pulse);
-            // Whoever starts or stops a recording may shake or turn the sensor.
-            let is_handled = turned.violent > 0.0 || pulse.shift != 0.0;
-            if !is_handled && (pulse.from <= begin || pulse.to >= end) {
+            if is_inside && prior.is_weak(pulse) {
+                let (from, to) = (pulse.from - cost::AROUND, pulse.to + cost::AROUND);
+                let before = weak.partition_point(|it| it.to < from);
+                let count = weak[before..].partition_point(|it| it.from <= to);
+                let calm = Prior::calm(to.min(end) - from.max(begin), count);
+                turned.ignored = turned.ignored.max(calm);
+            }
+            // A sensor that is shaken or turned at the end of a record may be in somebody's hand.
+            let is_shaken = turned.violent > 0.0 || pulse.shift != 0.0;
+            if !is_shaken && (pulse.from <= begin || pulse.to >= end) {
                 turned.ignored += cost::CUT_OFF;
             }
             turned
@@ -128,9 +135,8 @@ impl<'a> Stretch<'a> {
         if self.is_half(pulses.end) {
             changed.cost += cost::HALF;
         }
-        // Only where the rest of the record can say otherwise: a monitor must not exclude it.
-        if motion.creeps && !motion.is_slow && changed.regains_speed(motion) {
-            changed.cost += cost::RESTART;
+        if self.is_half_of(motion, &changed) {
+            changed.cost += cost::HALVED;
         }
         changed
     }
@@ -150,14 +156,25 @@ impl<'a> Stretch<'a> {
     /// A motion that goes on after a change by the pulses before `next`. Reversed, a stage of braking is a second one of
     /// acceleration, unless the record begins within the first.
     pub fn going_on(&self, changed: Progress, before: &Progress, next: usize) -> Progress {
-        let stage = if self.ends_with(&self.pulses[next - 1]) {
+        let is_cut_off = self.ends_with(&self.pulses[next - 1]);
+        let stage = if is_cut_off {
             0.0
         } else if self.is_reversed {
             cost::acceleration_stage(f64::INFINITY) / 2.0
         } else {
             cost::STAGE
         };
-        changed.going_on(self.prior, before, stage)
+        let mut goes_on = changed.going_on(self.prior, before, stage);
+        if !is_cut_off && self.is_half_of(&changed, before) {
+            goes_on.cost += cost::HALVED;
+        }
+        goes_on
+    }
+
+    /// Whether the first is half as fast as the second.
+    fn is_half_of(&self, one: &Progress, other: &Progress) -> bool {
+        let tolerance = self.prior.tolerance(other.top, other.variance);
+        (one.speed - other.speed / 2.0).abs() < tolerance
     }
 
     /// What a motion costs that ends with a pulse.
