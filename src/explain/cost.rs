@@ -78,9 +78,9 @@ pub const HANDLED: f64 = 3.0;
 /// A change of speed that leaves the cage at another speed and not at rest: a stage of braking.
 pub const STAGE: f64 = 0.5;
 
-/// A stage that doubles the speed, or halves it. Two trips at one speed that are read as one always show it; a lift does
-/// by chance, as far as the speeds can be told apart.
-pub const HALVED: f64 = 2.0;
+/// A second stage of acceleration as strong as the first. Two trips at one speed that are read as one always show it; a
+/// lift that creeps out of a station hardly does.
+pub const DOUBLED: f64 = 4.0;
 
 /// A change of speed too small for a stage.
 pub const RIPPLE: f64 = 0.1;

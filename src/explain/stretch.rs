@@ -135,8 +135,9 @@ impl<'a> Stretch<'a> {
         if self.is_half(pulses.end) {
             changed.cost += cost::HALF;
         }
-        if self.is_half_of(motion, &changed) {
-            changed.cost += cost::HALVED;
+        let tolerance = self.prior.tolerance(changed.top, changed.variance);
+        if !motion.creeps && (motion.speed - changed.speed / 2.0).abs() < tolerance {
+            changed.cost += cost::DOUBLED;
         }
         changed
     }
@@ -156,25 +157,14 @@ impl<'a> Stretch<'a> {
     /// A motion that goes on after a change by the pulses before `next`. Reversed, a stage of braking is a second one of
     /// acceleration, unless the record begins within the first.
     pub fn going_on(&self, changed: Progress, before: &Progress, next: usize) -> Progress {
-        let is_cut_off = self.ends_with(&self.pulses[next - 1]);
-        let stage = if is_cut_off {
+        let stage = if self.ends_with(&self.pulses[next - 1]) {
             0.0
         } else if self.is_reversed {
             cost::acceleration_stage(f64::INFINITY) / 2.0
         } else {
             cost::STAGE
         };
-        let mut goes_on = changed.going_on(self.prior, before, stage);
-        if !is_cut_off && self.is_half_of(&changed, before) {
-            goes_on.cost += cost::HALVED;
-        }
-        goes_on
-    }
-
-    /// Whether the first is half as fast as the second.
-    fn is_half_of(&self, one: &Progress, other: &Progress) -> bool {
-        let tolerance = self.prior.tolerance(other.top, other.variance);
-        (one.speed - other.speed / 2.0).abs() < tolerance
+        changed.going_on(self.prior, before, stage)
     }
 
     /// What a motion costs that ends with a pulse.
