@@ -155,7 +155,7 @@ fn real_rides_are_found_where_they_are_stated() {
         let distance = recording.worst_distance(&found);
         assert!(distance <= 1.0, "{}: {distance}", recording.name);
         assert_eq!(
-            found.high_pass.is_some(),
+            found.filter.time_constant().is_some(),
             recording.name.contains("highpassed"),
             "{}",
             recording.name
@@ -421,7 +421,7 @@ fn simulated_rides_are_found_where_they_are() {
             .worst(&found.trips)
             .unwrap_or_else(|why| panic!("{}: {why}", case.name));
         println!("{:25} within {worst:.2} s", case.name);
-        assert_eq!(found.high_pass, None, "{}", case.name);
+        assert_eq!(found.filter.time_constant(), None, "{}", case.name);
     }
 }
 
@@ -437,7 +437,7 @@ fn high_passed_rides_are_restored() {
         sample.acceleration = passed;
     }
     let found = known.detect(&Settings::default());
-    let time_constant = found.high_pass.expect("it is noticed");
+    let time_constant = found.filter.time_constant().expect("it is noticed");
     assert!((0.6..1.6).contains(&time_constant), "{time_constant}");
     known.worst(&found.trips).unwrap();
 }

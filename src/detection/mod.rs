@@ -21,7 +21,7 @@ pub use report::{DetectReport, Recorded, SLOW, Warning};
 pub use trace::{Column, Trace};
 pub use trip::{Brief, End, Event, Trip, Undecided, What, Why};
 
-use crate::explain::{Cut, Explanation, Faults, Prior};
+use crate::explain::{Cut, Explanation, Faults, Filter, Prior};
 use crate::monitor::{Design, Knowledge, Reference};
 use crate::recording::Sample;
 use decisions::Decisions;
@@ -42,10 +42,8 @@ pub struct Detection {
     pub events: Vec<Event>,
     /// The false alarms at rest.
     pub at_rest: AtRest,
-    /// The time constant of the sensor's high-pass filter, s, if the record was restored.
-    pub high_pass: Option<f64>,
-    /// Whether no such filter was looked for, as too much moves the sensor.
-    pub is_busy: bool,
+    /// The sensor's high-pass filter: if it has one, the record was restored.
+    pub filter: Filter,
     /// The times of impossible samples, s: they were replaced by what their neighbours read.
     pub glitches: Vec<f64>,
     /// Whether it was said to begin at rest or in motion, where the record contradicts that.
@@ -92,8 +90,7 @@ impl Detection {
                 motion_shows: decisions.motion_shows(uniform),
                 reference: reference.clone(),
             },
-            high_pass: explanation.high_pass,
-            is_busy: explanation.is_busy,
+            filter: explanation.filter,
             trace: Trace::of(
                 &explanation.record.cut.blocks,
                 decisions.whitened(),

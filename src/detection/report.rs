@@ -3,6 +3,7 @@
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
 use super::{AtRest, Detection, Event, Trip, Undecided, What, columns};
+use crate::explain::Filter;
 use crate::monitor::{Knowledge, Settings};
 use crate::recording::Recording;
 use serde::Serialize;
@@ -141,7 +142,7 @@ impl<'a> DetectReport<'a> {
                 quantum: facts.quantum,
                 has_gravity: facts.has_gravity,
                 clock_offset: facts.clock_offset,
-                high_pass: detection.high_pass,
+                high_pass: detection.filter.time_constant(),
             },
             settings: &detection.design.settings,
             block: detection.design.block,
@@ -231,8 +232,8 @@ impl Detection {
                 remedy: it.remedy(),
             });
         [
-            self.high_pass.map(Warning::HighPass),
-            self.is_busy.then_some(Warning::Busy),
+            self.filter.time_constant().map(Warning::HighPass),
+            (self.filter == Filter::NotSought).then_some(Warning::Busy),
             ((rate / learnt - 1.0).abs() > 0.05).then_some(Warning::Rate { learnt, got: rate }),
             level
                 .filter(|level| !is_level_of_rest(*level))

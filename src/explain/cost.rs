@@ -40,17 +40,17 @@ pub const TRIP: f64 = 1.0;
 pub const OPEN: f64 = 3.0;
 
 /// A start or a stop within a hole: usually, less in one longer than a few seconds, more in one that can hardly hide a
-/// change of speed, which takes this long, s.
+/// change of speed, which lasts this long, s.
 pub const IN_HOLE: f64 = 1.5;
 const LONG_HOLE: f64 = 20.0;
-const CHANGE: f64 = 2.0;
+const CHANGE_LASTS: f64 = 2.0;
 const MOST_IN_HOLE: f64 = 3.0 * IN_HOLE;
 
 /// A pulse that an end of a stretch cuts off is over just there.
-pub const CUT_OFF: f64 = 1.75;
+const CUT_OFF: f64 = 1.75;
 
 /// What is seen of the change is too slow for a trip.
-pub const PART: f64 = 2.0;
+pub const SLOW_PART: f64 = 2.0;
 
 /// A motion that goes on across a hole: once, and for every so many seconds beyond the first few.
 pub const ACROSS_HOLE: f64 = 0.3;
@@ -133,10 +133,15 @@ pub fn closing(speed: f64, tolerance: f64) -> f64 {
     ((speed / tolerance).powi(2) / 2.0).min(MOST_CLOSING)
 }
 
+/// A pulse is over just where an end of a stretch cuts it off, if one does.
+pub fn cut_off(is_at_end: bool) -> f64 {
+    if is_at_end { CUT_OFF } else { 0.0 }
+}
+
 /// A start or a stop within a hole of so many seconds.
 pub fn in_hole(seconds: f64) -> f64 {
     let usual = log1p(LONG_HOLE / seconds).min(IN_HOLE);
-    (usual * (1.0 + (CHANGE / seconds).powi(4))).min(MOST_IN_HOLE)
+    (usual * (1.0 + (CHANGE_LASTS / seconds).powi(4))).min(MOST_IN_HOLE)
 }
 
 /// A stop and the next start within one hole.

@@ -36,10 +36,9 @@ pub use level::Level;
 pub(crate) use progress::{Progress, Swing, Turned};
 pub use pulse::{Pulse, Record};
 pub use reading::{Reading, Trip, is_near};
+pub use restore::HighPass;
 pub use sound::Faults;
 pub use trips::Motion;
-
-use restore::HighPass;
 
 /// A record is hardly ever at its level where more than this share of its windows is off it.
 const OFTEN: f64 = 0.25;
@@ -72,10 +71,8 @@ const CONTRADICTED: f64 = 6.0;
 pub struct Explanation {
     /// The record, restored if it was high-passed.
     pub record: Record,
-    /// The time constant of the filter, s.
-    pub high_pass: Option<f64>,
-    /// Whether a filter was not looked for, as too much moves the sensor.
-    pub is_busy: bool,
+    /// What the record shows of a filter.
+    pub filter: Filter,
     /// The cheapest explanation.
     pub reading: Reading,
     /// Where another is nearly as cheap.
@@ -113,60 +110,71 @@ impl Explanation {
     pub fn of(cut: &Cut, prior: &Prior) -> Self {
         let plain = Explained::plain(cut, prior);
         let part = plain.record.telling_part();
-        let filter = part.map_or(Ok(None), |part| high_pass(&part, prior));
-        if let Ok(Some(filter)) = filter {
-            let restored = Explained::of(filter.undone(cut, prior), &filter.prior(prior));
-            return Self {
-                high_pass: Some(filter.time_constant),
-                ..restored.finish()
-            };
+        let filter = part.map_or(Filter::None, |part| Filter::of(&part, prior));
+        if let Filter::HighPass(high_pass) = filter {
+            let restored = Explained::of(high_pass.undone(cut, prior), &high_pass.prior(prior));
+            return restored.finish(filter);
         }
-        let mut plain = Self {
-            is_busy: filter.is_err(),
-            ..plain.finish()
-        };
+        let mut plain = plain.finish(filter);
         let hops = plain.record.hops(&plain.reading.trips);
         plain.doubts.extend(hops);
         plain
     }
 }
 
-/// Too many pulses to look for a filter.
-struct Busy;
+/// What a record shows of a high-pass filter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Filter {
+    /// There is none, as far as it shows.
+    None,
+    /// It explains the record clearly better than none.
+    HighPass(HighPass),
+    /// It was not looked for: too much moves the sensor.
+    NotSought,
+}
 
-/// The high-pass filter that explains a record clearly better than none.
-fn high_pass(cut: &Cut, prior: &Prior) -> Result<Option<HighPass>, Busy> {
-    let filters = HighPass::all(cut);
-    if filters.is_empty() {
-        return Ok(None);
+impl Filter {
+    /// The time constant of one that was found, s.
+    pub fn time_constant(&self) -> Option<f64> {
+        match self {
+            Self::HighPass(high_pass) => Some(high_pass.time_constant),
+            _ => None,
+        }
     }
-    let plain = Explained::plain(cut, prior);
-    let pulses = plain.record.pulses.len();
-    if pulses > MOST_PULSES {
-        return Err(Busy);
+
+    fn of(cut: &Cut, prior: &Prior) -> Self {
+        let filters = HighPass::all(cut);
+        if filters.is_empty() {
+            return Self::None;
+        }
+        let plain = Explained::plain(cut, prior);
+        let pulses = plain.record.pulses.len();
+        if pulses > MOST_PULSES {
+            return Self::NotSought;
+        }
+        let most = MOST_PULSES.min(MORE_PULSES * (pulses + 10));
+        let best_of = |filters: Vec<HighPass>| {
+            let costs = filters.into_iter().filter_map(|filter| {
+                let record = filter.undone(cut, prior);
+                let is_hopeless = OFF_LEVEL * record.level.cost + HIGH_PASS >= plain.cost();
+                if record.pulses.len() > most || is_hopeless {
+                    return None;
+                }
+                let restored = Explained::of(record, &filter.prior(prior));
+                let is_better = restored.cost() + HIGH_PASS < plain.cost()
+                    && restored.lattice.cost() + SIMPLER < plain.lattice.cost()
+                    && restored.has_whole_trip();
+                is_better.then(|| (restored.cost(), filter))
+            });
+            costs.min_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        let Some(rough) = best_of(filters) else {
+            return Self::None;
+        };
+        let finer = best_of(rough.1.nearby(cut));
+        let finer = finer.filter(|finer| finer.0 < rough.0);
+        Self::HighPass(finer.unwrap_or(rough).1)
     }
-    let most = MOST_PULSES.min(MORE_PULSES * (pulses + 10));
-    let best_of = |filters: Vec<HighPass>| {
-        let costs = filters.into_iter().filter_map(|filter| {
-            let record = filter.undone(cut, prior);
-            let is_hopeless = OFF_LEVEL * record.level.cost + HIGH_PASS >= plain.cost();
-            if record.pulses.len() > most || is_hopeless {
-                return None;
-            }
-            let restored = Explained::of(record, &filter.prior(prior));
-            let is_better = restored.cost() + HIGH_PASS < plain.cost()
-                && restored.lattice.cost() + SIMPLER < plain.lattice.cost()
-                && restored.has_whole_trip();
-            is_better.then(|| (restored.cost(), filter))
-        });
-        costs.min_by(|a, b| a.0.total_cmp(&b.0))
-    };
-    let Some(rough) = best_of(filters) else {
-        return Ok(None);
-    };
-    let finer = best_of(rough.1.nearby(cut));
-    let finer = finer.filter(|finer| finer.0 < rough.0);
-    Ok(Some(finer.unwrap_or(rough).1))
 }
 
 /// A record explained under one assumption about its filter.
@@ -243,7 +251,7 @@ impl Explained {
         self.prior.begins_at_rest.is_some() && self.lattice.cost() - free().cost() >= CONTRADICTED
     }
 
-    fn finish(self) -> Explanation {
+    fn finish(self, filter: Filter) -> Explanation {
         let (slow, doubts) = rayon::join(|| self.slow(), || doubts(&self.record, &self.lattice));
         Explanation {
             begins_otherwise: self.begins_otherwise(),
@@ -251,8 +259,7 @@ impl Explained {
             slow,
             reading: self.reading(),
             record: self.record,
-            high_pass: None,
-            is_busy: false,
+            filter,
         }
     }
 }

@@ -37,10 +37,9 @@ impl<'a> Stretch<'a> {
                 turned.ignored = turned.ignored.max(calm);
             }
             // A sensor that is shaken or turned at the end of a record may be in somebody's hand.
-            let is_shaken = turned.violent > 0.0 || pulse.shift != 0.0;
-            if !is_shaken && (pulse.from <= begin || pulse.to >= end) {
-                turned.ignored += cost::CUT_OFF;
-            }
+            let is_handled = turned.is_shock() || pulse.shift != 0.0;
+            let is_at_end = pulse.from <= begin || pulse.to >= end;
+            turned.ignored += cost::cut_off(is_at_end && !is_handled);
             turned
         });
         Self::of(prior, turned.collect(), (begin, end), false)
@@ -106,9 +105,7 @@ impl<'a> Stretch<'a> {
         let pulse = &self.pulses[first];
         let is_strong = pulse.change.abs() >= self.prior.least_speed / 8.0;
         let mut start = Progress::start(pulse);
-        if self.begins_with(pulse) {
-            start.cost += cost::CUT_OFF;
-        }
+        start.cost += cost::cut_off(self.begins_with(pulse));
         // Reversed, the start is the stop.
         if self.is_reversed {
             start.cost += self.unfinished(first);
@@ -170,11 +167,7 @@ impl<'a> Stretch<'a> {
     /// What a motion costs that ends with a pulse.
     pub fn closed(&self, motion: &Progress, first: usize, last: usize) -> f64 {
         let seconds = self.pulses[last].to - self.pulses[first].from;
-        let cut_off = if self.ends_with(&self.pulses[last]) {
-            cost::CUT_OFF
-        } else {
-            0.0
-        };
+        let cut_off = cost::cut_off(self.ends_with(&self.pulses[last]));
         let unfinished = if self.is_reversed {
             0.0
         } else {
@@ -188,7 +181,7 @@ impl<'a> Stretch<'a> {
         let slow = (self.prior).implausible(motion.top, f64::INFINITY, f64::INFINITY);
         // Of a change that the end cuts off nobody knows how fast it became.
         let slow = if motion.since >= self.end {
-            slow.min(cost::PART)
+            slow.min(cost::SLOW_PART)
         } else {
             slow
         };

@@ -66,7 +66,7 @@ pub fn plot(
     plot.add_legend(entries(), Place::Across);
     let mut caption = caption(detection, name);
     caption.extend(clock_offset.map(|offset| format!("times count from {offset:.3} s")));
-    if let Some(time_constant) = detection.high_pass {
+    if let Some(time_constant) = detection.filter.time_constant() {
         caption.push(format!("restored from a high pass of {time_constant:.2} s"));
     }
     plot.set_caption(&caption);

@@ -126,7 +126,7 @@ impl Found {
 }
 
 /// A pulse that a hole cuts off within this time of an end shows nothing of that end, s.
-const CUT_OFF: f64 = 0.6;
+const EDGE: f64 = 0.6;
 
 /// A shorter rest is none, s.
 const REST: f64 = 1.0;
@@ -145,12 +145,8 @@ fn is_between_rests(record: &Record, trip: &Journey) -> bool {
 fn is_recorded(record: &Record, time: f64) -> bool {
     let (first, last) = ends(record);
     let longest = 0.25f64.max(3.0 / record.rate);
-    let around = record
-        .times
-        .partition_point(|other| *other < time - CUT_OFF)
-        ..record
-            .times
-            .partition_point(|other| *other <= time + CUT_OFF);
+    let around = record.times.partition_point(|other| *other < time - EDGE)
+        ..record.times.partition_point(|other| *other <= time + EDGE);
     let near = record.times
         [around.start.saturating_sub(1)..(around.end + 1).min(record.times.len())]
         .windows(2);
