@@ -47,6 +47,22 @@ fn detect(recording: &Recording, choice: u8) {
     assert!(found.at_rest.false_alarms <= found.at_rest.decisions);
 }
 
+fn reading(choice: u8) -> Reading {
+    let flag = |bit: u8| choice & bit > 0;
+    Reading {
+        time_unit: flag(1).then_some(TimeUnit::Milliseconds),
+        unit: if flag(2) { Unit::Gravity } else { Unit::Found },
+        axis: if flag(4) { Axis::Gravity } else { Axis::Auto },
+        invert: flag(8),
+        from: flag(16).then_some(0.5),
+        to: flag(32).then_some(20.0),
+        rate: flag(64).then_some(50.0),
+        resample: flag(128).then_some(20.0),
+        ..Reading::default()
+    }
+}
+
+/// Small samples, so that a short recording reaches all of the monitor.
 fn settings(choice: u8) -> Settings {
     let mut settings = Settings::default();
     settings.monitor.block = [0.05, 0.1, 0.25][usize::from(choice / 16) % 3];
