@@ -21,7 +21,7 @@ pub use report::{DetectReport, Recorded, SLOW, Warning};
 pub use trace::{Column, Trace};
 pub use trip::{Brief, End, Event, Trip, Undecided, What, Why};
 
-use crate::explain::{Cut, Explanation, Faults, Filter, Prior};
+use crate::explain::{Cut, Explanation, Faults, Prior, SensorFilter};
 use crate::monitor::{Design, Knowledge, Reference};
 use crate::recording::Sample;
 use decisions::Decisions;
@@ -43,7 +43,7 @@ pub struct Detection {
     /// The false alarms at rest.
     pub at_rest: AtRest,
     /// The sensor's high-pass filter: if it has one, the record was restored.
-    pub filter: Filter,
+    pub filter: SensorFilter,
     /// The times of impossible samples, s: they were replaced by what their neighbours read.
     pub glitches: Vec<f64>,
     /// Whether it was said to begin at rest or in motion, where the record contradicts that.

@@ -3,7 +3,7 @@
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
 use super::{AtRest, Detection, Event, Trip, Undecided, What, columns};
-use crate::explain::Filter;
+use crate::explain::SensorFilter;
 use crate::monitor::{Knowledge, Settings};
 use crate::recording::Recording;
 use serde::Serialize;
@@ -233,7 +233,7 @@ impl Detection {
             });
         [
             self.filter.time_constant().map(Warning::HighPass),
-            (self.filter == Filter::NotSought).then_some(Warning::Busy),
+            (self.filter == SensorFilter::NotSought).then_some(Warning::Busy),
             ((rate / learnt - 1.0).abs() > 0.05).then_some(Warning::Rate { learnt, got: rate }),
             level
                 .filter(|level| !is_level_of_rest(*level))

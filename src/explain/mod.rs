@@ -72,7 +72,7 @@ pub struct Explanation {
     /// The record, restored if it was high-passed.
     pub record: Record,
     /// What the record shows of a filter.
-    pub filter: Filter,
+    pub filter: SensorFilter,
     /// The cheapest explanation.
     pub reading: Reading,
     /// Where another is nearly as cheap.
@@ -110,8 +110,8 @@ impl Explanation {
     pub fn of(cut: &Cut, prior: &Prior) -> Self {
         let plain = Explained::plain(cut, prior);
         let part = plain.record.telling_part();
-        let filter = part.map_or(Filter::None, |part| Filter::of(&part, prior));
-        if let Filter::HighPass(high_pass) = filter {
+        let filter = part.map_or(SensorFilter::None, |part| SensorFilter::of(&part, prior));
+        if let SensorFilter::HighPass(high_pass) = filter {
             let restored = Explained::of(high_pass.undone(cut, prior), &high_pass.prior(prior));
             return restored.finish(filter);
         }
@@ -124,7 +124,7 @@ impl Explanation {
 
 /// What a record shows of a high-pass filter.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Filter {
+pub enum SensorFilter {
     /// There is none, as far as it shows.
     None,
     /// It explains the record clearly better than none.
@@ -133,7 +133,7 @@ pub enum Filter {
     NotSought,
 }
 
-impl Filter {
+impl SensorFilter {
     /// The time constant of one that was found, s.
     pub fn time_constant(&self) -> Option<f64> {
         match self {
@@ -251,7 +251,7 @@ impl Explained {
         self.prior.begins_at_rest.is_some() && self.lattice.cost() - free().cost() >= CONTRADICTED
     }
 
-    fn finish(self, filter: Filter) -> Explanation {
+    fn finish(self, filter: SensorFilter) -> Explanation {
         let (slow, doubts) = rayon::join(|| self.slow(), || doubts(&self.record, &self.lattice));
         Explanation {
             begins_otherwise: self.begins_otherwise(),
