@@ -22,6 +22,10 @@ pub enum Class {
     Creep,
     /// Motion is as quiet as rest or quieter, for people move at rest.
     QuietCruise,
+    /// The cage leaves every floor at 0.2 to 0.5 m/s, with 0.1 to 0.6 m/s², for 2 to 8 s, and levels like that.
+    TwoStage,
+    /// Half-way on every trip that is long enough it has 0.3 to 0.6 of its speed for 3 to 10 s.
+    SlowZone,
     /// A first-order high pass of 0.5 to 16 s.
     HighPass,
     /// One to three stretches of 0.3 to 5 s are missing.
@@ -153,6 +157,16 @@ impl Ranges {
             },
             Class::Boarding => Self {
                 rest: [10.0, 20.0],
+                ..ordinary
+            },
+            Class::TwoStage => Self {
+                speed: [1.0, 4.5],
+                levelling: [0.2, 0.5],
+                levelling_time: [2.0, 8.0],
+                ..ordinary
+            },
+            Class::SlowZone => Self {
+                speed: [1.0, 4.5],
                 ..ordinary
             },
             Class::Express => Self {

@@ -99,6 +99,23 @@ fn ways_of_driving() {
             }
         }
     }
+    for (class, share) in [(Class::TwoStage, 0.05..=0.5), (Class::SlowZone, 0.3..=0.6)] {
+        let (mut stages, mut trips) = (0, 0);
+        for (cage, _) in plans(class) {
+            for of in &cage.journeys {
+                let within = |change: &&Pulse| (of.start..of.uniform).contains(&change.from);
+                let last = cage.motion.iter().filter(within).next_back().unwrap();
+                let before = cage.speed_at(last.from).abs() / of.speed;
+                assert!(
+                    before == 0.0 || share.contains(&before),
+                    "{class}: {before}"
+                );
+                stages += usize::from(before > 0.0);
+                trips += 1;
+            }
+        }
+        assert!(2 * stages > trips, "{class}: {stages} of {trips}");
+    }
     for (cage, _) in plans(Class::Relevelling) {
         let moves = cage.drum.len() - cage.journeys.len();
         assert!(moves > 0);

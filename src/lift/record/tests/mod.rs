@@ -7,13 +7,15 @@ use super::pulse::{Pulse, Shape};
 use super::sensor::high_pass;
 use super::*;
 
-const ALL: [Class; 25] = [
+const ALL: [Class; 27] = [
     Class::Ordinary,
     Class::ShortRests,
     Class::Cut,
     Class::Drift,
     Class::Creep,
     Class::QuietCruise,
+    Class::TwoStage,
+    Class::SlowZone,
     Class::HighPass,
     Class::Holes,
     Class::Rates,
