@@ -3,16 +3,21 @@
 //! Behind a filter whose time constant τ is short beside the pulses of a ride, its start to a speed v reads as a hop
 //! that is τ v long, and its stop as one back. Where that filter cannot be told from the record, nor can the ride.
 
-use super::pulse::Record;
+use super::pulse::{Pulse, Record};
 use super::reading::Trip;
 use super::restore::is_near_zero;
 use super::{Cause, Doubt};
 
-/// A hop is no farther than this, m, and as far as the one back but for this share; it lasts no longer than an
-/// acceleration, so that its two changes of speed follow within this time, s.
-const FARTHEST: f64 = 4.0;
+/// A hop is as far as the one back but for this share.
 const UNLIKE: f64 = 0.25;
-const PAUSE: f64 = 6.0;
+
+/// It is no farther than this, m, and lasts no longer than an acceleration, so that its two changes of speed follow within
+/// this time, s: of any shape, and where both decay like the tails behind a filter.
+const ANY: (f64, f64) = (4.0, 6.0);
+const TAILS: (f64, f64) = (8.0, 10.0);
+
+/// The first half of a tail changes the speed by so many times the second.
+const DECAYS: f64 = 2.0;
 
 impl Record {
     /// The doubts about hops there and back, if the sensor reads nothing on average.
@@ -43,7 +48,20 @@ impl Record {
         let (first, last) = (&self.pulses[*first], &self.pulses[*last]);
         let middle = (last.from + last.to - first.from - first.to) / 2.0;
         let distance = trip.speed * middle;
-        (last.from - first.to <= PAUSE && distance <= FARTHEST).then_some(distance)
+        let (farthest, pause) = if self.is_tail(first) && self.is_tail(last) {
+            TAILS
+        } else {
+            ANY
+        };
+        (last.from - first.to <= pause && distance <= farthest).then_some(distance)
+    }
+
+    /// Whether a pulse decays like the tail behind a filter.
+    fn is_tail(&self, pulse: &Pulse) -> bool {
+        let (from, to) = (pulse.blocks.start, pulse.blocks.end);
+        let middle = (from + to) / 2;
+        let [first, second] = [from..middle, middle..to].map(|half| self.change_by(pulse, half));
+        (first - DECAYS * second) * pulse.change > 0.0
     }
 }
 
