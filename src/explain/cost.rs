@@ -19,6 +19,8 @@ pub struct Prior {
     pub gain_error: f64,
     /// Whether the record begins at rest, if that is known.
     pub begins_at_rest: Option<bool>,
+    /// Whether the lift speeds up in stages on its trips: it creeps out of a floor, or slows down half-way.
+    pub in_stages: bool,
 }
 
 impl Default for Prior {
@@ -29,6 +31,7 @@ impl Default for Prior {
             longest_motion: 900.0,
             gain_error: 0.03,
             begins_at_rest: None,
+            in_stages: false,
         }
     }
 }
@@ -77,6 +80,19 @@ pub const HANDLED: f64 = 3.0;
 
 /// A change of speed that leaves the cage at another speed and not at rest: a stage of braking.
 pub const STAGE: f64 = 0.5;
+
+/// One of acceleration, long after the first.
+pub const LATE_STAGE: f64 = 6.0;
+
+/// The cage creeps out of a floor at such a speed at most, m/s, then gains more than so many times that: what the stage
+/// costs at most.
+pub const CREPT_OUT: (f64, f64, f64) = (0.6, 1.5, 3.0);
+
+/// A lift that speeds up in stages on its trips: few do.
+pub const IN_STAGES: f64 = 7.0;
+
+/// The least share of the speed that is a stage of such a lift.
+pub const LEAST_STAGE: f64 = 0.2;
 
 /// A second stage of acceleration as strong as the first. Two trips at one speed that are read as one always show it; a
 /// lift that creeps out of a station hardly does.
@@ -154,7 +170,7 @@ pub fn acceleration_stage(gap: f64) -> f64 {
     match gap {
         ..1.0 => 0.5,
         ..3.0 => 2.0,
-        _ => 6.0,
+        _ => LATE_STAGE,
     }
 }
 

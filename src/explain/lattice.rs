@@ -252,6 +252,20 @@ impl Lattice {
         first..pulses.end + section + usize::from(is_open.1)
     }
 
+    /// The least that the record of a lift may cost that speeds up in stages, of the motions that are plausible otherwise:
+    /// a late stage, and creeping before it, cost it hardly anything.
+    pub fn cost_in_stages(&self, pulses: &[Pulse]) -> f64 {
+        let ways = self.edges.iter().map(|edge| {
+            let stages = match &edge.part {
+                Part::Motion(motion) => motion.late_stages(pulses) as f64,
+                _ => 0.0,
+            };
+            let saved = stages * (cost::LATE_STAGE + cost::MOST_CREEP);
+            (edge.from, edge.to, (edge.cost - saved).max(0.0))
+        });
+        Paths::new(self.nodes, ways.collect()).cost()
+    }
+
     /// The cost of the cheapest explanation.
     pub fn cost(&self) -> f64 {
         self.paths.cost()

@@ -7,6 +7,9 @@
 //! the [`Lattice`] finds the cheapest explanation of the whole record, and how much dearer the cheapest is that says
 //! otherwise about any moment. Where the two are close the record does not decide, and both are reported.
 //!
+//! A lift may speed up in stages on all its trips: where that may explain a record better, it is explained both ways, and
+//! a monitor remembers it from trip to trip.
+//!
 //! A record may begin or end in motion, and have holes; the sensor may drift; a phone that removes gravity by a
 //! high-pass filter is explained with and without one (`restore`).
 
@@ -251,8 +254,38 @@ impl Explained {
         self.prior.begins_at_rest.is_some() && self.lattice.cost() - free().cost() >= CONTRADICTED
     }
 
-    fn finish(self, filter: SensorFilter) -> Explanation {
-        let (slow, doubts) = rayon::join(|| self.slow(), || doubts(&self.record, &self.lattice));
+    /// The same record of a lift that speeds up in stages, if that may be as plausible.
+    fn in_stages(&self) -> Option<Lattice> {
+        let staged = Prior {
+            in_stages: true,
+            ..self.prior
+        };
+        let pulses = &self.record.pulses;
+        let least = self.lattice.cost_in_stages(pulses) + cost::IN_STAGES;
+        let may_be = least <= self.lattice.cost() + DECIDED;
+        may_be.then(|| Lattice::new(&staged, pulses, &self.record.stretches()))
+    }
+
+    fn finish(mut self, filter: SensorFilter) -> Explanation {
+        let mut other = self.in_stages();
+        let mut margin = f64::INFINITY;
+        if let Some(other) = &mut other {
+            margin = other.cost() + cost::IN_STAGES - self.lattice.cost();
+            if margin < 0.0 {
+                std::mem::swap(&mut self.lattice, other);
+                self.prior.in_stages = true;
+            }
+        }
+        let (slow, mut doubts) =
+            rayon::join(|| self.slow(), || doubts(&self.record, &self.lattice));
+        if let Some(other) = other.filter(|_| margin.abs() <= DECIDED) {
+            let other = Reading::of(&self.record, &other.best());
+            doubts.extend(differences(
+                &self.reading().trips,
+                &other.trips,
+                margin.abs(),
+            ));
+        }
         Explanation {
             begins_otherwise: self.begins_otherwise(),
             doubts,
@@ -262,6 +295,39 @@ impl Explained {
             filter,
         }
     }
+}
+
+/// The doubts between two readings of a record: where their trips differ, those that overlap together.
+fn differences(trips: &[Trip], others: &[Trip], margin: f64) -> Vec<Doubt> {
+    let only = |these: &[Trip], those: &[Trip], is_other: bool| {
+        let only = these.iter().filter(|trip| !those.contains(trip));
+        only.map(|trip| (trip.clone(), is_other))
+            .collect::<Vec<_>>()
+    };
+    let mut all = [only(trips, others, false), only(others, trips, true)].concat();
+    all.sort_by_key(|(trip, _)| trip.pulses.start);
+    let mut doubts: Vec<Doubt> = Vec::new();
+    let mut end = 0;
+    for (trip, is_other) in all {
+        if doubts.is_empty() || trip.pulses.start >= end {
+            doubts.push(Doubt {
+                trips: Vec::new(),
+                instead: Vec::new(),
+                margin,
+                cause: Cause::Cage,
+            });
+        }
+        end = end.max(trip.pulses.end);
+        if let Some(doubt) = doubts.last_mut() {
+            let side = if is_other {
+                &mut doubt.instead
+            } else {
+                &mut doubt.trips
+            };
+            side.push(trip);
+        }
+    }
+    doubts
 }
 
 /// The nearly as cheap explanations that have other trips.

@@ -5,9 +5,6 @@
 use super::cost::{self, Prior};
 use super::pulse::{FARTHEST_SWING, LONGEST_PAUSE, LONGEST_SWING, Pulse};
 
-/// The share of its top speed to which a motion that crept gains speed again.
-const RESTARTED: f64 = 0.3;
-
 /// A pulse in one direction of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Turned {
@@ -91,7 +88,7 @@ impl Progress {
     }
 
     /// The motion after pulses that together change its speed.
-    pub fn changed(&self, pulses: &[Turned]) -> Self {
+    pub fn changed(&self, prior: &Prior, pulses: &[Turned]) -> Self {
         let pause = pulses[0].from - self.since;
         let mut changed = *self;
         let mut total = 0.0;
@@ -108,13 +105,31 @@ impl Progress {
             total += pulse.change;
         }
         changed.top = changed.top.max(changed.speed.abs());
-        changed.cost += self.creeping(pulses[0].from);
-        if self.is_slow && changed.speed.abs() > RESTARTED * changed.top {
+        changed.cost += self.creeping(prior, pulses[0].from);
+        if self.is_slow && !changed.crawls(prior) {
             changed.cost += cost::RESTART;
         } else if total * self.speed > 0.0 {
-            changed.cost += cost::acceleration_stage(pause);
+            changed.cost += self.stage(prior, changed.top, total.abs(), pause);
         }
         changed
+    }
+
+    /// Whether it moves at hardly any speed.
+    fn crawls(&self, prior: &Prior) -> bool {
+        self.speed.abs() < 2.0 * prior.tolerance(self.top, self.variance)
+    }
+
+    /// The cost of a stage of acceleration to this top speed, by so much, after a pause.
+    fn stage(&self, prior: &Prior, top: f64, change: f64, pause: f64) -> f64 {
+        let usual = cost::acceleration_stage(pause);
+        let (creep, times, most) = cost::CREPT_OUT;
+        if prior.in_stages && change > cost::LEAST_STAGE * top {
+            cost::STAGE
+        } else if self.top <= creep && change > times * self.top {
+            usual.min(most)
+        } else {
+            usual
+        }
     }
 
     /// How far from its beginning it turns during a pulse of even acceleration, m; 0 if it does not.
@@ -129,7 +144,7 @@ impl Progress {
 
     /// The motion that goes on after it has changed from `before`; `stage` is the cost of a stage of braking.
     pub fn going_on(self, prior: &Prior, before: &Self, stage: f64) -> Self {
-        let is_slow = self.speed.abs() < 2.0 * prior.tolerance(self.top, self.variance);
+        let is_slow = self.crawls(prior);
         let is_braking = self.speed.abs() < before.speed.abs();
         let is_turned = self.speed != 0.0 && (self.speed > 0.0) != self.is_up;
         let cost = if is_slow {
@@ -159,8 +174,9 @@ impl Progress {
     }
 
     /// The cost of creeping until a time.
-    pub fn creeping(&self, until: f64) -> f64 {
-        if self.creeps {
+    pub fn creeping(&self, prior: &Prior, until: f64) -> f64 {
+        let is_habit = prior.in_stages && !self.is_slow;
+        if self.creeps && !is_habit {
             (cost::CREEP_SECOND * (until - self.since)).min(cost::MOST_CREEP)
         } else {
             0.0

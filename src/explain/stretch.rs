@@ -128,7 +128,7 @@ impl<'a> Stretch<'a> {
 
     /// The motion after pulses that together change its speed.
     pub fn changed(&self, motion: &Progress, pulses: Range<usize>) -> Progress {
-        let mut changed = motion.changed(&self.pulses[pulses.clone()]);
+        let mut changed = motion.changed(self.prior, &self.pulses[pulses.clone()]);
         if self.is_half(pulses.end) {
             changed.cost += cost::HALF;
         }
@@ -156,8 +156,8 @@ impl<'a> Stretch<'a> {
     pub fn going_on(&self, changed: Progress, before: &Progress, next: usize) -> Progress {
         let stage = if self.ends_with(&self.pulses[next - 1]) {
             0.0
-        } else if self.is_reversed {
-            cost::acceleration_stage(f64::INFINITY) / 2.0
+        } else if self.is_reversed && !self.prior.in_stages {
+            cost::LATE_STAGE / 2.0
         } else {
             cost::STAGE
         };
@@ -191,7 +191,7 @@ impl<'a> Stretch<'a> {
         } else {
             0.0
         };
-        motion.cost + motion.creeping(self.end) + slow + stands
+        motion.cost + motion.creeping(self.prior, self.end) + slow + stands
     }
 }
 

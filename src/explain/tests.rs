@@ -92,6 +92,58 @@ fn a_calm_record_shows_where_the_cage_stands() {
     assert!(!busy.doubts.is_empty());
 }
 
+/// A trip of 1 m/s that begins at a time: of a cage that creeps out of its floor and into the next, and of one that slows
+/// down half-way.
+fn creeps_out(time: f64) -> f64 {
+    0.3 * (pulse(time) - pulse(time - 26.0)) + 0.7 * (pulse(time - 6.0) - pulse(time - 18.0))
+}
+
+fn slows_down(time: f64) -> f64 {
+    pulse(time) - 0.5 * (pulse(time - 6.0) - pulse(time - 14.0)) - pulse(time - 20.0)
+}
+
+/// A lift that speeds up in stages does so on every trip. Three there and back show it; one, or some in the same direction,
+/// may be read backwards as well, and are not told otherwise without a word.
+#[test]
+fn a_lift_has_a_habit() {
+    for (trip, lasts) in [(creeps_out as fn(f64) -> f64, 28.1), (slows_down, 22.1)] {
+        let trips = |times: &[(f64, f64)]| {
+            let other = |time: f64| {
+                let at = |(start, sign): &(f64, f64)| sign * trip(time - start);
+                times.iter().map(at).sum::<f64>() - ride(time)
+            };
+            explained(&record(150.0, other), None)
+        };
+        let is_told = |found: &Explanation, times: &[(f64, f64)]| {
+            let told = &found.reading.trips;
+            let is_right = |(trip, (start, sign)): (&Trip, &(f64, f64))| {
+                let near = |time: Option<f64>, truth: f64| {
+                    time.is_some_and(|time| (time - truth).abs() < 0.5)
+                };
+                trip.is_up == (*sign > 0.0)
+                    && near(trip.start, *start)
+                    && near(trip.stop, start + lasts)
+            };
+            told.len() == times.len() && told.iter().zip(times).all(is_right)
+        };
+        let there_and_back = [(12.0, 1.0), (55.0, -1.0), (100.0, 1.0)];
+        let found = trips(&there_and_back);
+        assert!(
+            is_told(&found, &there_and_back),
+            "{:?}",
+            found.reading.trips
+        );
+        assert_eq!(found.doubts, []);
+        for times in [
+            &[(12.0, 1.0)][..],
+            &[(12.0, -1.0), (55.0, -1.0), (100.0, -1.0)],
+        ] {
+            let found = trips(times);
+            assert!(is_told(&found, times) || !found.doubts.is_empty());
+        }
+    }
+}
+
 /// The cage turns at a landing at once: it is as far from where it began as it went, however near it ends.
 #[test]
 fn there_and_back_without_a_rest_are_two_rides() {

@@ -4,7 +4,9 @@
 //! to a disturbance. It may end at a change that brings the speed back to zero. Motions that began before the
 //! record are those of the reversed record that go on after its end: reversed, braking is a start.
 
+use super::cost;
 use super::progress::Progress;
+use super::pulse::Pulse;
 use super::stretch::Stretch;
 use std::collections::{BTreeMap, VecDeque};
 use std::ops::Range;
@@ -40,6 +42,30 @@ pub struct Motion {
     pub is_open: (bool, bool),
     /// nats
     pub cost: f64,
+}
+
+impl Motion {
+    /// How many of its changes are stages of acceleration after the first change; of one that was not seen to begin,
+    /// stages of braking before the last.
+    pub fn late_stages(&self, pulses: &[Pulse]) -> usize {
+        let changes = self.changes.iter().map(|pulse| pulses[*pulse].change);
+        let mut changes: Vec<f64> = changes.collect();
+        if self.is_open.0 {
+            changes.reverse();
+        }
+        let mut speed = 0.0;
+        let is_late = |change: f64| {
+            let is_stage =
+                change * speed > 0.0 && change.abs() > cost::LEAST_STAGE * self.top.abs();
+            speed += change;
+            is_stage
+        };
+        changes
+            .into_iter()
+            .map(is_late)
+            .filter(|is_late| *is_late)
+            .count()
+    }
 }
 
 /// A motion in progress, and its latest change in the list of all.

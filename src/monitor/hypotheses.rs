@@ -2,7 +2,7 @@
 
 use super::hypothesis::Hypothesis;
 use super::prices::{Known, PENDING};
-use crate::explain::{Prior, Pulse, Swing, Turned};
+use crate::explain::{Pulse, Swing, Turned};
 
 /// The most hypotheses kept, and how much dearer than the cheapest they may be.
 const MOST: usize = 16;
@@ -111,9 +111,8 @@ impl Hypotheses {
         current: Option<&Turned>,
         mut take: impl FnMut(&Hypothesis, f64, bool),
     ) {
-        let prior = &known.prior;
         for hypothesis in &self.now {
-            let aged = hypothesis.aged(prior, now);
+            let aged = hypothesis.aged(known, now);
             let Some(pulse) = current else {
                 take(hypothesis, aged, false);
                 continue;
@@ -130,13 +129,13 @@ impl Hypotheses {
                 take(hypothesis, aged + ignored.min(changed), changes);
             }
         }
-        self.each_in_swing(prior, now, current, take);
+        self.each_in_swing(known, now, current, take);
     }
 
     /// Those before a disturbance that may still be going on.
     fn each_in_swing(
         &self,
-        prior: &Prior,
+        known: &Known,
         now: f64,
         current: Option<&Turned>,
         mut take: impl FnMut(&Hypothesis, f64, bool),
@@ -155,7 +154,7 @@ impl Hypotheses {
                 continue;
             }
             for hypothesis in before.unwrap_or(&self.now) {
-                take(hypothesis, hypothesis.aged(prior, now) + PENDING, false);
+                take(hypothesis, hypothesis.aged(known, now) + PENDING, false);
             }
         }
     }

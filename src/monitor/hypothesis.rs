@@ -28,6 +28,8 @@ pub(super) struct Hypothesis {
     pub is_across: bool,
     /// Whether it goes back to a motion that was not seen to begin.
     is_guess: bool,
+    /// Whether the lift has sped up in stages before.
+    in_stages: bool,
     /// Whether the rest began with a shock.
     pub is_jam: bool,
     /// What it has cost to take pulses of the motion, or the one before the rest, for something else.
@@ -45,6 +47,7 @@ impl Hypothesis {
             is_soft: false,
             is_across: false,
             is_guess: false,
+            in_stages: false,
             is_jam: false,
             ignored: 0.0,
             braking: None,
@@ -122,13 +125,12 @@ impl Hypothesis {
             + known.slow(progress.top)
             + prices::violent_start(pulse)
             + prices::soft(is_soft);
-        Some(Self {
+        Some(self.then(Self {
             cage: Cage::Moves(progress),
-            cost: self.cost + cost,
             is_soft,
             is_guess: self.is_guess,
-            ..Self::rest(pulse.from, 0.0)
-        })
+            ..Self::rest(pulse.from, self.cost + cost)
+        }))
     }
 
     /// What follows if these pulses are one event, which costs `ignored` where it changes no speed.
@@ -175,12 +177,14 @@ impl Hypothesis {
                 take(self.dearer(prices::OPEN_STAGE + soft));
             }
             (Cage::Moves(progress), _) => {
-                let soft = prices::unlike(self.is_soft, pulses.iter().any(|it| known.is_soft(it)));
+                let is_soft = pulses.iter().any(|it| known.is_soft(it));
+                let gains = total * progress.speed > 0.0;
+                let soft = prices::unlike(self.is_soft, is_soft, gains);
                 let before = Progress {
-                    cost: self.cost + soft + prices::again(&progress, total),
+                    cost: self.cost + soft + self.again(&progress, total),
                     ..progress
                 };
-                let changed = before.changed(pulses);
+                let changed = before.changed(&self.prior(known), pulses);
                 take(self.stopped(pulses, self.closing(known, pulses, &changed)));
                 take(self.going_on(known, pulses, changed, &progress));
             }
@@ -191,13 +195,13 @@ impl Hypothesis {
     /// The rest after a motion that pulses have ended.
     fn stopped(&self, pulses: &[Turned], cost: f64) -> Self {
         let (first, last) = (&pulses[0], &pulses[pulses.len() - 1]);
-        Self {
+        self.then(Self {
             is_guess: self.is_guess,
             is_jam: pulses.iter().any(|pulse| pulse.is_shock()),
             ignored: self.ignored,
             braking: Some((first.from, last.to)),
             ..Self::rest(last.to, cost)
-        }
+        })
     }
 
     /// The cost of the rest after a motion whose speed pulses have changed like this.
@@ -232,10 +236,39 @@ impl Hypothesis {
         if onwards.is_slow {
             onwards.cost += prices::levelling(&closing, &onwards);
         }
+        let gained = onwards.speed.abs() - before.speed.abs();
+        let is_stage = gained > cost::LEAST_STAGE * onwards.top;
         Self {
+            in_stages: self.in_stages || is_stage,
+            is_soft: self.is_soft && !is_stage,
             cage: Cage::Moves(onwards),
             cost: onwards.cost,
             ..*self
+        }
+    }
+
+    /// Another motion or rest of the same lift, which keeps its habit.
+    fn then(&self, next: Self) -> Self {
+        Self {
+            in_stages: self.in_stages,
+            ..next
+        }
+    }
+
+    /// What is known of the lift, with its habit.
+    fn prior(&self, known: &Known) -> Prior {
+        Prior {
+            in_stages: self.in_stages,
+            ..known.prior
+        }
+    }
+
+    /// What a change of speed costs where the cage levelled.
+    fn again(&self, progress: &Progress, change: f64) -> f64 {
+        if self.in_stages {
+            0.0
+        } else {
+            prices::again(progress, change)
         }
     }
 
@@ -245,19 +278,20 @@ impl Hypothesis {
         let Cage::Moves(progress) = self.cage else {
             return self.cost + prices::CHANGING + soft;
         };
-        let changed = progress.changed(&[*pulse]);
+        let changed = progress.changed(&self.prior(known), &[*pulse]);
         let is_turned =
             changed.speed.abs() > 0.2 * changed.top && (changed.speed > 0.0) != changed.is_up;
         let turned = if is_turned {
             cost::TURN
         } else {
-            prices::again(&progress, pulse.change)
+            self.again(&progress, pulse.change)
         };
         self.cost + changed.cost - progress.cost + prices::CHANGING + soft + turned
     }
 
     /// What time adds to the cost.
-    pub fn aged(&self, prior: &Prior, now: f64) -> f64 {
+    pub fn aged(&self, known: &Known, now: f64) -> f64 {
+        let prior = self.prior(known);
         let lasted = now - self.since;
         let is_over = lasted > prior.longest_motion;
         match self.cage {
@@ -267,7 +301,7 @@ impl Hypothesis {
                 let long = prices::long(lasted, progress.top);
                 let endless = if is_over { prices::ENDLESS } else { 0.0 };
                 let fast = prices::fast(progress.top);
-                self.cost + progress.creeping(now) + long + fast + endless
+                self.cost + progress.creeping(&prior, now) + long + fast + endless
             }
         }
     }
@@ -281,10 +315,10 @@ impl Hypothesis {
         };
         if self.is_rest() {
             take(*self);
-            take(Self {
+            take(self.then(Self {
                 is_across: true,
                 ..Self::open(now, self.cost + change)
-            });
+            }));
         } else {
             let goes_on = if is_brief {
                 cost::ACROSS_HOLE
@@ -295,11 +329,11 @@ impl Hypothesis {
                 is_across: !is_brief,
                 ..self.dearer(goes_on)
             });
-            take(Self {
+            take(self.then(Self {
                 is_across: true,
                 ..Self::open(self.since, self.cost + change)
-            });
-            take(Self::rest(now, self.cost + change));
+            }));
+            take(self.then(Self::rest(now, self.cost + change)));
         }
     }
 
@@ -310,7 +344,7 @@ impl Hypothesis {
 
     /// Whether another says the same.
     pub fn is_like(&self, other: &Self) -> bool {
-        match (self.cage, other.cage) {
+        let does_the_same = match (self.cage, other.cage) {
             (Cage::Rest, Cage::Rest) | (Cage::Open, Cage::Open) => true,
             (Cage::Moves(one), Cage::Moves(other)) => {
                 (one.speed - other.speed).abs() < 0.01
@@ -318,6 +352,7 @@ impl Hypothesis {
                     && one.creeps == other.creeps
             }
             _ => false,
-        }
+        };
+        does_the_same && self.in_stages == other.in_stages
     }
 }

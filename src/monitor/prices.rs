@@ -130,10 +130,12 @@ pub fn soft(is_soft: bool) -> f64 {
     if is_soft { SOFT_COST } else { 0.0 }
 }
 
-/// A change of speed that is as soft as the start of the motion, or not.
-pub fn unlike(start_is_soft: bool, is_soft: bool) -> f64 {
+/// A change of speed that is as soft as the start of the motion, or not. A cage that gains speed after a soft start has
+/// crept out of its floor, which is no soft start.
+pub fn unlike(start_is_soft: bool, is_soft: bool, gains: bool) -> f64 {
     match (start_is_soft, is_soft) {
         (false, true) => SOFT_COST + UNLIKE,
+        (true, false) if gains => -SOFT_COST,
         (true, false) => UNLIKE,
         _ => 0.0,
     }

@@ -10,6 +10,9 @@ use crate::explain::{Pulse, Turned};
 const FOLLOWS: f64 = 4.0;
 pub(super) const SETTLED: f64 = 2.5;
 
+/// It drifts no faster than this, m/s² a second: what moves faster may be a soft start.
+const DRIFTS: f64 = 0.004;
+
 /// How fast the noise of the longer time is.
 const NOISE_FOLLOWS: f64 = 6.0;
 
@@ -204,7 +207,8 @@ impl Track {
         if let Some(settled) = settled.filter(|_| self.quiet > SETTLED + 1.0) {
             // What is as far away as a shock is not of the level.
             let away = (settled - self.level).clamp(-FAST.1, FAST.1);
-            self.level += (seconds / FOLLOWS).min(1.0) * away;
+            let step = (seconds / FOLLOWS).min(1.0) * away;
+            self.level += step.clamp(-DRIFTS * seconds, DRIFTS * seconds);
         }
     }
 
