@@ -267,25 +267,21 @@ impl Explained {
     }
 
     fn finish(mut self, filter: SensorFilter) -> Explanation {
-        let mut other = self.in_stages();
-        let mut margin = f64::INFINITY;
-        if let Some(other) = &mut other {
-            margin = other.cost() + cost::IN_STAGES - self.lattice.cost();
+        let mut others = Vec::new();
+        if let Some(mut other) = self.in_stages() {
+            let margin = other.cost() + cost::IN_STAGES - self.lattice.cost();
             if margin < 0.0 {
-                std::mem::swap(&mut self.lattice, other);
+                std::mem::swap(&mut self.lattice, &mut other);
                 self.prior.in_stages = true;
+            }
+            if margin.abs() <= DECIDED {
+                let other = Reading::of(&self.record, &other.best());
+                others = differences(&self.reading().trips, &other.trips, margin.abs());
             }
         }
         let (slow, mut doubts) =
             rayon::join(|| self.slow(), || doubts(&self.record, &self.lattice));
-        if let Some(other) = other.filter(|_| margin.abs() <= DECIDED) {
-            let other = Reading::of(&self.record, &other.best());
-            doubts.extend(differences(
-                &self.reading().trips,
-                &other.trips,
-                margin.abs(),
-            ));
-        }
+        doubts.append(&mut others);
         Explanation {
             begins_otherwise: self.begins_otherwise(),
             doubts,

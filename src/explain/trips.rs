@@ -53,18 +53,13 @@ impl Motion {
         if self.is_open.0 {
             changes.reverse();
         }
-        let mut speed = 0.0;
-        let is_late = |change: f64| {
-            let is_stage =
-                change * speed > 0.0 && change.abs() > cost::LEAST_STAGE * self.top.abs();
-            speed += change;
-            is_stage
+        let (mut speed, least) = (0.0, cost::LEAST_STAGE * self.top.abs());
+        let is_late = |change: &&f64| {
+            let is_late = **change * speed > 0.0 && change.abs() > least;
+            speed += **change;
+            is_late
         };
-        changes
-            .into_iter()
-            .map(is_late)
-            .filter(|is_late| *is_late)
-            .count()
+        changes.iter().filter(is_late).count()
     }
 }
 
