@@ -178,8 +178,8 @@ impl Hypothesis {
             }
             (Cage::Moves(progress), _) => {
                 let is_soft = pulses.iter().any(|it| known.is_soft(it));
-                let gains = total * progress.speed > 0.0;
-                let soft = prices::unlike(self.is_soft, is_soft, gains);
+                let crept_out = prices::crept_out(&progress, total, pulses[0].from);
+                let soft = prices::unlike(self.is_soft, is_soft, crept_out);
                 let before = Progress {
                     cost: self.cost + soft + self.again(&progress, total),
                     ..progress
