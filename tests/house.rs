@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const FLOORS: &[&[&str]] = &[
     // Numbers, text and files without a domain.
     &[
-        "rng", "simd", "stats", "fields", "format", "files", "suggest", "counts",
+        "rng", "simd", "stats", "kalman", "fields", "format", "files", "suggest", "counts",
     ],
     // What a value must be.
     &["rule"],
