@@ -35,7 +35,7 @@
 //! | 1, 2 | [`rule`], [`values`]: what a value must be |
 //! | 3 | [`signal`]: sensor, noise, impulses, motion · [`recording`]: what real lifts recorded · [`whiten`]: filters · [`detect`]: W, T, their laws, regions · [`config`]: what a file says, with its places · [`claim`]: verdicts · [`plot`]: what a picture says |
 //! | 4 | [`explain`]: what a record may hold |
-//! | 5 | [`lift`]: simulated rides with their truth · [`monitor`]: one lift, sample by sample · [`scenario`]: what a point simulates, every parameter · [`report`]: the report |
+//! | 5 | [`lift`]: simulated rides with their truth · [`monitor`]: one lift, sample by sample · [`track`]: where it is · [`scenario`]: what a point simulates, every parameter · [`report`]: the report |
 //! | 6 | [`chain`]: one trial, every stage · [`detection`]: what a recording holds · [`experiment`]: what the author wrote |
 //! | 7 | [`schedule`]: blocks of trials in parallel · [`figure`]: PNG and SVG |
 //! | 8 | [`plan`]: every point with its scenario and region |
@@ -131,5 +131,6 @@ pub mod simd;
 pub mod stats;
 pub mod study;
 pub mod suggest;
+pub mod track;
 pub mod values;
 pub mod whiten;

@@ -26,7 +26,7 @@ const FLOORS: &[&[&str]] = &[
     // What a record may hold.
     &["explain"],
     // Lifts, estimators; what a point simulates.
-    &["lift", "monitor", "scenario", "report"],
+    &["lift", "monitor", "track", "scenario", "report"],
     &["chain", "detection", "experiment"],
     // Trials, planned and drawn.
     &["schedule", "figure"],
