@@ -11,6 +11,8 @@ pub(super) const CAR: usize = 0;
 pub(super) const BEFORE: usize = 1;
 /// The place of the lowest floor.
 const FLOORS: usize = 2;
+/// A stop beyond the shaft costs so many thresholds.
+const BEYOND: f64 = 2.0;
 /// So many stops off every floor are remembered.
 const REMEMBERED: usize = 16;
 
@@ -185,11 +187,17 @@ impl Hypothesis {
         anchored
     }
 
-    /// Whether the car is farther beyond the outermost floors than a car can go.
-    pub fn is_beyond(&self, overtravel: f64) -> bool {
-        let car = self.car().mean;
+    /// What a stop off every floor costs: less where the car stopped so before, more where no car can go.
+    pub fn cost_off(&self, scale: f64, settings: &Settings) -> f64 {
+        let car = self.car();
         let [lowest, highest] = self.ends();
-        car < lowest - overtravel || car > highest + overtravel
+        let reach = lowest - settings.overtravel..=highest + settings.overtravel;
+        let times = if reach.contains(&car.mean) { 1.0 } else { BEYOND };
+        let again = self.unexplained.iter().map(|of| {
+            let apart = car.mean - of.mean;
+            apart * apart / (car.variance + of.variance) / scale
+        });
+        again.fold(times * settings.threshold, f64::min)
     }
 
     fn ends(&self) -> [f64; 2] {

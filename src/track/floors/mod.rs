@@ -18,10 +18,11 @@
 //! | a hypothesis says | costs |
 //! |---|---|
 //! | the car stopped at floor i | ξ(i)/κ − 2 ln of how much more often than others this floor is visited |
-//! | it stopped off every floor | γ_s; twice as much beyond the shaft, where no car can go |
+//! | it stopped off every floor | γ_s; twice as much beyond the shaft, where no car can go; ξ/κ of a place where it did so before |
 //! | a trip was missed, the car is at floor i | [`Settings::missed`] |
 //!
-//! Of those that end alike the cheapest is kept, as Viterbi does: a discrete filter over floors. The stop was
+//! Of those that end alike the cheapest is kept, as Viterbi does, and the chance that a trip was missed adds up over
+//! trips: a discrete filter over floors. The stop was
 //! abnormal or the trip was wrong, the next stop decides; and a missed trip, which shifts p by whole floors, is
 //! healed once the shaft's ends or the usual traffic contradict it. Where all floors are equally apart and equally
 //! visited, nothing else can tell.
@@ -38,8 +39,9 @@
 //! their mean.
 //!
 //! # Assumptions
-//! Errors of trips are independent, normal and without bias. Floors do not move; the map as commissioned is kept,
-//! and a floor's drift from it has the variance P₀ − P.
+//! Errors of trips are independent, normal and without bias. Floors do not move: of one that does, stops after long
+//! trips drag the map along. The map as it was after ten stops per floor is kept, and a floor's drift from it has
+//! the variance P₀ − P if it has not moved.
 //!
 //! [1]: the patent, claims 4 to 6: "lift motion detection and abnormal stops from an acceleration sensor".
 
@@ -52,6 +54,7 @@ mod stop;
 mod tests;
 
 pub use settings::{Association, Settings};
+pub(super) use start::Known;
 pub use start::{MapError, Start};
 pub use stop::{Fault, Floor, Judgement, Stop};
 
@@ -62,8 +65,8 @@ use serde::{Deserialize, Serialize};
 
 /// Visits that each floor is taken to have had: chance must not look like habit.
 const USUAL: f64 = 30.0;
-/// A stop beyond the shaft costs so many thresholds.
-const BEYOND: f64 = 2.0;
+/// The map is commissioned once there were so many stops per floor.
+const COMMISSIONING: u64 = 10;
 /// So many stops off every floor that agree are a floor.
 const CONSISTENT: usize = 3;
 /// The most floors of a building.
@@ -90,7 +93,8 @@ pub struct Floors {
     scale: Scale,
     /// The floor that the latest stop was judged by; none in the first sweep.
     nearest: Option<usize>,
-    /// Each floor as first known; none while the first sweep goes on.
+    is_swept: bool,
+    /// Each floor as it was after the first stops.
     commissioned: Option<Vec<Height>>,
 }
 
@@ -99,6 +103,11 @@ pub struct Floors {
 struct Way {
     cost: f64,
     parent: usize,
+}
+
+/// The cost of either of two courses, −2 ln (exp(−a/2) + exp(−b/2)).
+fn joint(a: f64, b: f64) -> f64 {
+    a.min(b) - 2.0 * libm::log1p(exp(-0.5 * (a - b).abs()))
 }
 
 impl Floors {
@@ -116,24 +125,26 @@ impl Floors {
         let (floor, offset) = best.associate(&self.settings);
         let judgement = self.judge(best, CAR, floor, offset);
         self.scale.push(offset.xi());
-        let earlier = self.judge_again(factor);
+        let off = self.hypotheses.iter().find(|of| of.floor.is_none()).cloned();
         if self.settings.branches {
             self.branch(factor);
         } else {
             let is_level = judgement.fault.is_none();
             self.hypotheses[0].stop_at(is_level.then_some(floor), &self.settings);
         }
+        let earlier = off.and_then(|off| self.judge_again(off));
         self.nearest = Some(floor);
         if let Some(floor) = self.best().floor {
             self.visits[floor] += 1;
         }
         let added = self.add_floor();
+        self.commission();
         self.stop(Some(judgement), earlier, added)
     }
 
     /// Says that a trip was not measured: the car may be at any floor.
     pub fn lose(&mut self) {
-        self.commission();
+        self.is_swept = true;
         let best = self.best();
         let mut lost: Vec<Hypothesis> = (0..self.visits.len())
             .map(|floor| best.anchored(floor, self.visit_cost(floor), &self.settings))
@@ -162,11 +173,14 @@ impl Floors {
         self.visits.iter().enumerate().map(floor).collect()
     }
 
-    /// Ends the first sweep.
+    /// Keeps the map once it has settled.
     fn commission(&mut self) {
-        let best = &self.hypotheses[0];
-        let floors = || (0..best.floors()).map(|floor| best.height(floor)).collect();
-        self.commissioned.get_or_insert_with(floors);
+        let floors = self.visits.len();
+        let stops: u64 = self.visits.iter().sum();
+        if self.commissioned.is_none() && stops >= COMMISSIONING * floors as u64 {
+            let heights = (0..floors).map(|floor| self.best().height(floor));
+            self.commissioned = Some(heights.collect());
+        }
     }
 
     fn best(&self) -> &Hypothesis {
@@ -186,19 +200,16 @@ impl Floors {
         }
     }
 
-    /// Judges the stop before by the trip in and the trip out, if this one is at a floor.
-    fn judge_again(&self, factor: f64) -> Option<Judgement> {
-        let settings = &self.settings;
-        let off = self.hypotheses.iter().find(|of| of.floor.is_none())?;
-        let before = self.nearest.filter(|_| settings.branches)?;
-        let (floor, offset) = off.associate(settings);
-        if offset.xi() / factor > settings.threshold {
-            return None;
-        }
-        let mut known = off.clone();
-        known.stop_at(Some(floor), settings);
-        let offset = known.offset(BEFORE, before, settings);
-        Some(self.judge(&known, BEFORE, before, offset))
+    /// Judges the stop before by the trip in and the trip out, if this one is at a floor: by the hypothesis that the
+    /// stop before was off every floor, or by the best of all.
+    fn judge_again(&self, mut off: Hypothesis) -> Option<Judgement> {
+        let before = self.nearest.filter(|_| self.settings.branches)?;
+        let (floor, offset) = off.associate(&self.settings);
+        let is_level = offset.xi() / self.scale.factor() <= self.settings.threshold;
+        let floor = if is_level { floor } else { self.best().floor? };
+        off.stop_at(Some(floor), &self.settings);
+        let offset = off.offset(BEFORE, before, &self.settings);
+        Some(self.judge(&off, BEFORE, before, offset))
     }
 
     /// Follows every way to stop, and of those that end alike the cheapest.
@@ -208,20 +219,21 @@ impl Floors {
         let first = (0..=off).min_by(|&a, &b| ways[a].cost.total_cmp(&ways[b].cost));
         let first = first.unwrap_or(off);
         let least = ways[first].cost;
-        let follow = |end: usize| {
+        let follow = |end: usize, cost: f64| {
             let mut child = self.hypotheses[ways[end].parent].clone();
-            child.cost = ways[end].cost - least;
+            child.cost = cost;
             child.stop_at((end < off).then_some(end), &self.settings);
             child
         };
-        let best = follow(first);
+        let best = follow(first, 0.0);
         let others = (0..=off).filter(|end| *end != first).filter_map(|end| {
             let missed = self.settings.missed.filter(|_| end < off);
-            let limit = missed.unwrap_or(f64::MAX);
-            if ways[end].cost - least <= limit {
-                return Some(follow(end));
+            let excess = ways[end].cost - least;
+            let cost = missed.map_or(excess, |missed| joint(excess, missed));
+            if missed.is_none_or(|missed| excess <= missed) {
+                return Some(follow(end, cost));
             }
-            Some(best.anchored(end, missed?, &self.settings))
+            Some(best.anchored(end, cost, &self.settings))
         });
         let others: Vec<Hypothesis> = others.collect();
         self.hypotheses = [best].into_iter().chain(others).collect();
@@ -244,12 +256,8 @@ impl Floors {
             let (floor, offset) = of.associate(settings);
             let visit = offset.xi() / factor + self.visit_cost(floor);
             offer(floor, of.cost + visit, parent);
-            let beyond = if of.is_beyond(settings.overtravel) {
-                BEYOND
-            } else {
-                1.0
-            };
-            offer(self.visits.len(), of.cost + beyond * settings.threshold, parent);
+            let off = of.cost_off(factor, settings);
+            offer(self.visits.len(), of.cost + off, parent);
         }
         ways
     }

@@ -9,7 +9,10 @@ use super::hypothesis::{CAR, Hypothesis};
 use super::scale::Scale;
 use super::settings::Settings;
 use super::{Floors, Height, MOST_FLOORS};
-use crate::rule::OutOfRange;
+use crate::rule::{OutOfRange, Rule};
+
+/// More than a lift makes in its life.
+const MOST_VISITS: u64 = 1_000_000_000;
 
 /// Where the car is at the beginning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,6 +64,7 @@ impl Floors {
             visits: vec![1],
             scale: Scale::new(settings.window, []),
             nearest: None,
+            is_swept: false,
             commissioned: None,
         })
     }
@@ -76,7 +80,7 @@ impl Floors {
         deviation: f64,
         start: Start,
     ) -> Result<Self, MapError> {
-        crate::rule::Rule::Within(0.0, 1.0, "m").check("deviation", &deviation)?;
+        Rule::Within(0.0, 1.0, "m").check("deviation", &deviation)?;
         let floors = heights.len();
         let lowest = heights.first().copied().unwrap_or_default();
         let heights: Vec<f64> = heights.iter().map(|height| height - lowest).collect();
@@ -103,6 +107,7 @@ impl Floors {
         map.check(settings.level)?;
         let best = Hypothesis::of(&map.heights, &map.covariance, &settings);
         let mut floors = Self {
+            is_swept: true,
             settings,
             hypotheses: vec![best],
             visits: map.visits.clone(),
@@ -110,7 +115,6 @@ impl Floors {
             nearest: None,
             commissioned: map.commissioned.clone(),
         };
-        floors.commission();
         floors.begin(start)?;
         Ok(floors)
     }
@@ -142,7 +146,7 @@ impl Floors {
 
     /// Adds a floor where the trip that the car has just made is one of the first sweep, and says which.
     pub(super) fn sweep(&mut self, distance: f64) -> Option<usize> {
-        if self.commissioned.is_some() {
+        if self.is_swept {
             return None;
         }
         let (best, floors) = (self.best(), self.visits.len());
@@ -152,7 +156,7 @@ impl Floors {
             return None;
         }
         if so_far * distance < 0.0 || floors == MOST_FLOORS {
-            self.commission();
+            self.is_swept = true;
             return None;
         }
         self.hypotheses.truncate(1);
@@ -209,6 +213,18 @@ impl Known {
             got => Err(MapError::Entries(name, floors, got)),
         };
         entries("visits", self.visits.len())?;
+        for &visits in &self.visits {
+            if visits > MOST_VISITS {
+                return Err(OutOfRange::new("visits", format!("be at most {MOST_VISITS}"), visits).into());
+            }
+        }
+        for &xi in &self.recent {
+            Rule::Within(0.0, f64::MAX, "").check("recent", &xi)?;
+        }
+        for first in self.commissioned.iter().flatten() {
+            Rule::Within(-2e4, 2e4, "m").check("commissioned", &first.mean)?;
+            Rule::Within(0.0, 1e8, "m²").check("commissioned", &first.variance)?;
+        }
         entries(
             "commissioned",
             self.commissioned.as_ref().map_or(floors, Vec::len),

