@@ -216,7 +216,7 @@ mod tests {
                 map["heights"] = json!([0.0]);
                 map["covariance"] = json!([[0.0]]);
             }),
-            ("damaged: floors[2]: must lie more than", |map| map["heights"][2] = json!(4.504)),
+            ("damaged: floors[2]: must lie more than", |map| map["heights"][2] = map["heights"][1].clone()),
             ("damaged: floors[2]: must lie more than", |map| map["heights"][2] = json!(1.0)),
             ("damaged: floors[3]: must be finite", |map| map["heights"][3] = json!(1e300)),
             ("damaged: visits: must have an entry", |map| map["visits"] = json!([1])),

@@ -12,7 +12,7 @@ pub(super) const BEFORE: usize = 1;
 /// The place of the lowest floor.
 const FLOORS: usize = 2;
 /// A stop beyond the shaft costs so many thresholds.
-const BEYOND: f64 = 2.0;
+const BEYOND: f64 = 3.0;
 /// So many stops off every floor are remembered.
 const REMEMBERED: usize = 16;
 

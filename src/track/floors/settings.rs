@@ -56,7 +56,7 @@ impl Settings {
         association: Association::Likeliest,
         branches: true,
         window: 200,
-        missed: Some(18.0),
+        missed: Some(22.0),
         overtravel: 1.0,
         levelling: 0.2,
         least_storey: 0.5,
