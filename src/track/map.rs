@@ -3,7 +3,7 @@
 //! JSON with a name and a version in it. It is replaced whole or not at all, so that a run that is killed leaves
 //! the map before it.
 
-use super::floors::{Floors, Height, Known, MapError, Settings, Start};
+use super::floors::{Floors, Height, Map, MapError, Settings, Start};
 use crate::files;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
@@ -109,7 +109,7 @@ impl Floors {
         if map.covariance.iter().any(|row| row.len() != floors) {
             return Err(MapError::Covariance.into());
         }
-        let known = Known {
+        let known = Map {
             heights: map.heights,
             covariance: map.covariance.concat(),
             visits: map.visits,
@@ -120,7 +120,7 @@ impl Floors {
     }
 
     fn to_json(&self) -> String {
-        let known = self.knowledge();
+        let known = self.map();
         let rows = known.covariance.chunks(known.heights.len());
         let file = MapFile {
             format: FORMAT.to_owned(),
@@ -178,8 +178,8 @@ mod tests {
         floors.save(&path).unwrap();
         floors.save(&path).unwrap();
         let again = Floors::load(&path, SETTINGS, Start::Unknown).unwrap();
-        assert_eq!(again.knowledge(), floors.knowledge());
-        assert!(again.knowledge().commissioned.is_some());
+        assert_eq!(again.map(), floors.map());
+        assert!(again.map().commissioned.is_some());
         assert_eq!(folder.path().read_dir().unwrap().count(), 1);
         let nowhere = floors.save(&folder.path().join("no/lift.json"));
         let nowhere = nowhere.unwrap_err().to_string();

@@ -54,8 +54,7 @@ mod stop;
 mod tests;
 
 pub use settings::{Association, Settings};
-pub(super) use start::Known;
-pub use start::{MapError, Start};
+pub use start::{Map, MapError, Start};
 pub use stop::{Fault, Floor, Judgement, Stop};
 
 use hypothesis::{BEFORE, CAR, Hypothesis, Offset};

@@ -87,7 +87,7 @@ impl Floors {
         let mut covariance = vec![0.0; floors * floors];
         let own = covariance.iter_mut().step_by(floors + 1).skip(1);
         own.for_each(|variance| *variance = deviation * deviation);
-        let map = Known {
+        let map = Map {
             visits: vec![0; floors],
             commissioned: None,
             recent: Vec::new(),
@@ -98,9 +98,12 @@ impl Floors {
     }
 
     /// A map known from before.
-    pub(in crate::track) fn known(
+    ///
+    /// # Errors
+    /// If its numbers are those of no map, or a setting breaks its rule.
+    pub fn known(
         settings: Settings,
-        map: &Known,
+        map: &Map,
         start: Start,
     ) -> Result<Self, MapError> {
         settings.check()?;
@@ -132,10 +135,10 @@ impl Floors {
     }
 
     /// What is to be known when the map is used again.
-    pub(in crate::track) fn knowledge(&self) -> Known {
+    pub fn map(&self) -> Map {
         let best = self.best();
         let heights = (0..best.floors()).map(|floor| best.height(floor).mean);
-        Known {
+        Map {
             heights: heights.collect(),
             covariance: best.floor_covariance(),
             visits: self.visits.clone(),
@@ -174,18 +177,20 @@ impl Floors {
 
 /// A map without the car: what is known of floors.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::track) struct Known {
+pub struct Map {
     /// m above the floor of the first stop, from the lowest up.
     pub heights: Vec<f64>,
     /// Of the heights, m², row by row.
     pub covariance: Vec<f64>,
+    /// Stops at each floor.
     pub visits: Vec<u64>,
+    /// Each floor as commissioned; none before.
     pub commissioned: Option<Vec<Height>>,
     /// The latest ξ, the oldest first.
     pub recent: Vec<f64>,
 }
 
-impl Known {
+impl Map {
     fn check(&self, level: f64) -> Result<(), MapError> {
         let floors = self.heights.len();
         if !(2..=MOST_FLOORS).contains(&floors) {

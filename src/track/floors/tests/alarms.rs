@@ -1,6 +1,6 @@
 //! False alarms and power.
 
-use super::world::{MENDED, PRINTED, Traffic, World};
+use super::world::{MENDED, PRINTED, even_building};
 use crate::stats::binomial::{lower_tail, upper_tail};
 use crate::track::floors::Settings;
 
@@ -17,13 +17,13 @@ struct Alarms {
 
 fn alarms(settings: Settings, noise: f64, buildings: u64, trips: u64) -> Alarms {
     let mut all = Alarms::default();
-    for building in 0..buildings {
-        let mut world = World::even(building);
-        world.noise = noise;
-        let mut floors = world.swept(settings);
+    for seed in 0..buildings {
+        let mut building = even_building(seed);
+        building.noise = noise;
+        let mut floors = building.swept(settings);
         let mut was_alarm = false;
         for _ in 0..trips {
-            let stop = world.ride(&mut floors, Traffic::Uniform);
+            let stop = building.ride(&mut floors);
             let is_alarm = stop.judgement.unwrap().fault.is_some();
             let again = stop.earlier.is_some_and(|earlier| earlier.fault.is_some());
             all.stops += 1;
@@ -31,7 +31,7 @@ fn alarms(settings: Settings, noise: f64, buildings: u64, trips: u64) -> Alarms 
             all.again += u64::from(again);
             all.any += u64::from(again || was_alarm);
             all.pairs += u64::from(is_alarm && was_alarm);
-            all.wrong_floors += u64::from(stop.floor.is_some_and(|floor| floor != world.at));
+            all.wrong_floors += u64::from(stop.floor.is_some_and(|floor| floor != building.at));
             was_alarm = is_alarm;
         }
     }
@@ -76,26 +76,26 @@ fn noisier_trips() {
 /// settled map; the trip after it is one floor long.
 fn power(storeys: usize, offset: f64) -> [u64; 3] {
     let [mut at_once, mut again, mut stops] = [0; 3];
-    for building in 0..10 {
-        let mut world = World::even(building);
-        let settled = world.settled(MENDED, Traffic::Uniform, 1000);
-        let before = world.clone();
+    for seed in 0..10 {
+        let mut building = even_building(seed);
+        let settled = building.settled(MENDED, 1000);
+        let before = building.clone();
         for trial in 0..100 {
             let mut floors = settled.clone();
-            world.return_to(&before);
-            let low = world.below(10 - storeys);
+            building.return_to(&before);
+            let low = building.below(10 - storeys);
             let [from, to] = match trial % 2 {
                 0 => [low, low + storeys],
                 _ => [low + storeys, low],
             };
-            if world.at != from {
-                world.stop(&mut floors, from, 0.0);
+            if building.at != from {
+                building.stop(&mut floors, from, 0.0);
             }
-            let sign = if world.unit() < 0.5 { 1.0 } else { -1.0 };
-            let stop = world.stop(&mut floors, to, sign * offset);
+            let sign = if building.unit() < 0.5 { 1.0 } else { -1.0 };
+            let stop = building.stop(&mut floors, to, sign * offset);
             at_once += u64::from(stop.judgement.unwrap().fault.is_some());
-            let next = if to == 0 || (to < 9 && world.unit() < 0.5) { to + 1 } else { to - 1 };
-            let stop = world.stop(&mut floors, next, 0.0);
+            let next = if to == 0 || (to < 9 && building.unit() < 0.5) { to + 1 } else { to - 1 };
+            let stop = building.stop(&mut floors, next, 0.0);
             again += u64::from(stop.earlier.is_some_and(|of| of.fault.is_some()));
             stops += 1;
         }

@@ -1,6 +1,6 @@
 //! The estimate: against closed forms, the general filter, and the truth.
 
-use super::world::{LEVEL, MENDED, PRINTED, Traffic, World, map_error, variance};
+use super::world::{LEVEL, MENDED, PRINTED, even_building, map_error, variance};
 use crate::kalman::Estimate;
 use crate::track::floors::hypothesis::{BEFORE, CAR, Hypothesis};
 use crate::track::floors::scale::Scale;
@@ -16,7 +16,7 @@ fn a_sweep_gives_the_stated_covariance() {
     for (distance, variance) in trips.iter().zip(variances) {
         floors.step(*distance, variance);
     }
-    let known = floors.knowledge();
+    let known = floors.map();
     let level = LEVEL * LEVEL;
     let below = |floor: usize| variances[..floor].iter().sum::<f64>();
     for i in 0..6 {
@@ -46,9 +46,9 @@ fn a_sweep_downwards() {
 /// Trips and updates of one hypothesis as the general filter makes them, with F, H and Q written out.
 #[test]
 fn agrees_with_the_general_filter() {
-    let mut world = World::even(1);
-    let floors = world.swept(MENDED);
-    let known = floors.knowledge();
+    let mut building = even_building(1);
+    let floors = building.swept(MENDED);
+    let known = floors.map();
     let mut ours = Hypothesis::of(&known.heights, &known.covariance, &MENDED);
     let n = 12;
     let mut theirs = Estimate {
@@ -64,10 +64,11 @@ fn agrees_with_the_general_filter() {
     for place in [0, 1, n, n + 1] {
         theirs.covariance[place] = level;
     }
-    world.go(0, 0.0);
+    building.go(0, 0.0);
     for _ in 0..200 {
-        let to = world.next(Traffic::Uniform);
-        let (distance, variance) = world.go(to, 0.0);
+        let to = building.next();
+        let trip = building.go(to, 0.0);
+        let (distance, variance) = (trip.distance, trip.variance);
         ours.go(distance, variance);
         ours.stop_at(Some(to), &MENDED);
         let mut transition = vec![0.0; n * n];
@@ -95,9 +96,9 @@ fn agrees_with_the_general_filter() {
 /// ξ judged again = ξ + ξ′ − ξ″: two ways to write the likelihood of two stops.
 #[test]
 fn judged_again_is_the_difference_of_two_courses() {
-    let mut world = World::even(2);
+    let mut building = even_building(2);
     let mut at_floors = {
-        let known = world.settled(MENDED, Traffic::Uniform, 50).knowledge();
+        let known = building.settled(MENDED, 50).map();
         Hypothesis::of(&known.heights, &known.covariance, &MENDED)
     };
     let xi = |of: &Hypothesis, at, floor| of.offset(at, floor, &MENDED).xi();
@@ -123,14 +124,14 @@ fn judged_again_is_the_difference_of_two_courses() {
 fn maps_are_as_good_as_they_say() {
     for (settings, seen) in [(MENDED, 40), (PRINTED, 10)] {
         let [mut early, mut late] = [(0.0, 0.0); 2];
-        for building in 0..seen {
-            let mut world = World::even(building);
-            let mut floors = world.swept(settings);
-            let swept = map_error(&floors, &world);
+        for seed in 0..seen {
+            let mut building = even_building(seed);
+            let mut floors = building.swept(settings);
+            let swept = map_error(&floors, &building);
             for _ in 0..1000 {
-        world.ride(&mut floors, Traffic::Uniform);
+        building.ride(&mut floors);
     }
-            let settled = map_error(&floors, &world);
+            let settled = map_error(&floors, &building);
             early = (early.0 + swept.0, early.1 + swept.1);
             late = (late.0 + settled.0, late.1 + settled.1);
         }
@@ -160,11 +161,11 @@ fn the_scale_is_the_median_over_that_of_chi_squared() {
 /// A floor that has moved shows as a drift, the others do not.
 #[test]
 fn a_floor_that_moved_drifts() {
-    let mut world = World::even(3);
-    let mut floors = world.settled(MENDED, Traffic::Uniform, 300);
-    world.heights[4] += 0.05;
+    let mut building = even_building(3);
+    let mut floors = building.settled(MENDED, 300);
+    building.heights[4] += 0.05;
     for _ in 0..1000 {
-        world.ride(&mut floors, Traffic::Uniform);
+        building.ride(&mut floors);
     }
     for (at, floor) in floors.floors().iter().enumerate() {
         let xi = (floor.drift / floor.drift_deviation.max(LEVEL)).powi(2);
@@ -177,8 +178,8 @@ fn a_floor_that_moved_drifts() {
 #[test]
 fn an_uncertain_floor_takes_no_stops_of_others() {
     let known = {
-        let mut world = World::even(4);
-        let mut known = world.swept(MENDED).knowledge();
+        let mut building = even_building(4);
+        let mut known = building.swept(MENDED).map();
         // The floor 5 from a plan, ± 2 m.
         for i in 0..10 {
             (known.covariance[5 * 10 + i], known.covariance[i * 10 + 5]) = (0.0, 0.0);
@@ -189,10 +190,10 @@ fn an_uncertain_floor_takes_no_stops_of_others() {
     let wrong = |settings: Settings| {
         let mut wrong = 0;
         for seed in 0..100 {
-            let mut world = World::even(seed);
+            let mut building = even_building(seed);
             let mut floors = Floors::known(settings, &known, super::super::Start::Floor(0)).unwrap();
             for to in [4, 6, 3] {
-                let stop = world.stop(&mut floors, to, 0.0);
+                let stop = building.stop(&mut floors, to, 0.0);
                 wrong += usize::from(stop.judgement.unwrap().floor != to);
             }
         }

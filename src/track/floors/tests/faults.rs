@@ -1,6 +1,6 @@
 //! What alarms are called, and floors that the sweep missed.
 
-use super::world::{LEVEL, MENDED, PRINTED, Traffic, World, variance};
+use super::world::{LEVEL, MENDED, PRINTED, even_building, variance};
 use crate::track::floors::{Fault, Floors, Settings, Start};
 
 /// The floors 0 to 3, 3 m apart, and the car at one of them.
@@ -74,14 +74,14 @@ fn a_floor_left_out_is_added() {
     let mut squares = 0.0;
     let buildings = 60;
     for seed in 0..buildings {
-        let mut world = World::even(seed);
+        let mut world = even_building(seed);
         let mut floors = Floors::unknown(MENDED).unwrap();
         for floor in (1..10).filter(|floor| *floor != 6) {
             world.stop(&mut floors, floor, 0.0);
         }
         let mut alarms = 0;
         let added = (0..400).find_map(|_| {
-            let stop = world.ride(&mut floors, Traffic::Uniform);
+            let stop = world.ride(&mut floors);
             let fault = stop.judgement.unwrap().fault;
             let is_between = fault == Some(Fault::BetweenFloors);
             alarms += usize::from(is_between);
@@ -93,7 +93,7 @@ fn a_floor_left_out_is_added() {
         let error = floor.height - (world.heights[6] - world.heights[0]);
         squares += (error / floor.deviation).powi(2);
         let wrong = (0..100).filter(|_| {
-            let stop = world.ride(&mut floors, Traffic::Uniform);
+            let stop = world.ride(&mut floors);
             stop.floor.is_some_and(|floor| floor != world.at)
         });
         assert_eq!(wrong.count(), 0);
@@ -108,8 +108,8 @@ fn a_floor_left_out_is_added() {
 /// A stop that is off by less than a storey stays an alarm, however often.
 #[test]
 fn a_floor_out_of_level_is_no_new_floor() {
-    let mut world = World::even(1);
-    let mut floors = world.settled(MENDED, Traffic::Uniform, 200);
+    let mut world = even_building(1);
+    let mut floors = world.settled(MENDED, 200);
     for _ in 0..20 {
         let stop = world.stop(&mut floors, 3, 0.3);
         assert_eq!(stop.judgement.unwrap().fault, Some(Fault::BetweenFloors));

@@ -1,33 +1,30 @@
 //! A trip that was missed.
 
-use super::world::{MENDED, Traffic, World};
+use super::world::{MENDED, Traffic, building, even};
 use crate::stats::binomial::{lower_tail, upper_tail};
 use crate::track::floors::Settings;
 
 /// How often the floor is right again 25 trips after a missed one.
 fn healed(settings: Settings, traffic: Traffic, heights: &[f64]) -> [u64; 2] {
     let [mut healed, mut trials] = [0; 2];
-    for building in 0..20 {
-        let mut world = World::new(building, heights);
-        let settled = world.settled(settings, traffic, 400);
-        let before = world.clone();
+    for seed in 0..20 {
+        let mut building = building(seed, heights);
+        building.traffic = traffic;
+        let settled = building.settled(settings, 400);
+        let before = building.clone();
         for _ in 0..50 {
             let mut floors = settled.clone();
-            world.return_to(&before);
-            let missed = world.next(traffic);
-            world.go(missed, 0.0);
-            let stops = (0..25).map(|_| world.ride(&mut floors, traffic).floor);
+            building.return_to(&before);
+            let missed = building.next();
+            building.go(missed, 0.0);
+            let stops = (0..25).map(|_| building.ride(&mut floors).floor);
             let last = stops.last().flatten();
-            healed += u64::from(last == Some(world.at));
+            healed += u64::from(last == Some(building.at));
             trials += 1;
         }
     }
     println!("{traffic:?}: healed {healed} of {trials}");
     [healed, trials]
-}
-
-fn even() -> Vec<f64> {
-    (0..10).map(|floor| 3.0 * f64::from(floor)).collect()
 }
 
 /// With usual traffic a missed trip is healed in 25 trips; with ten equal floors, equally visited, nearly as often
@@ -36,16 +33,16 @@ fn even() -> Vec<f64> {
 fn a_missed_trip_is_healed() {
     let [lobby, trials] = healed(MENDED, Traffic::Lobby, &even());
     assert!(upper_tail(lobby, trials, 0.97) < 1e-6, "{lobby}");
-    let [uniform, trials] = healed(MENDED, Traffic::Uniform, &even());
+    let [uniform, trials] = healed(MENDED, &even());
     assert!(lower_tail(uniform, trials, 0.947) > 1e-6 && upper_tail(uniform, trials, 0.87) < 1e-6);
     let mut uneven = even();
     uneven.iter_mut().skip(1).for_each(|height| *height += 1.2);
     uneven[9] += 0.4;
     uneven[4] += 0.05;
-    let [told, trials] = healed(MENDED, Traffic::Uniform, &uneven);
+    let [told, trials] = healed(MENDED, &uneven);
     assert!(upper_tail(told, trials, 0.98) < 1e-6, "{told}");
     let printed = Settings { missed: None, branches: false, ..MENDED };
-    let [printed, trials] = healed(printed, Traffic::Uniform, &even());
+    let [printed, trials] = healed(printed, &even());
     assert!(lower_tail(printed, trials, 0.5) < 1e-6, "{printed}");
 }
 

@@ -66,7 +66,7 @@ proptest! {
             }
         }
         // What it knows is a map again, unless a single floor is known or updates have moved one beyond another.
-        let known = floors.knowledge();
+        let known = floors.map();
         let is_ordered = known.heights.windows(2).all(|pair| pair[1] - pair[0] > settings.level);
         let again = Floors::known(settings, &known, Start::Unknown);
         prop_assert_eq!(again.is_ok(), known.heights.len() > 1 && is_ordered, "{:?}", again.err());
