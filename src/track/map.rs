@@ -58,7 +58,9 @@ enum Problem {
     Unwritable(io::Error),
     #[error("no map of floors, which begins with \"format\": \"{FORMAT}\" (choose another file)")]
     Foreign,
-    #[error("version {0}, and this program reads up to {VERSION} (use the program that wrote it, or a newer one)")]
+    #[error(
+        "version {0}, and this program reads up to {VERSION} (use the program that wrote it, or a newer one)"
+    )]
     Newer(u64),
     #[error("damaged: {0} (restore it, or remove it and begin with a sweep or --floors)")]
     Damaged(serde_json::Error),
@@ -167,7 +169,9 @@ mod tests {
 
     fn refusal(text: &[u8]) -> String {
         let refused = Floors::from_json(text, SETTINGS, Start::Unknown);
-        refused.err().map_or_else(String::new, |problem| problem.to_string())
+        refused
+            .err()
+            .map_or_else(String::new, |problem| problem.to_string())
     }
 
     #[test]
@@ -183,9 +187,17 @@ mod tests {
         assert_eq!(folder.path().read_dir().unwrap().count(), 1);
         let nowhere = floors.save(&folder.path().join("no/lift.json"));
         let nowhere = nowhere.unwrap_err().to_string();
-        assert!(nowhere.contains("cannot be written") && nowhere.contains("(choose"), "{nowhere}");
+        assert!(
+            nowhere.contains("cannot be written") && nowhere.contains("(choose"),
+            "{nowhere}"
+        );
         let missing = Floors::load(&folder.path().join("none"), SETTINGS, Start::Unknown);
-        assert!(missing.unwrap_err().to_string().contains("none: cannot be read"));
+        assert!(
+            missing
+                .unwrap_err()
+                .to_string()
+                .contains("none: cannot be read")
+        );
     }
 
     type Change = fn(&mut Value);
@@ -203,7 +215,10 @@ mod tests {
         ];
         for (text, expected) in texts {
             let refusal = refusal(text);
-            assert!(refusal.starts_with(expected) && refusal.ends_with(')'), "{expected}: {refusal}");
+            assert!(
+                refusal.starts_with(expected) && refusal.ends_with(')'),
+                "{expected}: {refusal}"
+            );
         }
         let changes: [(&str, Change); 13] = [
             ("no map of floors", |map| map["format"] = json!("another")),
@@ -216,15 +231,33 @@ mod tests {
                 map["heights"] = json!([0.0]);
                 map["covariance"] = json!([[0.0]]);
             }),
-            ("damaged: floors[2]: must lie more than", |map| map["heights"][2] = map["heights"][1].clone()),
-            ("damaged: floors[2]: must lie more than", |map| map["heights"][2] = json!(1.0)),
-            ("damaged: floors[3]: must be finite", |map| map["heights"][3] = json!(1e300)),
-            ("damaged: visits: must have an entry", |map| map["visits"] = json!([1])),
-            ("damaged: visits: must be at most", |map| map["visits"][1] = json!(u64::MAX)),
-            ("damaged: commissioned: must", |map| map["commissioned"] = json!([])),
-            ("damaged: covariance: must", |map| map["covariance"][1][1] = json!(-1.0)),
-            ("damaged: covariance: must", |map| map["covariance"][1][2] = json!(1.0)),
-            ("damaged: covariance: must", |map| map["covariance"][1] = json!([])),
+            ("damaged: floors[2]: must lie more than", |map| {
+                map["heights"][2] = map["heights"][1].clone()
+            }),
+            ("damaged: floors[2]: must lie more than", |map| {
+                map["heights"][2] = json!(1.0)
+            }),
+            ("damaged: floors[3]: must be finite", |map| {
+                map["heights"][3] = json!(1e300)
+            }),
+            ("damaged: visits: must have an entry", |map| {
+                map["visits"] = json!([1])
+            }),
+            ("damaged: visits: must be at most", |map| {
+                map["visits"][1] = json!(u64::MAX)
+            }),
+            ("damaged: commissioned: must", |map| {
+                map["commissioned"] = json!([])
+            }),
+            ("damaged: covariance: must", |map| {
+                map["covariance"][1][1] = json!(-1.0)
+            }),
+            ("damaged: covariance: must", |map| {
+                map["covariance"][1][2] = json!(1.0)
+            }),
+            ("damaged: covariance: must", |map| {
+                map["covariance"][1] = json!([])
+            }),
         ];
         for (expected, change) in changes {
             let mut map: Value = serde_json::from_str(&text).unwrap();

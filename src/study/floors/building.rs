@@ -148,11 +148,6 @@ impl Building {
             }
         }
     }
-
-    /// Puts the car where it was then; its draws go on.
-    pub fn return_to(&mut self, then: &Self) {
-        (self.at, self.car) = (then.at, then.car);
-    }
 }
 
 /// The variance of a measured distance, m².
@@ -181,7 +176,10 @@ mod tests {
     fn deviations_of_trips() {
         for (distance, expected) in [(3.0, 0.62), (9.0, 1.59), (15.0, 2.62), (27.0, 4.70)] {
             let deviation = 100.0 * sqrt(variance(distance));
-            assert!((deviation - expected).abs() < 0.005, "{distance}: {deviation}");
+            assert!(
+                (deviation - expected).abs() < 0.005,
+                "{distance}: {deviation}"
+            );
             assert_eq!(variance(-distance), variance(distance));
         }
         assert_eq!(variance(0.0), 0.0);
@@ -191,7 +189,11 @@ mod tests {
     #[test]
     fn the_variance_is_that_of_the_moment_formula() {
         for distance in [1.0_f64, 3.0, 9.0, 27.0] {
-            let trip = Trip { distance, drive: DRIVE, ending: Ending::Commanded };
+            let trip = Trip {
+                distance,
+                drive: DRIVE,
+                ending: Ending::Commanded,
+            };
             let course = trip.course().unwrap();
             let (from, to) = course.uniform_motion();
             let step = course.duration() / 200_000.0;
@@ -200,7 +202,10 @@ mod tests {
             let mean = moving.iter().sum::<f64>() / moving.len() as f64;
             let square = |t: &f64| (t - mean) * (t - mean);
             let expected = DENSITY * moving.iter().map(square).sum::<f64>() * step;
-            assert!((variance(distance) / expected - 1.0).abs() < 1e-3, "{distance}");
+            assert!(
+                (variance(distance) / expected - 1.0).abs() < 1e-3,
+                "{distance}"
+            );
         }
     }
 }

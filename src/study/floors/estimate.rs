@@ -21,7 +21,8 @@ pub fn of(
     trials: u64,
     confidence: f64,
 ) -> Vec<Estimate> {
-    let share = |outcome, hits, trials, unit| share(outcome, Tally { hits, trials }, unit, confidence);
+    let share =
+        |outcome, hits, trials, unit| share(outcome, Tally { hits, trials }, unit, confidence);
     match measure {
         Measure::Alarm => {
             let counts = &sums.counts;
@@ -40,7 +41,9 @@ pub fn of(
             let counts = &sums.counts;
             let names = ["false_alarms", "false_again", "false_any", "wrong_floors"];
             let shares = names.iter().zip(&counts[1..]);
-            shares.map(|(name, hits)| share(name, *hits, counts[0], "stops")).collect()
+            shares
+                .map(|(name, hits)| share(name, *hits, counts[0], "stops"))
+                .collect()
         }
         Measure::Healing => vec![share("healed", sums.counts[0], trials, "trials")],
         Measure::Position => {

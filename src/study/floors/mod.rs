@@ -34,15 +34,17 @@ pub use row::Row;
 use crate::counts::{Counter, Counts};
 use crate::experiment::Experiment;
 use crate::figure::FigureError;
+use crate::gate::Scenario;
 use crate::plot::Plot;
 use crate::results::Quantity;
 use crate::rule::{OutOfRange, Rule};
 use crate::run::{Group, Identity, StudyError, Target, Trials};
+use crate::stats::tally::Tally;
 use crate::study::kind::{Context, Counters, Study, counted};
 use measure::Measure;
 use schemars::SchemaGenerator;
 use serde_json::Value;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use table::{Point, Table};
 
 /// Buildings in a block. One of 1000 trips takes about ten milliseconds.
@@ -79,7 +81,9 @@ impl Study for Buildings {
 
     fn identities(&self) -> Vec<Identity> {
         let points = self.table.points.iter();
-        points.map(|point| point.identity(self.table.measure)).collect()
+        points
+            .map(|point| point.identity(self.table.measure))
+            .collect()
     }
 
     fn trials(&self) -> Option<Box<dyn Trials + '_>> {
@@ -93,8 +97,13 @@ impl Study for Buildings {
         let mut rows = Vec::new();
         for (point, key) in table.points.iter().zip(&self.counters.keys) {
             let (trials, sums) = counted(counts, key, &shape);
-            let estimates =
-                estimate::of(table.measure, &point.keys, &sums, trials, context.confidence);
+            let estimates = estimate::of(
+                table.measure,
+                &point.keys,
+                &sums,
+                trials,
+                context.confidence,
+            );
             let estimates = estimates.into_iter();
             rows.extend(estimates.map(|of| Row::new(table, point, of, context)));
         }
@@ -114,6 +123,21 @@ impl Study for Buildings {
             }
         };
         Ok(rows.iter().map(quantity).collect())
+    }
+
+    /// Ordinary stops of each building, which several points may share.
+    fn false_alarms(&self, rows: &[Row]) -> Vec<Scenario> {
+        let mut known = BTreeSet::new();
+        let mut scenarios = Vec::new();
+        for point in &self.table.points {
+            if known.insert(point.building(self.table.measure)) {
+                let here = |row: &&Row| row.curve == point.curve + 1 && row.x == point.x;
+                let is_counted =
+                    |row: &&Row| row.outcome.starts_with("false_") && row.exposure > 0.0;
+                scenarios.extend(rows.iter().filter(here).filter(is_counted).map(scenario));
+            }
+        }
+        scenarios
     }
 
     fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
@@ -147,22 +171,43 @@ impl Trials for &Buildings {
         let mut shared: BTreeMap<Identity, Vec<usize>> = BTreeMap::new();
         for &target in targets {
             let point = &self.table.points[self.counters.points[target]];
-            shared.entry(point.building(measure)).or_default().push(target);
+            shared
+                .entry(point.building(measure))
+                .or_default()
+                .push(target);
         }
         let group = |targets: Vec<usize>| {
-            let points = targets.iter().map(|at| &self.table.points[self.counters.points[*at]]);
+            let points = targets
+                .iter()
+                .map(|at| &self.table.points[self.counters.points[*at]]);
             let points: Vec<&Point> = points.collect();
             Group::new(targets, move |trials| {
                 let shape = trial::shape(measure, &self.table.points);
                 let mut sums = vec![shape.empty().sums; points.len()];
                 for trial in trials {
                     let more = trial::run(measure, &points, seed, trial);
-                    sums.iter_mut().zip(&more).for_each(|(sum, more)| sum.add(more));
+                    sums.iter_mut()
+                        .zip(&more)
+                        .for_each(|(sum, more)| sum.add(more));
                 }
                 sums
             })
         };
         shared.into_values().map(group).collect()
+    }
+}
+
+/// The false alarms per stop that a map promises.
+const PROMISED: f64 = 1e-3;
+
+fn scenario(row: &Row) -> Scenario {
+    Scenario {
+        name: format!("{}, {}, noise {}", row.label, row.outcome, row.noise),
+        nominal: PROMISED,
+        tally: Tally {
+            hits: row.count,
+            trials: row.exposure as u64,
+        },
     }
 }
 

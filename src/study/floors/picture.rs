@@ -5,7 +5,8 @@ use super::row::Row;
 use super::table::Table;
 use crate::format::thousands;
 use crate::plot::{
-    Axis, Curve, Entry, Key, Limit, Mark, Place, Plot, Point, Style, add_bands, ends, is_long, literal,
+    Axis, Curve, Entry, Key, Limit, Mark, Place, Plot, Point, Style, add_bands, ends, is_long,
+    literal,
 };
 use libm::log10;
 
@@ -29,7 +30,12 @@ fn shown(measure: Measure) -> Vec<Shown> {
     match measure {
         Measure::Alarm => vec![
             panel("alarmed", Some("bound"), "D, at once", false),
-            panel("alarmed_again", Some("bound_again"), "D, judged again", false),
+            panel(
+                "alarmed_again",
+                Some("bound_again"),
+                "D, judged again",
+                false,
+            ),
         ],
         Measure::Stops => vec![
             panel("false_alarms", None, "false alarms per stop", true),
@@ -52,7 +58,8 @@ pub fn plot(rows: &[Row], table: &Table, seed: u64) -> Plot {
     let at = |row: &Row| if is_long { log10(row.x) } else { row.x };
     let of = |curve: usize, outcome: &str| -> Vec<&Row> {
         let rows = rows.iter();
-        rows.filter(|row| row.curve == curve + 1 && row.outcome == outcome).collect()
+        rows.filter(|row| row.curve == curve + 1 && row.outcome == outcome)
+            .collect()
     };
     let shown = shown(table.measure);
     let curves = |shown: &Shown| -> Vec<Curve> {
@@ -61,7 +68,9 @@ pub fn plot(rows: &[Row], table: &Table, seed: u64) -> Plot {
             let points = rows.map(|row| point(row, at(row), shown.is_logarithmic));
             Curve {
                 style: Style::of(curve),
-                points: points.filter(|point| point.x.is_finite() && point.y.is_finite()).collect(),
+                points: points
+                    .filter(|point| point.x.is_finite() && point.y.is_finite())
+                    .collect(),
             }
         });
         each.collect()
@@ -69,14 +78,23 @@ pub fn plot(rows: &[Row], table: &Table, seed: u64) -> Plot {
     let panels: Vec<(&Shown, Vec<Curve>)> = shown.iter().map(|of| (of, curves(of))).collect();
     let x = Axis::around(rows.iter().map(at).filter(|x| x.is_finite()), is_long);
     let height = 300.0 / (panels.len() as f64 + 0.3);
-    let heights = panels.iter().map(|(shown, curves)| (height, y_axis(shown, curves)));
+    let heights = panels
+        .iter()
+        .map(|(shown, curves)| (height, y_axis(shown, curves)));
     let mut plot = Plot::stack(&x.labelled(key_in_words(&table.axis)), heights);
     plot.margins.legend = (6.0, 6.0);
     for (panel, (shown, curves)) in panels.iter().enumerate() {
         plot.add(panel, Mark::Grid);
-        for (curve, beside) in (0..table.labels.len()).flat_map(|curve| Some((curve, shown.beside?))) {
-            let line = of(curve, beside).into_iter().map(|row| (at(row), row.estimate));
-            plot.add(panel, Mark::Line(line.collect(), Style::of(curve).faded(0.6)));
+        for (curve, beside) in
+            (0..table.labels.len()).flat_map(|curve| Some((curve, shown.beside?)))
+        {
+            let line = of(curve, beside)
+                .into_iter()
+                .map(|row| (at(row), row.estimate));
+            plot.add(
+                panel,
+                Mark::Line(line.collect(), Style::of(curve).faded(0.6)),
+            );
         }
         add_bands(&mut plot, panel, curves, false);
         plot.add(panel, Mark::Axes);
@@ -98,7 +116,10 @@ fn point(row: &Row, x: f64, is_logarithmic: bool) -> Point {
     let limit = (row.estimate == 0.0).then_some(Limit::Upper);
     let point = Point { limit, ..point }.logarithms();
     match limit {
-        Some(_) => Point { limit, ..Point::at(point.place()) },
+        Some(_) => Point {
+            limit,
+            ..Point::at(point.place())
+        },
         None => point,
     }
 }
@@ -144,7 +165,9 @@ fn caption(rows: &[Row], table: &Table, seed: u64) -> Vec<String> {
     };
     let first = facts(&rows[0]);
     let is_shared = |at: &usize| rows.iter().all(|row| facts(row)[*at] == first[*at]);
-    let shared = (0..first.len()).filter(is_shared).filter_map(|at| first[at].clone());
+    let shared = (0..first.len())
+        .filter(is_shared)
+        .filter_map(|at| first[at].clone());
     let mut parts: Vec<String> = shared.collect();
     parts.push("trips drawn from the law of their errors".to_owned());
     parts.push(format!("{} buildings", thousands(rows[0].trials)));

@@ -68,7 +68,10 @@ impl Table {
 
     fn of(measure: Measure, table: &Node) -> Result<Self, Conflict> {
         check_known(table, &["measure", "axis", "curve"])?;
-        let swept: Vec<_> = names::<Keys>().iter().map(|key| (*key, vec![*key])).collect();
+        let swept: Vec<_> = names::<Keys>()
+            .iter()
+            .map(|key| (*key, vec![*key]))
+            .collect();
         let overlay = Overlay::read(
             table,
             &experiment::Keys {
@@ -84,7 +87,9 @@ impl Table {
             check_known(&laid.header, &["label"])?;
             for value in &overlay.axis.values {
                 let axis = || Problem::NoNumber(overlay.axis.name.clone());
-                let x = value.number().ok_or_else(|| Conflict::at(&value.0.span, axis()))?;
+                let x = value
+                    .number()
+                    .ok_or_else(|| Conflict::at(&value.0.span, axis()))?;
                 let keys = read_keys(measure, &overlay.at(curve, value))?;
                 points.push(Point { curve, x, keys });
             }
@@ -92,7 +97,11 @@ impl Table {
         Ok(Self {
             measure,
             axis: overlay.axis.name.clone(),
-            labels: overlay.curves.iter().map(|laid| laid.label.clone()).collect(),
+            labels: overlay
+                .curves
+                .iter()
+                .map(|laid| laid.label.clone())
+                .collect(),
             points,
         })
     }
@@ -154,7 +163,8 @@ impl Point {
         let keys = keys.as_object().into_iter().flatten();
         let keys = keys.filter(|(key, _)| !without.contains(&&key[..]));
         let keys = keys.map(|(key, value)| (key.clone(), value.to_string()));
-        let settings = serde_json::to_string(&self.keys.settings()).expect("settings are plain data");
+        let settings =
+            serde_json::to_string(&self.keys.settings()).expect("settings are plain data");
         let said = [
             ("measure".to_owned(), measure.to_string()),
             ("settings".to_owned(), settings),
@@ -166,7 +176,10 @@ impl Point {
 /// The JSON Schema of the table.
 pub fn schema(generator: &mut SchemaGenerator) -> Value {
     let mut keys = properties::<Keys>(generator);
-    let axis = schema::axis(keys.iter().map(|(key, schema)| (key.as_str(), schema.clone())));
+    let axis = schema::axis(
+        keys.iter()
+            .map(|(key, schema)| (key.as_str(), schema.clone())),
+    );
     let mut curve = keys.clone();
     curve.insert("label".to_owned(), json!({ "type": "string" }));
     let measure = Measure::json_schema(generator).to_value();

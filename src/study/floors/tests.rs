@@ -1,9 +1,9 @@
 //! Buildings, counted.
 
 use super::Buildings;
+use crate::study::floors::Row;
 use crate::study::parse;
 use crate::study::tests::{read, rows};
-use crate::study::floors::Row;
 
 fn config(table: &str) -> String {
     format!("question = \"?\"\nseed = 7\ntrials = 40\n[floors]\n{table}")
@@ -24,7 +24,8 @@ fn value(rows: &[Row], outcome: &str, at: usize) -> f64 {
 /// itself.
 #[test]
 fn each_measure() {
-    let alarm = "measure = \"alarm\"\ntrips = 100\nstoreys = 9\n[floors.axis]\noffset = [0.0, 0.2, 0.6]\n";
+    let alarm =
+        "measure = \"alarm\"\ntrips = 100\nstoreys = 9\n[floors.axis]\noffset = [0.0, 0.2, 0.6]\n";
     let study = read::<Buildings>(&config(alarm));
     let all = rows(&study, 40);
     assert_eq!(all.len(), 3 * 7);
@@ -32,7 +33,10 @@ fn each_measure() {
     assert!(value(&all, "alarmed", 0) < 0.1 && value(&all, "false_alarms", 0) < 0.005);
     assert!((value(&all, "bound", 0) - 5.3e-4).abs() < 1e-5);
     let one = read::<Buildings>(&config(&alarm.replace("0.0, 0.2, 0.6", "0.2")));
-    assert_eq!(value(&rows(&one, 40), "alarmed", 0), value(&all, "alarmed", 1));
+    assert_eq!(
+        value(&rows(&one, 40), "alarmed", 0),
+        value(&all, "alarmed", 1)
+    );
 
     let position = "measure = \"position\"\n[floors.axis]\ntrips = [100, 0]\n";
     let study = read::<Buildings>(&config(position));
@@ -57,13 +61,34 @@ fn each_measure() {
 fn what_is_refused() {
     let axis = "\n[floors.axis]\noffset = [0.1]\n";
     let cases = [
-        (format!("measure = \"stops\"{axis}"), "floors.offset: means nothing to measure = \"stops\""),
-        (format!("measure = \"alarm\"\nlevel = 0{axis}"), "floors.level: must lie in [0.00001, 0.1] m, got 0"),
-        (format!("measure = \"alarm\"\nthreshold = 0{axis}"), "floors.threshold: must be positive and finite, got 0"),
-        (format!("measure = \"alarm\"\nfloors = 1{axis}"), "floors.floors: must lie in [2, 60], got 1"),
-        (format!("measure = \"alarm\"\nfloors = 4\nstoreys = 4{axis}"), "floors.storeys: must lie in [1, 3], got 4"),
-        (format!("measure = \"alarm\"\nstory = 4{axis}"), "floors: unknown key"),
-        ("measure = \"alarm\"\n[floors.axis]\noffset = [2.0]\n".to_owned(), "floors.offset: must lie in"),
+        (
+            format!("measure = \"stops\"{axis}"),
+            "floors.offset: means nothing to measure = \"stops\"",
+        ),
+        (
+            format!("measure = \"alarm\"\nlevel = 0{axis}"),
+            "floors.level: must lie in [0.00001, 0.1] m, got 0",
+        ),
+        (
+            format!("measure = \"alarm\"\nthreshold = 0{axis}"),
+            "floors.threshold: must be positive and finite, got 0",
+        ),
+        (
+            format!("measure = \"alarm\"\nfloors = 1{axis}"),
+            "floors.floors: must lie in [2, 60], got 1",
+        ),
+        (
+            format!("measure = \"alarm\"\nfloors = 4\nstoreys = 4{axis}"),
+            "floors.storeys: must lie in [1, 3], got 4",
+        ),
+        (
+            format!("measure = \"alarm\"\nstory = 4{axis}"),
+            "floors: unknown key",
+        ),
+        (
+            "measure = \"alarm\"\n[floors.axis]\noffset = [2.0]\n".to_owned(),
+            "floors.offset: must lie in",
+        ),
     ];
     for (table, expected) in cases {
         let refusal = refusal(&table);

@@ -33,7 +33,11 @@ struct Stops {
 
 /// What a measure sums up.
 pub fn shape(measure: Measure, points: &[Point]) -> Shape {
-    let trips = points.iter().map(|point| point.keys.trips).max().unwrap_or_default();
+    let trips = points
+        .iter()
+        .map(|point| point.keys.trips)
+        .max()
+        .unwrap_or_default();
     let (one, trips) = (Some(1), Some(trips as u64));
     match measure {
         Measure::Alarm => Shape {
@@ -150,7 +154,13 @@ impl Run {
         let second = stop(&mut building, next, 0.0);
         let at_once = first.judgement.is_some_and(|of| of.fault.is_some());
         let again = second.earlier.is_some_and(|of| of.fault.is_some());
-        let Stops { all, at_once: ordinary, again: ordinary_again, any, .. } = self.counted;
+        let Stops {
+            all,
+            at_once: ordinary,
+            again: ordinary_again,
+            any,
+            ..
+        } = self.counted;
         Sums::of(&[
             u64::from(at_once),
             u64::from(again),
@@ -190,14 +200,12 @@ impl Run {
         let heights = building.heights.iter().map(|height| height - lowest);
         let heights: Vec<f64> = heights.collect();
         let (square, normalised) = map_errors(&self.map.map(), &heights);
-        let values = [
-            position * position,
-            reckoned * reckoned,
-            square,
-            normalised,
-        ];
+        let values = [position * position, reckoned * reckoned, square, normalised];
         Sums {
-            lengths: values.iter().flat_map(|x| [Fixed::new(*x), Fixed::new(x * x)]).collect(),
+            lengths: values
+                .iter()
+                .flat_map(|x| [Fixed::new(*x), Fixed::new(x * x)])
+                .collect(),
             ..Sums::default()
         }
     }
@@ -228,7 +236,11 @@ fn map_errors(map: &Map, truth: &[f64]) -> (f64, f64) {
         for j in 1..=i {
             let sum: f64 = (1..j).map(|k| factor[i * n + k] * factor[j * n + k]).sum();
             let rest = factor[i * n + j] - sum;
-            factor[i * n + j] = if i == j { sqrt(rest) } else { rest / factor[j * n + j] };
+            factor[i * n + j] = if i == j {
+                sqrt(rest)
+            } else {
+                rest / factor[j * n + j]
+            };
         }
         let sum: f64 = (1..i).map(|k| factor[i * n + k] * whitened[k]).sum();
         whitened[i] = (whitened[i] - sum) / factor[i * n + i];

@@ -1,8 +1,8 @@
 //! One course of events: an estimate of car and floors, and its cost.
 
+use super::Height;
 use super::settings::{Association, Settings};
 use super::stop::Fault;
-use super::Height;
 use crate::kalman::Estimate;
 use libm::log;
 
@@ -106,7 +106,11 @@ impl Hypothesis {
 
     /// The covariance of the floors, row by row.
     pub fn floor_covariance(&self) -> Vec<f64> {
-        let rows = self.estimate.covariance.chunks_exact(self.size()).skip(FLOORS);
+        let rows = self
+            .estimate
+            .covariance
+            .chunks_exact(self.size())
+            .skip(FLOORS);
         rows.flat_map(|row| &row[FLOORS..]).copied().collect()
     }
 
@@ -131,8 +135,8 @@ impl Hypothesis {
     /// How far the car is, or was, from a floor.
     pub fn offset(&self, of: usize, floor: usize, settings: &Settings) -> Offset {
         let floor = FLOORS + floor;
-        let spread =
-            self.covariance(of, of) - 2.0 * self.covariance(of, floor) + self.covariance(floor, floor);
+        let spread = self.covariance(of, of) - 2.0 * self.covariance(of, floor)
+            + self.covariance(floor, floor);
         Offset {
             mean: self.estimate.mean[of] - self.estimate.mean[floor],
             variance: spread + settings.level * settings.level,
@@ -192,7 +196,11 @@ impl Hypothesis {
         let car = self.car();
         let [lowest, highest] = self.ends();
         let reach = lowest - settings.overtravel..=highest + settings.overtravel;
-        let times = if reach.contains(&car.mean) { 1.0 } else { BEYOND };
+        let times = if reach.contains(&car.mean) {
+            1.0
+        } else {
+            BEYOND
+        };
         let again = self.unexplained.iter().map(|of| {
             let apart = car.mean - of.mean;
             apart * apart / (car.variance + of.variance) / scale

@@ -124,7 +124,11 @@ impl Floors {
         let (floor, offset) = best.associate(&self.settings);
         let judgement = self.judge(best, CAR, floor, offset);
         self.scale.push(offset.xi());
-        let off = self.hypotheses.iter().find(|of| of.floor.is_none()).cloned();
+        let off = self
+            .hypotheses
+            .iter()
+            .find(|of| of.floor.is_none())
+            .cloned();
         if self.settings.branches {
             self.branch(factor);
         } else {

@@ -27,7 +27,9 @@ pub enum Start {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "the messages say it")]
 pub enum MapError {
-    #[error("floors: must be at least 2 and at most {MOST_FLOORS}, got {0} (give every floor's height)")]
+    #[error(
+        "floors: must be at least 2 and at most {MOST_FLOORS}, got {0} (give every floor's height)"
+    )]
     Number(usize),
     #[error("floors[{at}]: must be finite and within 10000 m of the first, got {got}")]
     Height { at: usize, got: f64 },
@@ -101,11 +103,7 @@ impl Floors {
     ///
     /// # Errors
     /// If its numbers are those of no map, or a setting breaks its rule.
-    pub fn known(
-        settings: Settings,
-        map: &Map,
-        start: Start,
-    ) -> Result<Self, MapError> {
+    pub fn known(settings: Settings, map: &Map, start: Start) -> Result<Self, MapError> {
         settings.check()?;
         map.check(settings.level)?;
         let best = Hypothesis::of(&map.heights, &map.covariance, &settings);
@@ -220,7 +218,9 @@ impl Map {
         entries("visits", self.visits.len())?;
         for &visits in &self.visits {
             if visits > MOST_VISITS {
-                return Err(OutOfRange::new("visits", format!("be at most {MOST_VISITS}"), visits).into());
+                return Err(
+                    OutOfRange::new("visits", format!("be at most {MOST_VISITS}"), visits).into(),
+                );
             }
         }
         for &xi in &self.recent {
@@ -246,8 +246,7 @@ impl Map {
 /// column of zeros for each direction that is known exactly.
 fn is_covariance(matrix: &[f64], n: usize) -> bool {
     let is_bounded = matrix.iter().all(|value| value.abs() <= 1e8);
-    let is_symmetric =
-        || (0..n).all(|i| (0..i).all(|j| matrix[i * n + j] == matrix[j * n + i]));
+    let is_symmetric = || (0..n).all(|i| (0..i).all(|j| matrix[i * n + j] == matrix[j * n + i]));
     if matrix.len() != n * n || !is_bounded || !is_symmetric() {
         return false;
     }

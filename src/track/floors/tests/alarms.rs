@@ -56,7 +56,10 @@ fn one_false_alarm_in_a_thousand_stops() {
 #[test]
 fn printed_alarms_come_in_pairs() {
     let seen = alarms(PRINTED, 1.0, 100, 1000);
-    assert!(upper_tail(seen.at_once, seen.stops, 0.001) < 1e-3, "{seen:?}");
+    assert!(
+        upper_tail(seen.at_once, seen.stops, 0.001) < 1e-3,
+        "{seen:?}"
+    );
     // The probability of an alarm after an alarm is a hundred times that of any.
     assert!(upper_tail(seen.pairs, seen.at_once, 0.1) < 0.01, "{seen:?}");
 }
@@ -66,9 +69,23 @@ fn printed_alarms_come_in_pairs() {
 fn noisier_trips() {
     for (noise, most) in [(1.15, 1.3e-3), (1.3, 1.6e-3), (2.0, 3.2e-3)] {
         let seen = alarms(MENDED, noise, 40, 1000);
-        assert!(upper_tail(seen.at_once, seen.stops, most) > 1e-6, "{noise} {seen:?}");
-        let unscaled = alarms(Settings { window: 0, ..MENDED }, noise, 10, 1000);
-        assert!(upper_tail(unscaled.at_once, unscaled.stops, most) < 1e-6, "{noise} {unscaled:?}");
+        assert!(
+            upper_tail(seen.at_once, seen.stops, most) > 1e-6,
+            "{noise} {seen:?}"
+        );
+        let unscaled = alarms(
+            Settings {
+                window: 0,
+                ..MENDED
+            },
+            noise,
+            10,
+            1000,
+        );
+        assert!(
+            upper_tail(unscaled.at_once, unscaled.stops, most) < 1e-6,
+            "{noise} {unscaled:?}"
+        );
     }
 }
 
@@ -94,7 +111,11 @@ fn power(storeys: usize, offset: f64) -> [u64; 3] {
             let sign = if building.unit() < 0.5 { 1.0 } else { -1.0 };
             let stop = building.stop(&mut floors, to, sign * offset);
             at_once += u64::from(stop.judgement.unwrap().fault.is_some());
-            let next = if to == 0 || (to < 9 && building.unit() < 0.5) { to + 1 } else { to - 1 };
+            let next = if to == 0 || (to < 9 && building.unit() < 0.5) {
+                to + 1
+            } else {
+                to - 1
+            };
             let stop = building.stop(&mut floors, next, 0.0);
             again += u64::from(stop.earlier.is_some_and(|of| of.fault.is_some()));
             stops += 1;

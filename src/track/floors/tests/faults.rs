@@ -49,7 +49,10 @@ fn an_alarm_is_confirmed_by_the_next_stop() {
     assert_eq!((next.floor, next.judgement.unwrap().fault), (Some(2), None));
     assert_eq!((again.fault, again.floor), (Some(Fault::MisLevelling), 3));
     assert!((again.offset - 0.08).abs() < 0.005, "{again:?}");
-    assert!(again.deviation < 0.5 * first.deviation, "{again:?} {first:?}");
+    assert!(
+        again.deviation < 0.5 * first.deviation,
+        "{again:?} {first:?}"
+    );
 }
 
 /// The same alarm, but the trip was wrong and not the stop: it is withdrawn, and the printed rule alarms again.
@@ -85,7 +88,11 @@ fn a_floor_left_out_is_added() {
             let fault = stop.judgement.unwrap().fault;
             let is_between = fault == Some(Fault::BetweenFloors);
             alarms += usize::from(is_between);
-            assert_eq!(is_between, world.at == 6 && stop.added.is_none(), "{stop:?}");
+            assert_eq!(
+                is_between,
+                world.at == 6 && stop.added.is_none(),
+                "{stop:?}"
+            );
             stop.added
         });
         assert_eq!((added, alarms), (Some(6), 3));

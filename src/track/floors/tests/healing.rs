@@ -33,16 +33,20 @@ fn healed(settings: Settings, traffic: Traffic, heights: &[f64]) -> [u64; 2] {
 fn a_missed_trip_is_healed() {
     let [lobby, trials] = healed(MENDED, Traffic::Lobby, &even());
     assert!(upper_tail(lobby, trials, 0.97) < 1e-6, "{lobby}");
-    let [uniform, trials] = healed(MENDED, &even());
+    let [uniform, trials] = healed(MENDED, Traffic::Uniform, &even());
     assert!(lower_tail(uniform, trials, 0.947) > 1e-6 && upper_tail(uniform, trials, 0.87) < 1e-6);
     let mut uneven = even();
     uneven.iter_mut().skip(1).for_each(|height| *height += 1.2);
     uneven[9] += 0.4;
     uneven[4] += 0.05;
-    let [told, trials] = healed(MENDED, &uneven);
+    let [told, trials] = healed(MENDED, Traffic::Uniform, &uneven);
     assert!(upper_tail(told, trials, 0.98) < 1e-6, "{told}");
-    let printed = Settings { missed: None, branches: false, ..MENDED };
-    let [printed, trials] = healed(printed, &even());
+    let printed = Settings {
+        missed: None,
+        branches: false,
+        ..MENDED
+    };
+    let [printed, trials] = healed(printed, Traffic::Uniform, &even());
     assert!(lower_tail(printed, trials, 0.5) < 1e-6, "{printed}");
 }
 
@@ -54,17 +58,24 @@ fn a_missed_trip_is_healed() {
 fn what_can_be_healed_with_ten_equal_floors() {
     let within = |low: i32, high: i32, first: i32| {
         let is_among = (low..=high).contains(&first);
-        if is_among { (f64::from(high - low) / 9.0).powi(25) } else { 0.0 }
+        if is_among {
+            (f64::from(high - low) / 9.0).powi(25)
+        } else {
+            0.0
+        }
     };
     let mut right = 0.0;
     for first in 0..10 {
         for low in 0..=first {
             for high in first..10 {
-                let reach = within(low, high, first) - within(low + 1, high, first)
+                let reach = within(low, high, first)
+                    - within(low + 1, high, first)
                     - within(low, high - 1, first)
                     + within(low + 1, high - 1, first);
                 let shifts = (-first..10 - first).filter(|shift| *shift != 0);
-                let seen = shifts.filter(|shift| low + shift < 0 || high + shift > 9).count();
+                let seen = shifts
+                    .filter(|shift| low + shift < 0 || high + shift > 9)
+                    .count();
                 right += reach / 10.0 * seen as f64 / 9.0 / f64::from(10 - (high - low));
             }
         }

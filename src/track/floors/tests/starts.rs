@@ -5,7 +5,9 @@ use crate::track::floors::{Floors, Settings, Start};
 use proptest::prelude::*;
 
 fn refusal(settings: Settings, heights: &[f64], start: Start) -> String {
-    Floors::given(settings, heights, 0.01, start).unwrap_err().to_string()
+    Floors::given(settings, heights, 0.01, start)
+        .unwrap_err()
+        .to_string()
 }
 
 #[test]
@@ -13,24 +15,88 @@ fn no_maps() {
     let two = [0.0, 3.0];
     let at = Start::Floor(0);
     let cases = [
-        (refusal(MENDED, &[], at), "floors: must be at least 2 and at most 200, got 0"),
-        (refusal(MENDED, &[3.0], at), "floors: must be at least 2 and at most 200, got 1"),
-        (refusal(MENDED, &[0.0, 3.0, 2.5], at), "floors[2]: must lie more than σ_s = 0.002 m above the floor before it, 3 m, got 2.5 m"),
-        (refusal(MENDED, &[0.0, 3.0, 3.001], at), "floors[2]: must lie more than σ_s"),
-        (refusal(MENDED, &[0.0, f64::NAN], at), "floors[1]: must be finite and within 10000 m of the first, got NaN"),
-        (refusal(MENDED, &[0.0, 2e4], at), "floors[1]: must be finite"),
-        (refusal(MENDED, &two, Start::Floor(2)), "start: must be one of 2 floors, from 0 up, got 2"),
-        (refusal(Settings { level: 0.0, ..MENDED }, &two, at), "level: must lie in [0.00001, 0.1] m, got 0"),
-        (refusal(Settings { threshold: 0.0, ..MENDED }, &two, at), "threshold: must be positive and finite, got 0"),
-        (refusal(Settings { threshold: -1.0, ..PRINTED }, &two, at), "threshold: must be positive"),
-        (refusal(Settings { missed: Some(0.0), ..MENDED }, &two, at), "missed: must be positive"),
+        (
+            refusal(MENDED, &[], at),
+            "floors: must be at least 2 and at most 200, got 0",
+        ),
+        (
+            refusal(MENDED, &[3.0], at),
+            "floors: must be at least 2 and at most 200, got 1",
+        ),
+        (
+            refusal(MENDED, &[0.0, 3.0, 2.5], at),
+            "floors[2]: must lie more than σ_s = 0.002 m above the floor before it, 3 m, got 2.5 m",
+        ),
+        (
+            refusal(MENDED, &[0.0, 3.0, 3.001], at),
+            "floors[2]: must lie more than σ_s",
+        ),
+        (
+            refusal(MENDED, &[0.0, f64::NAN], at),
+            "floors[1]: must be finite and within 10000 m of the first, got NaN",
+        ),
+        (
+            refusal(MENDED, &[0.0, 2e4], at),
+            "floors[1]: must be finite",
+        ),
+        (
+            refusal(MENDED, &two, Start::Floor(2)),
+            "start: must be one of 2 floors, from 0 up, got 2",
+        ),
+        (
+            refusal(
+                Settings {
+                    level: 0.0,
+                    ..MENDED
+                },
+                &two,
+                at,
+            ),
+            "level: must lie in [0.00001, 0.1] m, got 0",
+        ),
+        (
+            refusal(
+                Settings {
+                    threshold: 0.0,
+                    ..MENDED
+                },
+                &two,
+                at,
+            ),
+            "threshold: must be positive and finite, got 0",
+        ),
+        (
+            refusal(
+                Settings {
+                    threshold: -1.0,
+                    ..PRINTED
+                },
+                &two,
+                at,
+            ),
+            "threshold: must be positive",
+        ),
+        (
+            refusal(
+                Settings {
+                    missed: Some(0.0),
+                    ..MENDED
+                },
+                &two,
+                at,
+            ),
+            "missed: must be positive",
+        ),
     ];
     for (refusal, expected) in cases {
         assert!(refusal.starts_with(expected), "{refusal}");
     }
     assert!(Floors::given(MENDED, &two, 0.0, at).is_ok());
     assert!(Floors::given(MENDED, &two, f64::NAN, at).is_err());
-    let none = Settings { level: f64::NAN, ..MENDED };
+    let none = Settings {
+        level: f64::NAN,
+        ..MENDED
+    };
     assert!(Floors::unknown(none).is_err());
 }
 

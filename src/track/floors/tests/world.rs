@@ -41,6 +41,11 @@ impl Building {
         floors
     }
 
+    /// Puts the car where it was then; its draws go on.
+    pub fn return_to(&mut self, then: &Self) {
+        (self.at, self.car) = (then.at, then.car);
+    }
+
     pub fn stop(&mut self, floors: &mut Floors, to: usize, offset: f64) -> Stop {
         let trip = self.go(to, offset);
         floors.step(trip.distance, trip.variance)
