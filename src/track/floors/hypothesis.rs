@@ -1,8 +1,7 @@
 //! One course of events: an estimate of car and floors, and its cost.
 
-use super::Height;
 use super::settings::{Association, Settings};
-use super::stop::Fault;
+use super::stop::{Fault, Height};
 use crate::kalman::Estimate;
 use libm::log;
 

@@ -55,12 +55,11 @@ mod tests;
 
 pub use settings::{Association, Settings};
 pub use start::{Map, MapError, Start};
-pub use stop::{Fault, Floor, Judgement, Stop};
+pub use stop::{Fault, Floor, Height, Judgement, Stop};
 
 use hypothesis::{BEFORE, CAR, Hypothesis, Offset};
 use libm::{exp, log, sqrt};
 use scale::Scale;
-use serde::{Deserialize, Serialize};
 
 /// Visits that each floor is taken to have had: chance must not look like habit.
 const USUAL: f64 = 30.0;
@@ -70,16 +69,6 @@ const COMMISSIONING: u64 = 10;
 const CONSISTENT: usize = 3;
 /// The most floors of a building.
 pub const MOST_FLOORS: usize = 200;
-
-/// A height, m above the floor of the first stop.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Height {
-    /// m.
-    pub mean: f64,
-    /// m².
-    pub variance: f64,
-}
 
 /// The floors of a building and the car among them.
 #[derive(Clone, Debug)]

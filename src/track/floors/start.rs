@@ -8,7 +8,8 @@
 use super::hypothesis::{CAR, Hypothesis};
 use super::scale::Scale;
 use super::settings::Settings;
-use super::{Floors, Height, MOST_FLOORS};
+use super::stop::Height;
+use super::{Floors, MOST_FLOORS};
 use crate::rule::{OutOfRange, Rule};
 
 /// More than a lift makes in its life.

@@ -62,6 +62,16 @@ impl fmt::Display for Fault {
     }
 }
 
+/// A height, m above the floor of the first stop.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Height {
+    /// m.
+    pub mean: f64,
+    /// m².
+    pub variance: f64,
+}
+
 /// A floor of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Floor {
