@@ -22,10 +22,10 @@
 //! | a trip was missed, the car is at floor i | [`Settings::missed`] |
 //!
 //! Of those that end alike the cheapest is kept, as Viterbi does, and the chance that a trip was missed adds up over
-//! trips: a discrete filter over floors. The stop was
-//! abnormal or the trip was wrong, the next stop decides; and a missed trip, which shifts p by whole floors, is
-//! healed once the shaft's ends or the usual traffic contradict it. Where all floors are equally apart and equally
-//! visited, nothing else can tell.
+//! trips: a discrete filter over floors. The stop was abnormal or the trip was wrong, the next stop decides: it is
+//! judged by the one of these that fits. A missed trip, which shifts p by whole floors, is healed once the shaft's
+//! ends or the usual traffic contradict it. Where all floors are equally apart and equally visited, nothing else
+//! can tell.
 //!
 //! **Judged again.** The hypothesis "off every floor" has q without the previous stop's update. Once the stop
 //! after it is at a floor, ξ of q against its floor uses the trip in and the trip out, σ⁻² = σ_in⁻² + σ_out⁻². It
@@ -109,9 +109,8 @@ impl Floors {
             return self.stop(None, None, Some(floor));
         }
         let factor = self.scale.factor();
-        let best = self.best();
-        let (floor, offset) = best.associate(&self.settings);
-        let judgement = self.judge(best, CAR, floor, offset);
+        let (by, floor, offset) = self.believed();
+        let judgement = self.judge(by, CAR, floor, offset);
         self.scale.push(offset.xi());
         let off = self
             .hypotheses
@@ -177,6 +176,22 @@ impl Floors {
 
     fn best(&self) -> &Hypothesis {
         &self.hypotheses[0]
+    }
+
+    /// What a stop is judged by: the best hypothesis. After an alarm also that the trip before it was wrong, unless
+    /// that is as unlikely as another alarm; the one that fits.
+    fn believed(&self) -> (&Hypothesis, usize, Offset) {
+        let (best, settings) = (self.best(), &self.settings);
+        let is_rival = |of: &&Hypothesis| {
+            best.floor.is_none() && of.floor == self.nearest && of.cost <= settings.threshold
+        };
+        let rivals = self.hypotheses[1..].iter().filter(is_rival);
+        let fits = [best].into_iter().chain(rivals).map(|of| {
+            let (floor, offset) = of.associate(settings);
+            (of, floor, offset)
+        });
+        let best = fits.min_by(|a, b| a.2.xi().total_cmp(&b.2.xi()));
+        best.expect("there is a hypothesis")
     }
 
     fn judge(&self, of: &Hypothesis, at: usize, floor: usize, offset: Offset) -> Judgement {

@@ -190,6 +190,23 @@ fn a_floor_that_moved_drifts() {
     }
 }
 
+/// Drifts of floors that have not moved have the stated deviation, √(P₀ − P). Floors of one building depend on each
+/// other: as one number per building the mean has a deviation of at most √(2/400), a fifth of the tolerance.
+#[test]
+fn drifts_are_as_small_as_they_say() {
+    let (mut sum, buildings) = (0.0, 400);
+    for seed in 0..buildings {
+        let floors = even_building(seed).settled(MENDED, 300).floors();
+        let squares = floors[1..]
+            .iter()
+            .map(|floor| floor.drift / floor.drift_deviation);
+        sum += squares.map(|drift| drift * drift).sum::<f64>() / 9.0;
+    }
+    let mean = sum / buildings as f64;
+    println!("{mean}");
+    assert!((mean - 1.0).abs() < 0.35);
+}
+
 /// Where one floor is known to metres, its ξ is small for every stop: least ξ gives it the stops of others.
 #[test]
 fn an_uncertain_floor_takes_no_stops_of_others() {

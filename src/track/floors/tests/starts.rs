@@ -1,7 +1,7 @@
 //! What is no map is refused; what is one never leads to nonsense.
 
 use super::world::{MENDED, PRINTED};
-use crate::track::floors::{Floors, Settings, Start};
+use crate::track::floors::{Floors, Map, Settings, Start};
 use proptest::prelude::*;
 
 fn refusal(settings: Settings, heights: &[f64], start: Start) -> String {
@@ -93,6 +93,14 @@ fn no_maps() {
     }
     assert!(Floors::given(MENDED, &two, 0.0, at).is_ok());
     assert!(Floors::given(MENDED, &two, f64::NAN, at).is_err());
+    let negative = Map {
+        covariance: vec![0.0, 0.0, 0.0, -1e-4],
+        ..Floors::given(MENDED, &two, 0.01, at).unwrap().map()
+    };
+    let refused = Floors::known(MENDED, &negative, at)
+        .unwrap_err()
+        .to_string();
+    assert!(refused.starts_with("covariance: must"), "{refused}");
     let none = Settings {
         level: f64::NAN,
         ..MENDED
