@@ -37,8 +37,8 @@
 //! | 4 | [`explain`]: what a record may hold |
 //! | 5 | [`lift`]: simulated rides with their truth · [`monitor`]: one lift, sample by sample · [`scenario`]: what a point simulates, every parameter · [`report`]: the report |
 //! | 6 | [`chain`]: one trial, every stage · [`detection`]: what a recording holds · [`experiment`]: what the author wrote |
-//! | 7 | [`schedule`]: blocks of trials in parallel · [`figure`]: PNG and SVG |
-//! | 8 | [`plan`]: every point with its scenario and region |
+//! | 7 | [`track`]: how far each trip went · [`schedule`]: blocks of trials in parallel |
+//! | 8 | [`figure`]: PNG and SVG · [`plan`]: every point with its scenario and region |
 //! | 9 | [`pilot`]: decisions that no law gives · [`gate`]: the false-alarm test · [`results`]: files |
 //! | 10 | [`run`]: what is wanted, what is there, what is missing |
 //! | 11 | [`study`]: what a config's table describes |
@@ -131,5 +131,6 @@ pub mod simd;
 pub mod stats;
 pub mod study;
 pub mod suggest;
+pub mod track;
 pub mod values;
 pub mod whiten;

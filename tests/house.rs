@@ -28,9 +28,9 @@ const FLOORS: &[&[&str]] = &[
     // Lifts, estimators; what a point simulates.
     &["lift", "monitor", "scenario", "report"],
     &["chain", "detection", "experiment"],
-    // Trials, planned and drawn.
-    &["schedule", "figure"],
-    &["plan"],
+    // How far trips went; trials, planned and drawn.
+    &["track", "schedule"],
+    &["plan", "figure"],
     &["pilot", "gate", "results"],
     // Counted.
     &["run"],

@@ -18,6 +18,7 @@ mod plot;
 mod progress;
 mod reading;
 mod replay;
+mod rides;
 mod signals;
 mod simulate;
 mod status;
