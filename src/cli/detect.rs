@@ -3,7 +3,7 @@
 use super::found;
 use super::output::{Output, Ready};
 use super::rides::{RideArguments, Rides};
-use super::{CommandResult, Failure, print, warn};
+use super::{CommandResult, Failure, print};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::detection::{DetectReport, Detection};
@@ -61,30 +61,29 @@ impl Detect {
     /// Runs the command.
     pub fn run(self) -> CommandResult {
         let outputs = self.outputs()?;
+        let rides = self.rides.find()?;
         let Rides {
             recording,
             detection,
             settings: (settings, rate),
-        } = self.rides.find()?;
+        } = &rides;
         let saved = SavedState {
             first_sample: (recording.samples().first())
                 .map(|first| (first.time, first.acceleration)),
             knowledge: detection.knowledge.clone(),
-            settings,
-            rate,
+            settings: settings.clone(),
+            rate: *rate,
         };
         if saved.knowledge.reference.is_none() && self.save_state.is_some() {
             return Err(self.rides.refused(anyhow!(NO_REST)));
         }
-        for warning in detection.warnings(recording.rate()) {
-            warn(warning);
-        }
-        let report = DetectReport::new(self.rides.name(), &recording, &detection);
-        self.write(outputs, &report, &detection, &saved)?;
+        rides.warn();
+        let report = DetectReport::new(self.rides.name(), recording, detection);
+        self.write(outputs, &report, detection, &saved)?;
         print(&if self.json {
             report.json()
         } else {
-            found::text(&report, &detection)
+            found::text(&report, detection)
         })?;
         Ok(ExitCode::SUCCESS)
     }

@@ -19,12 +19,14 @@ mod progress;
 mod reading;
 mod replay;
 mod rides;
+mod rows;
 mod signals;
 mod simulate;
 mod status;
 mod store;
 mod sweep;
 mod threshold;
+mod track;
 
 pub use arguments::{Arguments, brief};
 

@@ -33,6 +33,15 @@ pub struct Rides {
     pub settings: (Settings, f64),
 }
 
+impl Rides {
+    /// Prints the warnings about the rides.
+    pub fn warn(&self) {
+        for warning in self.detection.warnings(self.recording.rate()) {
+            warn(warning);
+        }
+    }
+}
+
 /// The shortest recording in which anything can be found, s.
 const SHORTEST: f64 = 2.0;
 

@@ -181,7 +181,8 @@ impl<'a> DetectReport<'a> {
     }
 }
 
-fn cell(value: &Value) -> String {
+/// A value as a cell of CSV.
+pub fn cell(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
         Value::String(text) => text.clone(),

@@ -5,8 +5,7 @@
 use super::level::Level;
 use super::record::{Track, Tracked};
 use super::settings::TrackSettings;
-use crate::detection::{Detection, Event, Recorded, Undecided};
-use crate::fields::names;
+use crate::detection::{Detection, Event, Recorded, Undecided, cell, columns};
 use crate::recording::Recording;
 use serde::Serialize;
 use serde_json::Value;
@@ -53,4 +52,34 @@ impl<'a> TrackReport<'a> {
         let json = serde_json::to_string_pretty(self);
         json.expect("a report is plain data") + "\n"
     }
+
+    /// The names of the columns of [`TrackReport::rows`].
+    pub fn columns() -> Vec<String> {
+        let measured = MEASURED.iter().map(|name| (*name).to_owned());
+        columns().into_iter().chain(measured).collect()
+    }
+
+    /// A row for every trip.
+    pub fn rows(&self) -> Vec<Vec<String>> {
+        let columns = Self::columns();
+        let row = |ride: &Tracked| columns.iter().map(|name| cell(&ride.column(name))).collect();
+        self.rides.iter().map(row).collect()
+    }
 }
+
+impl Tracked {
+    /// The value of a column; null if it has none.
+    pub fn column(&self, name: &str) -> Value {
+        let measured = match name {
+            "distance" => self.distance,
+            "deviation" => self.deviation,
+            "closing_speed" => self.closing_speed,
+            "widened" => self.widened,
+            _ => return self.trip.column(name),
+        };
+        measured.into()
+    }
+}
+
+/// The columns that a trip gains where it is measured.
+const MEASURED: [&str; 4] = ["distance", "deviation", "closing_speed", "widened"];
