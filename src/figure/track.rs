@@ -63,7 +63,10 @@ pub fn plot(
     let mut caption = vec![literal(name), format!("{:.1} Hz", detection.design.rate)];
     caption.extend(track.trips.iter().filter_map(|it| {
         let (distance, deviation) = it.distance.zip(it.deviation)?;
-        Some(format!("ride {}: {distance:.2} ± {deviation:.2} m", it.trip.ride))
+        Some(format!(
+            "ride {}: {distance:.2} ± {deviation:.2} m",
+            it.trip.ride
+        ))
     }));
     caption.extend(clock_offset.map(|offset| format!("times count from {offset:.3} s")));
     plot.set_caption(&caption);

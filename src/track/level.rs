@@ -52,9 +52,7 @@ fn variance(values: &[f64]) -> f64 {
         return 0.0;
     }
     let middle = differences.len() / 2;
-    let median = *differences
-        .select_nth_unstable_by(middle, f64::total_cmp)
-        .1;
+    let median = *differences.select_nth_unstable_by(middle, f64::total_cmp).1;
     (median / MEDIAN).powi(2) / 2.0
 }
 
@@ -82,7 +80,10 @@ mod tests {
     #[test]
     fn the_mode_is_where_values_crowd() {
         assert_eq!(half_sample_mode(vec![3.0]), 3.0);
-        assert_eq!(half_sample_mode(vec![9.0, 1.0, 8.0, 2.0, 2.1, 20.0, 2.2]), 2.05);
+        assert_eq!(
+            half_sample_mode(vec![9.0, 1.0, 8.0, 2.0, 2.1, 20.0, 2.2]),
+            2.05
+        );
     }
 
     /// A third of the record accelerates. The median of 400 differences has a relative error of 6 %, its square 12 %.
@@ -99,6 +100,9 @@ mod tests {
         let level = Level::of(&samples.collect::<Vec<_>>());
         let density = 0.03f64.powi(2) / 100.0;
         assert!((level.bias - 9.81).abs() < 0.01, "{level:?}");
-        assert!((level.density / density - 1.0).abs() < 0.6, "{level:?} {density}");
+        assert!(
+            (level.density / density - 1.0).abs() < 0.6,
+            "{level:?} {density}"
+        );
     }
 }

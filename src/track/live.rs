@@ -110,16 +110,28 @@ impl LiveTrips {
     fn advance(&mut self, step: Step, is_uniform: bool) -> Option<LiveTrip> {
         self.filter.predict(step.acceleration, step.seconds);
         let told = match self.cage {
-            Cage::Arrived(trip) if !is_uniform || step.time > trip.stop + self.settings.settling => self.tell(trip),
+            Cage::Arrived(trip)
+                if !is_uniform || step.time > trip.stop + self.settings.settling =>
+            {
+                self.tell(trip)
+            }
             _ => None,
         };
         let speed = self.filter.speed().mean.abs();
         self.cage = match self.cage {
             cage if !is_uniform => cage.moving(step.time, speed),
-            Cage::Moves { start, highest, uniform } => {
+            Cage::Moves {
+                start,
+                highest,
+                uniform,
+            } => {
                 let since = uniform.unwrap_or(step.time);
                 self.arrived(step, start, highest, since).map_or(
-                    Cage::Moves { start, highest, uniform: Some(since) },
+                    Cage::Moves {
+                        start,
+                        highest,
+                        uniform: Some(since),
+                    },
                     Cage::Arrived,
                 )
             }
@@ -143,7 +155,11 @@ impl LiveTrips {
         let gain_error = self.settings.gain_error * highest;
         let agrees = self.filter.standing(step.seconds, gain_error * gain_error);
         let is_slow = agrees.value.abs() < uniform.slow * highest;
-        let patience = if is_slow { uniform.patience } else { uniform.longest };
+        let patience = if is_slow {
+            uniform.patience
+        } else {
+            uniform.longest
+        };
         let is_closed = agrees.nis() <= self.settings.gate;
         let stands = is_closed || step.time - since > patience;
         let closing = self.filter.standing(step.seconds, 0.0);
@@ -191,6 +207,10 @@ impl Cage {
             Self::Moves { start, highest, .. } => (start, highest.max(speed)),
             Self::Stands | Self::Arrived(_) => (time, speed),
         };
-        Self::Moves { start, highest, uniform: None }
+        Self::Moves {
+            start,
+            highest,
+            uniform: None,
+        }
     }
 }

@@ -34,6 +34,8 @@ mod report;
 mod rides;
 mod settings;
 mod steps;
+#[cfg(test)]
+mod tests;
 mod travelled;
 mod uniform;
 mod warning;

@@ -62,7 +62,9 @@ impl Phases {
         let moment = |part: &Range<f64>| f64::midpoint(part.start, part.end) * length(part);
         let seconds: f64 = changes.iter().map(length).sum();
         let middle = changes.iter().map(moment).sum::<f64>() / seconds;
-        let levers = changes.iter().map(|part| moment(part) - middle * length(part));
+        let levers = changes
+            .iter()
+            .map(|part| moment(part) - middle * length(part));
         step / 12f64.sqrt() * levers.map(|lever| lever * lever).sum::<f64>().sqrt()
     }
 
@@ -113,9 +115,8 @@ impl Phases {
             watch(&step, update, &filter);
         }
         let trip = self.trip();
-        let closing = closing.map(|closing| {
-            Travelled::closing(closing, trip.end - trip.start, settings)
-        });
+        let closing =
+            closing.map(|closing| Travelled::closing(closing, trip.end - trip.start, settings));
         closing.unwrap_or_default().plus(filter.distance())
     }
 

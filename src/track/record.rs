@@ -51,7 +51,7 @@ pub struct Track {
     pub settings: TrackSettings,
     /// The sensor as the record shows it.
     pub level: Level,
-    /// How much noisier, if it is.
+    /// How much larger its S_a is, if it is.
     pub noisier: Option<f64>,
     /// The sensor's steps, if they are coarser than its noise, m/s².
     pub step: Option<f64>,
@@ -84,7 +84,9 @@ impl Track {
             course: Course::new(seconds),
         };
         let surroundings = Surroundings::new(detection, stretches);
-        track.course.rest(sound.first().map_or(0.0, |first| first.time));
+        track
+            .course
+            .rest(sound.first().map_or(0.0, |first| first.time));
         for trip in &detection.trips {
             let phases = track.phases(trip, detection, &surroundings, &sound);
             let tracked = match phases {
@@ -96,7 +98,9 @@ impl Track {
             };
             track.trips.push(tracked);
         }
-        track.course.rest(sound.last().map_or(0.0, |last| last.time));
+        track
+            .course
+            .rest(sound.last().map_or(0.0, |last| last.time));
         track
     }
 
@@ -113,23 +117,23 @@ impl Track {
         let phases = surroundings.phases(trip, &self.settings);
         let phases = phases.ok_or(Unknown::Start)?;
         let hidden = phases.changes().iter().any(|part| has_hole(samples, part));
-        if hidden { Err(Unknown::Hole) } else { Ok(phases) }
+        if hidden {
+            Err(Unknown::Hole)
+        } else {
+            Ok(phases)
+        }
     }
 
-    fn measure(
-        &mut self,
-        trip: &Trip,
-        phases: &Phases,
-        samples: &[Sample],
-    ) -> Tracked {
+    fn measure(&mut self, trip: &Trip, phases: &Phases, samples: &[Sample]) -> Tracked {
         let bias = Uncertain {
             mean: self.level.bias,
             ..Uncertain::error(self.settings.bias_error)
         };
         let course = &mut self.course;
-        let mut travelled = phases.measure(samples, bias, &self.settings, |step, update, filter| {
-            course.note(step.time, update, filter);
-        });
+        let mut travelled =
+            phases.measure(samples, bias, &self.settings, |step, update, filter| {
+                course.note(step.time, update, filter);
+            });
         if let Some(step) = self.step {
             travelled = travelled.plus(Uncertain::error(phases.error_of_steps(step)));
         }

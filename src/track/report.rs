@@ -62,7 +62,12 @@ impl<'a> TrackReport<'a> {
     /// A row for every trip.
     pub fn rows(&self) -> Vec<Vec<String>> {
         let columns = Self::columns();
-        let row = |ride: &Tracked| columns.iter().map(|name| cell(&ride.column(name))).collect();
+        let row = |ride: &Tracked| {
+            columns
+                .iter()
+                .map(|name| cell(&ride.column(name)))
+                .collect()
+        };
         self.rides.iter().map(row).collect()
     }
 }

@@ -38,7 +38,8 @@ impl Surroundings {
                 end..end
             }
         };
-        let within = |from: Option<f64>, to: f64| from.map_or(to, |from| from + margin)..to - margin;
+        let within =
+            |from: Option<f64>, to: f64| from.map_or(to, |from| from + margin)..to - margin;
         let stop = trip.stop.unwrap_or(after.end + margin);
         let uniform = within(trip.inertial, trip.braking.unwrap_or(stop));
         Some(Phases {

@@ -46,7 +46,7 @@ impl Track {
         let is_filtered = (self.trips.iter()).any(|it| it.unknown == Some(Unknown::Filter));
         let has_distance = self.trips.iter().any(|it| it.distance.is_some());
         let coarse = self.step.map(|step| Warning::Coarse { step });
-        let noisy = self.noisier.map(Warning::Noisy);
+        let noisy = self.noisier.map(|power| Warning::Noisy(power.sqrt()));
         let of_record = [coarse, noisy].into_iter().flatten();
         let of_record = of_record.filter(|_| has_distance);
         let filter = is_filtered.then_some(Warning::Filter).into_iter();
@@ -64,7 +64,10 @@ impl Tracked {
             Some(Unknown::Filter) | None => None,
         };
         let is_open = self.trip.stop.is_none();
-        let open = self.distance.filter(|_| is_open).map(|gone| Warning::Stop { ride, gone });
+        let open = self
+            .distance
+            .filter(|_| is_open)
+            .map(|gone| Warning::Stop { ride, gone });
         let closing = self.closing_speed.zip(self.widened);
         let closing = closing.map(|(speed, by)| Warning::Closing { ride, speed, by });
         [unknown, open, closing].into_iter().flatten()
