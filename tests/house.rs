@@ -26,11 +26,11 @@ const FLOORS: &[&[&str]] = &[
     // What a record may hold.
     &["explain"],
     // Lifts, estimators; what a point simulates.
-    &["lift", "monitor", "track", "scenario", "report"],
+    &["lift", "monitor", "scenario", "report"],
     &["chain", "detection", "experiment"],
-    // Trials, planned and drawn.
-    &["schedule", "figure"],
-    &["plan"],
+    // How far trips went; trials, planned and drawn.
+    &["track", "schedule"],
+    &["plan", "figure"],
     &["pilot", "gate", "results"],
     // Counted.
     &["run"],
