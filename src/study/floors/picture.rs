@@ -42,10 +42,10 @@ fn shown(measure: Measure) -> Vec<Shown> {
             panel("wrong_floors", None, "wrong floors per stop", true),
         ],
         Measure::Position => vec![
-            panel("position", None, "position, m RMS", true),
-            panel("reckoned", None, "sum of trips, m RMS", true),
-            panel("map", None, "floors, m RMS", true),
-            panel("nees", None, "normalised error of floors", false),
+            panel("position", None, "car, m", true),
+            panel("reckoned", None, "trips alone, m", true),
+            panel("map", None, "floors, m", true),
+            panel("nees", None, "NEES", false),
         ],
         Measure::Healing => vec![panel("healed", None, "P(the floor is right)", false)],
     }
@@ -173,6 +173,9 @@ fn caption(rows: &[Row], table: &Table, seed: u64) -> Vec<String> {
     parts.push(format!("{} buildings", thousands(rows[0].trials)));
     parts.push(format!("seed {seed}"));
     parts.push(format!("bands: {} % intervals", 100.0 * rows[0].confidence));
+    if table.measure == Measure::Position {
+        parts.push("errors are root mean squares".to_owned());
+    }
     if table.measure == Measure::Alarm {
         parts.push("faint: the map exact, the start known to σ_s".to_owned());
     }

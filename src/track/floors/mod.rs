@@ -67,6 +67,8 @@ const USUAL: f64 = 30.0;
 const COMMISSIONING: u64 = 10;
 /// So many stops off every floor that agree are a floor.
 const CONSISTENT: usize = 3;
+/// A lost car is found once every other floor costs more, a tenth as likely.
+const UNDECIDED: f64 = 4.6;
 /// The most floors of a building.
 pub const MOST_FLOORS: usize = 200;
 
@@ -82,6 +84,8 @@ pub struct Floors {
     /// The floor that the latest stop was judged by; none in the first sweep.
     nearest: Option<usize>,
     is_swept: bool,
+    /// Whether the car may be at any of several floors since a trip was lost.
+    is_lost: bool,
     /// Each floor as it was after the first stops.
     commissioned: Option<Vec<Height>>,
 }
@@ -109,7 +113,7 @@ impl Floors {
             return self.stop(None, None, Some(floor));
         }
         let factor = self.scale.factor();
-        let (by, floor, offset) = self.believed();
+        let (by, floor, offset) = self.believed(factor);
         let judgement = self.judge(by, CAR, floor, offset);
         self.scale.push(offset.xi());
         let off = self
@@ -125,6 +129,7 @@ impl Floors {
         }
         let earlier = off.and_then(|off| self.judge_again(off));
         self.nearest = Some(floor);
+        self.is_lost &= self.hypotheses[1..].iter().any(|of| of.cost <= UNDECIDED);
         if let Some(floor) = self.best().floor {
             self.visits[floor] += 1;
         }
@@ -136,6 +141,7 @@ impl Floors {
     /// Says that a trip was not measured: the car may be at any floor.
     pub fn lose(&mut self) {
         self.is_swept = true;
+        self.is_lost = true;
         let best = self.best();
         let mut lost: Vec<Hypothesis> = (0..self.visits.len())
             .map(|floor| best.anchored(floor, self.visit_cost(floor), &self.settings))
@@ -178,20 +184,22 @@ impl Floors {
         &self.hypotheses[0]
     }
 
-    /// What a stop is judged by: the best hypothesis. After an alarm also that the trip before it was wrong, unless
-    /// that is as unlikely as another alarm; the one that fits.
-    fn believed(&self) -> (&Hypothesis, usize, Offset) {
-        let (best, settings) = (self.best(), &self.settings);
-        let is_rival = |of: &&Hypothesis| {
-            best.floor.is_none() && of.floor == self.nearest && of.cost <= settings.threshold
+    /// What a stop is judged by: the cheapest way to a floor, from the best hypothesis or from where the car may as well
+    /// have been: after an alarm at its floor, if the trip was wrong; of an unknown car at any floor.
+    fn believed(&self, factor: f64) -> (&Hypothesis, usize, Offset) {
+        let settings = &self.settings;
+        let is_rival = |of: &&Hypothesis| match self.best().floor {
+            None => of.floor == self.nearest && of.cost <= settings.threshold,
+            Some(_) => self.is_lost && of.floor.is_some() && of.cost <= UNDECIDED,
         };
         let rivals = self.hypotheses[1..].iter().filter(is_rival);
-        let fits = [best].into_iter().chain(rivals).map(|of| {
+        let fits = [self.best()].into_iter().chain(rivals).map(|of| {
             let (floor, offset) = of.associate(settings);
             (of, floor, offset)
         });
-        let best = fits.min_by(|a, b| a.2.xi().total_cmp(&b.2.xi()));
-        best.expect("there is a hypothesis")
+        let cost = |(of, _, offset): &(&Hypothesis, usize, Offset)| of.cost + offset.xi() / factor;
+        let cheapest = fits.min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        cheapest.expect("there is a hypothesis")
     }
 
     fn judge(&self, of: &Hypothesis, at: usize, floor: usize, offset: Offset) -> Judgement {

@@ -68,6 +68,7 @@ impl Floors {
             scale: Scale::new(settings.window, []),
             nearest: None,
             is_swept: false,
+            is_lost: false,
             commissioned: None,
         })
     }
@@ -110,6 +111,7 @@ impl Floors {
         let best = Hypothesis::of(&map.heights, &map.covariance, &settings);
         let mut floors = Self {
             is_swept: true,
+            is_lost: false,
             settings,
             hypotheses: vec![best],
             visits: map.visits.clone(),

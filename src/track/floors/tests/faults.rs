@@ -142,6 +142,13 @@ fn a_car_at_an_unknown_floor_is_found() {
     let stop = floors.step(3.1, variance(3.1));
     assert_eq!(stop.floor, Some(3));
     assert!(stop.probability > 0.99, "{stop:?}");
+    // From the floor 3 it goes down: from the lowest it could not.
+    let mut floors = Floors::given(MENDED, &[0.0, 3.0, 6.0, 9.0], 0.005, Start::Unknown).unwrap();
+    for distance in [-3.0, 6.0, -9.0] {
+        let judgement = floors.step(distance, variance(distance)).judgement.unwrap();
+        assert_eq!(judgement.fault, None, "{distance} {judgement:?}");
+    }
+    let mut floors = Floors::given(MENDED, &heights, 0.005, Start::Floor(2)).unwrap();
     floors.lose();
     let stop = floors.step(-4.5, variance(4.5));
     assert_eq!(stop.floor, Some(0));
