@@ -76,11 +76,30 @@ impl Floors {
     pub fn load(path: &Path, settings: Settings, start: Start) -> Result<Self, MapFileError> {
         let mut text = Vec::new();
         let read = File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_end(&mut text));
-        let map = match read {
-            Ok(_) => Self::from_json(&text, settings, start),
-            Err(error) => Err(Problem::Unreadable(error)),
-        };
-        map.map_err(|problem| at(path, problem))
+        let name = path.display().to_string();
+        match read {
+            Ok(_) => Self::from_json(&name, &text, settings, start),
+            Err(error) => Err(MapFileError {
+                path: name,
+                problem: Problem::Unreadable(error),
+            }),
+        }
+    }
+
+    /// Reads and checks a file's text; messages call the file `name`.
+    ///
+    /// # Errors
+    /// Same as [`Floors::load`].
+    pub fn from_json(
+        name: &str,
+        text: &[u8],
+        settings: Settings,
+        start: Start,
+    ) -> Result<Self, MapFileError> {
+        Self::checked(text, settings, start).map_err(|problem| MapFileError {
+            path: name.to_owned(),
+            problem,
+        })
     }
 
     /// Writes the map to a file, over whatever is there.
@@ -89,10 +108,13 @@ impl Floors {
     /// If it cannot be written; what was there is then whole.
     pub fn save(&self, path: &Path) -> Result<(), MapFileError> {
         let saved = files::replace(path, self.to_json().as_bytes());
-        saved.map_err(|error| at(path, Problem::Unwritable(error)))
+        saved.map_err(|error| MapFileError {
+            path: path.display().to_string(),
+            problem: Problem::Unwritable(error),
+        })
     }
 
-    fn from_json(text: &[u8], settings: Settings, start: Start) -> Result<Self, Problem> {
+    fn checked(text: &[u8], settings: Settings, start: Start) -> Result<Self, Problem> {
         if text.len() as u64 > LONGEST {
             return Err(Problem::Foreign);
         }
@@ -121,7 +143,8 @@ impl Floors {
         Ok(Self::known(settings, &known, start)?)
     }
 
-    fn to_json(&self) -> String {
+    /// The text of the file.
+    pub fn to_json(&self) -> String {
         let known = self.map();
         let rows = known.covariance.chunks(known.heights.len());
         let file = MapFile {
@@ -143,13 +166,6 @@ fn is_begun(text: &[u8]) -> bool {
     text.starts_with(br#"{"format":"liftsim floor map""#)
 }
 
-fn at(path: &Path, problem: Problem) -> MapFileError {
-    MapFileError {
-        path: path.display().to_string(),
-        problem,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -168,7 +184,7 @@ mod tests {
     }
 
     fn refusal(text: &[u8]) -> String {
-        let refused = Floors::from_json(text, SETTINGS, Start::Unknown);
+        let refused = Floors::checked(text, SETTINGS, Start::Unknown);
         refused
             .err()
             .map_or_else(String::new, |problem| problem.to_string())
@@ -280,7 +296,7 @@ mod tests {
             let place = at % numbers.len();
             numbers[place] = &number;
             for text in [changed, numbers.concat().into_bytes()] {
-                if let Ok(mut floors) = Floors::from_json(&text, SETTINGS, Start::Unknown) {
+                if let Ok(mut floors) = Floors::checked(&text, SETTINGS, Start::Unknown) {
                     for distance in [3.0, -4.5, 1.0, 3.0] {
                         let stop = floors.step(distance, 1e-4);
                         prop_assert!(stop.position.is_finite() && stop.deviation >= 0.0, "{stop:?}");

@@ -30,7 +30,7 @@
 //! **Judged again.** The hypothesis "off every floor" has q without the previous stop's update. Once the stop
 //! after it is at a floor, ξ of q against its floor uses the trip in and the trip out, σ⁻² = σ_in⁻² + σ_out⁻². It
 //! equals ξ + ξ′ − ξ″, with ξ′ of the next stop had the previous one been at its floor, ξ″ had it not.
-//! Two stops with a trip between them that fits neither are both alarmed; the next trip tells which.
+//! Two stops with a trip between them that fits neither are both alarmed; the next trip takes the second back or not.
 //!
 //! **Scale.** Trips noisier than they claim raise every ξ. κ is the running median of ξ over that of χ²₁, at least
 //! 1: ξ/κ is tested, and deviations are multiplied by √κ.
