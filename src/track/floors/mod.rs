@@ -241,16 +241,18 @@ impl Floors {
             child
         };
         let best = follow(first, 0.0);
-        let others = (0..=off).filter(|end| *end != first).filter_map(|end| {
+        let others = (0..=off).filter(|end| *end != first).map(|end| {
             let missed = self.settings.missed.filter(|_| end < off);
             let excess = ways[end].cost - least;
-            let cost = missed.map_or(excess, |missed| joint(excess, missed));
-            if missed.is_none_or(|missed| excess <= missed) {
-                return Some(follow(end, cost));
+            match missed {
+                Some(missed) if excess > missed => {
+                    best.anchored(end, joint(excess, missed), &self.settings)
+                }
+                Some(missed) => follow(end, joint(excess, missed)),
+                None => follow(end, excess),
             }
-            Some(best.anchored(end, cost, &self.settings))
         });
-        let others: Vec<Hypothesis> = others.collect();
+        let others: Vec<Hypothesis> = others.filter(|of| of.cost.is_finite()).collect();
         self.hypotheses = [best].into_iter().chain(others).collect();
     }
 

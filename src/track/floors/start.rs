@@ -198,7 +198,7 @@ impl Map {
             return Err(MapError::Number(floors));
         }
         for (at, &got) in self.heights.iter().enumerate() {
-            if !(got.abs() <= 1e4) {
+            if !(0.0..=1e4).contains(&got.abs()) {
                 return Err(MapError::Height { at, got });
             }
         }
