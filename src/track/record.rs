@@ -71,10 +71,11 @@ impl Track {
         settings: TrackSettings,
     ) -> Self {
         let (sound, _) = Faults::removed(samples);
-        let level = Level::of(&sound);
         let stretches = stretches(&sound);
-        let seconds = (stretches.iter()).map(|it| it.end - it.start).sum();
-        let noisier = settings.noisier(level.density);
+        let seconds = stretches.iter().map(|it| it.end - it.start).sum();
+        let surroundings = Surroundings::new(detection, stretches);
+        let level = Level::of(&sound, &surroundings.quiet(&detection.trips, &settings));
+        let noisier = settings.noisier(&level);
         let mut track = Self {
             settings: noisier.map_or(settings, |it| it.0),
             noisier: noisier.map(|it| it.1),
@@ -83,7 +84,6 @@ impl Track {
             trips: Vec::with_capacity(detection.trips.len()),
             course: Course::new(seconds),
         };
-        let surroundings = Surroundings::new(detection, stretches);
         track
             .course
             .rest(sound.first().map_or(0.0, |first| first.time));

@@ -49,6 +49,25 @@ impl Surroundings {
         })
     }
 
+    /// When nothing moves the sensor: all rest, and the uniform motions of these trips.
+    pub fn quiet(&self, trips: &[Trip], settings: &TrackSettings) -> Vec<Range<f64>> {
+        let margin = settings.margin;
+        let mut busy: Vec<&Range<f64>> = self.busy.iter().collect();
+        busy.sort_by(|a, b| a.start.total_cmp(&b.start));
+        let ends = self.stretches.first().zip(self.stretches.last());
+        let (mut from, last) = ends.map_or((0.0, 0.0), |(first, last)| (first.start, last.end));
+        let mut quiet = Vec::new();
+        for it in busy {
+            quiet.push(from..it.start - margin);
+            from = from.max(it.end + margin);
+        }
+        quiet.push(from..last);
+        let phases = trips.iter().filter_map(|trip| self.phases(trip, settings));
+        quiet.extend(phases.flat_map(|phases| phases.uniform));
+        quiet.retain(|part| !part.is_empty());
+        quiet
+    }
+
     fn rest_before(&self, start: f64, settings: &TrackSettings) -> Range<f64> {
         let to = start - settings.margin;
         let first = self.stretch(start).start.max(to - settings.rest);

@@ -1,5 +1,6 @@
 //! How trips are measured.
 
+use super::level::Level;
 use super::noise::{Densities, Deviations, Noise};
 use serde::{Deserialize, Serialize};
 
@@ -80,18 +81,15 @@ impl Default for UniformSettings {
     }
 }
 
-/// An estimate of the noise has an error of its own: only one this much larger counts.
-const NOISIER: f64 = 2.0;
-
 impl TrackSettings {
-    /// Those for a record whose S_a is about `density`, if that is clearly more than they say, and how much more.
-    pub(super) fn noisier(self, density: f64) -> Option<(Self, f64)> {
+    /// Those for a sensor that is clearly noisier than they say, and how many times S_a is more.
+    pub(super) fn noisier(self, level: &Level) -> Option<(Self, f64)> {
         let Noise::Density(noise) = self.noise else {
             return None;
         };
-        let ratio = density / noise.acceleration;
-        let noise = Noise::Density(noise.noisier(density));
-        (ratio > NOISIER).then_some((Self { noise, ..self }, ratio))
+        let ratio = level.excess(noise.acceleration)?;
+        let noise = Noise::Density(noise.noisier(level.density));
+        Some((Self { noise, ..self }, ratio))
     }
 
     /// The patent by its words: standard deviations of a sample, uniform motion seen from before alone, and neither a

@@ -85,49 +85,62 @@ fn detected_trips_are_near_the_bound() {
     }
 }
 
-/// The patent by its words: without looking ahead the foot of every change is taken for uniform motion.
+/// The patent by its words, told the bias to 1 cm/s²: without looking ahead the foot of every change is taken for uniform
+/// motion.
 #[test]
 fn the_patent_by_its_words_is_far_off() {
     let settings = TrackSettings::by_the_words();
     let trials = (0..40).into_par_iter().map(|trial| {
-        let (samples, _) = simulated(9.0, trial, true);
-        let mut live = LiveTrips::new(settings, 0.3);
+        let (samples, _) = simulated(27.0, trial, true);
+        let mut live = LiveTrips::new(settings, 0.31);
         let mut told: Vec<_> = samples.iter().filter_map(|it| live.step(*it)).collect();
         told.extend(live.end());
         told.iter()
             .map(|trip| trip.travelled.distance.mean)
             .sum::<f64>()
-            - 9.0
+            - 27.0
     });
     let squares: f64 = trials.map(|error| error * error).sum();
     let rms = (squares / 40.0).sqrt();
-    assert!(rms > 3.0 * 0.0159, "{rms}");
+    assert!(rms > 2.0 * 0.047, "{rms}");
 }
 
 /// A cut, a high-passed and a coarse record: no distance, or a wider deviation, with a warning.
 #[test]
 fn what_cannot_be_measured_is_said() {
     let design = Settings::default().at(200.0).unwrap();
-    let track = |samples: &[_], step| {
-        let detection = Detection::of(&design, samples, None, None);
+    let track = |samples: &[_], step, begins_at_rest| {
+        let detection = Detection::of(&design, samples, None, Some(begins_at_rest));
         Track::of(samples, step, &detection, TrackSettings::default())
     };
     let (samples, journey) = simulated(15.0, 0, true);
-    let fine = track(&samples, None).trips[0];
-    let coarse = track(&samples, Some(0.18));
+    let fine = track(&samples, None, true).trips[0];
+    let coarse = track(&samples, Some(0.18), true);
     assert!(coarse.trips[0].deviation.unwrap() > 5.0 * fine.deviation.unwrap());
-    assert_eq!(coarse.warnings().len(), 1);
+    assert_eq!(
+        coarse.warnings().len(),
+        1,
+        "{:?} {:?}",
+        coarse.warnings(),
+        coarse.level
+    );
     let after = samples.partition_point(|it| it.time < journey.uniform + 1.0);
-    let begins_in_motion = track(&samples[after..], None);
+    let begins_in_motion = track(&samples[after..], None, false);
     let trip = begins_in_motion.trips[0];
     assert_eq!((trip.distance, trip.unknown), (None, Some(Unknown::Start)));
     let before = samples.partition_point(|it| it.time < journey.braking - 1.0);
-    let ends_in_motion = track(&samples[..before], None);
+    let ends_in_motion = track(&samples[..before], None, true);
     let trip = ends_in_motion.trips[0];
     let gone = trip.distance.unwrap();
     assert!(
         trip.trip.stop.is_none() && (8.0..15.0).contains(&gone),
         "{trip:?}"
     );
-    assert_eq!(ends_in_motion.warnings().len(), 1);
+    assert_eq!(
+        ends_in_motion.warnings().len(),
+        1,
+        "{:?} {:?}",
+        ends_in_motion.warnings(),
+        ends_in_motion.level
+    );
 }
