@@ -28,6 +28,17 @@ pub const EXCESS: f64 = 1.2;
 /// The smallest probability of detecting that excess.
 pub const POWER: f64 = 0.99;
 
+/// False alarms of something with a name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    /// In words.
+    pub name: String,
+    /// The rate that it promises to keep.
+    pub nominal: f64,
+    /// The false alarms and the cases in which one could happen.
+    pub tally: Tally,
+}
+
 /// The result of one scenario.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finding {

@@ -31,14 +31,14 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | 0 | [`rng`]: coordinates → generator · [`stats`]: exact tails, intervals, tests · [`counts`]: sums by what they count, and of which trials · [`mod@format`], [`suggest`], [`fields`], [`files`]: text and files · [`simd`]: trials side by side |
+//! | 0 | [`rng`]: coordinates → generator · [`stats`]: exact tails, intervals, tests · [`kalman`]: a mean and its covariance · [`counts`]: sums by what they count, and of which trials · [`mod@format`], [`suggest`], [`fields`], [`files`]: text and files · [`simd`]: trials side by side |
 //! | 1, 2 | [`rule`], [`values`]: what a value must be |
 //! | 3 | [`signal`]: sensor, noise, impulses, motion · [`recording`]: what real lifts recorded · [`whiten`]: filters · [`detect`]: W, T, their laws, regions · [`config`]: what a file says, with its places · [`claim`]: verdicts · [`plot`]: what a picture says |
 //! | 4 | [`explain`]: what a record may hold |
 //! | 5 | [`lift`]: simulated rides with their truth · [`monitor`]: one lift, sample by sample · [`scenario`]: what a point simulates, every parameter · [`report`]: the report |
 //! | 6 | [`chain`]: one trial, every stage · [`detection`]: what a recording holds · [`experiment`]: what the author wrote |
-//! | 7 | [`schedule`]: blocks of trials in parallel · [`figure`]: PNG and SVG |
-//! | 8 | [`plan`]: every point with its scenario and region |
+//! | 7 | [`track`]: how far each trip went, and among which floors · [`schedule`]: blocks of trials in parallel |
+//! | 8 | [`figure`]: PNG and SVG · [`plan`]: every point with its scenario and region |
 //! | 9 | [`pilot`]: decisions that no law gives · [`gate`]: the false-alarm test · [`results`]: files |
 //! | 10 | [`run`]: what is wanted, what is there, what is missing |
 //! | 11 | [`study`]: what a config's table describes |
@@ -112,6 +112,7 @@ pub mod figure;
 pub mod files;
 pub mod format;
 pub mod gate;
+pub mod kalman;
 pub mod lift;
 pub mod monitor;
 pub mod pilot;
@@ -130,5 +131,6 @@ pub mod simd;
 pub mod stats;
 pub mod study;
 pub mod suggest;
+pub mod track;
 pub mod values;
 pub mod whiten;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const FLOORS: &[&[&str]] = &[
     // Numbers, text and files without a domain.
     &[
-        "rng", "simd", "stats", "fields", "format", "files", "suggest", "counts",
+        "rng", "simd", "stats", "kalman", "fields", "format", "files", "suggest", "counts",
     ],
     // What a value must be.
     &["rule"],
@@ -28,9 +28,9 @@ const FLOORS: &[&[&str]] = &[
     // Lifts, estimators; what a point simulates.
     &["lift", "monitor", "scenario", "report"],
     &["chain", "detection", "experiment"],
-    // Trials, planned and drawn.
-    &["schedule", "figure"],
-    &["plan"],
+    // How far trips went; trials, planned and drawn.
+    &["track", "schedule"],
+    &["plan", "figure"],
     &["pilot", "gate", "results"],
     // Counted.
     &["run"],

@@ -3,7 +3,7 @@
 use super::CommandResult;
 use super::{
     check, completions, detect, figures, keys, man, merge, monitor, plan, plot, replay, simulate,
-    status, sweep, threshold,
+    status, sweep, threshold, track,
 };
 use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, Parser, Subcommand};
@@ -40,6 +40,7 @@ enum Command {
     #[command(alias = "record")]
     Simulate(simulate::Simulate),
     Detect(Box<detect::Detect>),
+    Track(Box<track::TrackCommand>),
     Monitor(Box<monitor::MonitorCommand>),
     Keys(keys::Keys),
     Completions(completions::Completions),
@@ -67,6 +68,7 @@ impl Arguments {
             Command::Keys(command) => command.run(),
             Command::Simulate(command) => command.run(),
             Command::Detect(command) => command.run(),
+            Command::Track(command) => command.run(),
             Command::Monitor(command) => command.run(),
             Command::Completions(command) => command.run(Self::command()),
             Command::Man(command) => command.run(Self::command()),

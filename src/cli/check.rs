@@ -4,13 +4,15 @@ use super::progress::{self, Progress, Reporter};
 use super::{CommandResult, Failure, Simulation, print, table};
 use anyhow::anyhow;
 use clap::Args;
-use liftsim::experiment::SweepConfig;
-use liftsim::gate::{self, EXCESS, FAMILY_LEVEL, Finding, Verdict};
+use liftsim::experiment::{Experiment, SweepConfig};
+use liftsim::gate::{self, EXCESS, FAMILY_LEVEL, Finding, Scenario, Verdict};
 use liftsim::results::Row;
-use liftsim::study::{Study, Sweep};
+use liftsim::study::{Loaded, Study, Sweep};
 use std::process::ExitCode;
 
 /// Test that the false-alarm rate of every scenario at rest stays at or below its level.
+///
+/// Of a study of floors: that ordinary stops alarm at most once in a thousand.
 ///
 /// Each scenario gets an exact one-sided binomial test, all of them corrected together (Holm) at a
 /// family-wise level of 0.001. A scenario passes only where the run could have seen a rate of 1.2
@@ -37,29 +39,74 @@ impl Check {
                 "--nominal must lie strictly between 0 and 1, got {nominal}"
             )));
         }
-        let sweep = self.sweep()?;
+        let experiment = self.simulation.config()?;
         self.simulation.start_threads()?;
-        let counts = progress::count(&sweep, &Reporter::new(quiet, &self.progress, ""))?;
+        let reporter = Reporter::new(quiet, &self.progress, "");
+        if experiment.study() == "floors" {
+            return self.stops(&experiment, &reporter);
+        }
+        let sweep = sweep(experiment)?;
+        let counts = progress::count(&sweep, &reporter)?;
         let rows = sweep.rows(&counts);
         let nominal = |row: &Row| self.nominal.unwrap_or(row.alpha());
         let scenarios = rows.iter().map(|row| (nominal(row), row.tally));
         let findings = gate::judge(&scenarios.collect::<Vec<_>>());
         print(&report(&sweep.config, &rows, &findings))?;
-        Ok(ExitCode::from(match gate::overall(&findings) {
-            Verdict::Pass => 0,
-            Verdict::Fail => 1,
-            Verdict::Inconclusive => 3,
-        }))
+        Ok(code(&findings))
     }
 
-    /// The config's points at rest, and nothing that is claimed of them.
-    fn sweep(&self) -> Result<Sweep, Failure> {
-        let mut experiment = self.simulation.config()?;
-        experiment.header.at_rest = true;
-        let mut config = SweepConfig::new(experiment).map_err(Failure::input)?;
-        config.narrative.claims.clear();
-        Sweep::new(config).map_err(Failure::input)
+    /// Tests the stops of cars in simulated buildings.
+    fn stops(&self, experiment: &Experiment, reporter: &Reporter) -> CommandResult {
+        let (seed, confidence) = (experiment.header.seed, experiment.header.confidence.get());
+        let loaded = Loaded::new(experiment.clone()).map_err(Failure::study)?;
+        let counts = progress::count_all(&loaded, reporter)?;
+        let output = loaded.study.output(&counts).map_err(Failure::study)?;
+        let scenarios = loaded.study.false_alarms(&output.points);
+        let scenarios = scenarios.map_err(Failure::run)?;
+        if scenarios.is_empty() {
+            return Err(Failure::Input(anyhow!(
+                "floors: counts no ordinary stops (set trips, and measure = \"alarm\" or \"stops\")"
+            )));
+        }
+        let nominal = |scenario: &Scenario| self.nominal.unwrap_or(scenario.nominal);
+        let tallies = scenarios.iter().map(|of| (nominal(of), of.tally));
+        let findings = gate::judge(&tallies.collect::<Vec<_>>());
+        let header = [
+            "scenario",
+            "nominal",
+            "stops",
+            "false alarms",
+            "rate",
+            "interval",
+            "p",
+            "verdict",
+        ];
+        let rows = scenarios.iter().zip(&findings).map(|(scenario, finding)| {
+            let mut cells = vec![scenario.name.clone(), finding.nominal.to_string()];
+            cells.extend(counted(finding, finding.tally.interval(confidence)));
+            cells
+        });
+        let rows: Vec<_> = rows.collect();
+        let summary = summary(&findings, "stops", seed, confidence);
+        print(&(table(&header, &rows) + &summary))?;
+        Ok(code(&findings))
     }
+}
+
+/// The config's points at rest, and nothing that is claimed of them.
+fn sweep(mut experiment: Experiment) -> Result<Sweep, Failure> {
+    experiment.header.at_rest = true;
+    let mut config = SweepConfig::new(experiment).map_err(Failure::input)?;
+    config.narrative.claims.clear();
+    Sweep::new(config).map_err(Failure::input)
+}
+
+fn code(findings: &[Finding]) -> ExitCode {
+    ExitCode::from(match gate::overall(findings) {
+        Verdict::Pass => 0,
+        Verdict::Fail => 1,
+        Verdict::Inconclusive => 3,
+    })
 }
 
 fn report(config: &SweepConfig, rows: &[Row], findings: &[Finding]) -> String {
@@ -79,41 +126,57 @@ fn report(config: &SweepConfig, rows: &[Row], findings: &[Finding]) -> String {
     let cells: Vec<Vec<String>> = each
         .map(|(row, finding)| cells(config, row, finding))
         .collect();
+    let (seed, confidence) = (config.header().seed, config.header().confidence.get());
+    table(&header, &cells) + &summary(findings, "trials per point", seed, confidence)
+}
+
+/// The verdicts in all, and how many `cases` would be enough.
+fn summary(findings: &[Finding], cases: &str, seed: u64, confidence: f64) -> String {
     let count = |verdict| findings.iter().filter(|f| f.verdict == verdict).count();
     let power = findings.iter().map(|f| f.power).fold(1.0, f64::min);
     let advice = match gate::trials_for_power(findings) {
         Some(trials) if power < gate::POWER => {
-            format!("{trials} trials per point would be enough\n")
+            format!("{trials} {cases} would be enough\n")
         }
         _ => String::new(),
     };
     format!(
-        "{}\n{} scenarios at seed {}: {} pass, {} inconclusive, {} fail\n\
+        "\n{} scenarios at seed {seed}: {} pass, {} inconclusive, {} fail\n\
          family-wise level {FAMILY_LEVEL}; power against {EXCESS} times nominal at least {power:.4}; \
          {} % intervals\n{advice}",
-        table(&header, &cells),
         findings.len(),
-        config.header().seed,
         count(Verdict::Pass),
         count(Verdict::Inconclusive),
         count(Verdict::Fail),
-        config.header().confidence.get() * 100.0,
+        confidence * 100.0,
     )
 }
 
 fn cells(config: &SweepConfig, row: &Row, finding: &Finding) -> Vec<String> {
-    let (low, high) = row.tally.interval(row.confidence);
-    // Four digits of the nominal rate, and six decimals at least.
-    let decimals = (3.0 - finding.nominal.log10().floor()).max(6.0) as usize;
-    let digits = |rate: f64| format!("{rate:.decimals$}");
-    vec![
+    let size = row.size.map(|size| digits(finding, size));
+    let mut cells = vec![
         scenario(config, row),
         row.values.rule_name(),
         finding.nominal.to_string(),
-        row.size.map_or(String::new(), digits),
-        row.tally.trials.to_string(),
-        row.tally.hits.to_string(),
-        digits(row.tally.rate()),
+        size.unwrap_or_default(),
+    ];
+    cells.extend(counted(finding, row.tally.interval(row.confidence)));
+    cells
+}
+
+/// Four digits of the nominal rate, and six decimals at least.
+fn digits(finding: &Finding, rate: f64) -> String {
+    let decimals = (3.0 - finding.nominal.log10().floor()).max(6.0) as usize;
+    format!("{rate:.decimals$}")
+}
+
+/// What was counted, and the verdict.
+fn counted(finding: &Finding, (low, high): (f64, f64)) -> [String; 6] {
+    let digits = |rate| digits(finding, rate);
+    [
+        finding.tally.trials.to_string(),
+        finding.tally.hits.to_string(),
+        digits(finding.tally.rate()),
         format!("[{}, {}]", digits(low), digits(high)),
         p_value(finding.p_value),
         match finding.verdict {

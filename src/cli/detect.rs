@@ -1,16 +1,14 @@
 //! `liftsim detect RECORDING`: rest, rides and what decided them, in a recording.
 
 use super::found;
-use super::monitor_options::{Beginning, MonitorArguments, check_strength};
-use super::output::{Output, Ready, apart};
-use super::reading::ReadingArguments;
-use super::{CommandResult, Failure, print, warn};
+use super::output::{Output, Ready};
+use super::rides::{RideArguments, Rides};
+use super::{CommandResult, Failure, print};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::detection::{DetectReport, Detection};
 use liftsim::figure::{self, FigureError};
 use liftsim::monitor::SavedState;
-use liftsim::recording::{Reading, Recording};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -30,8 +28,6 @@ use std::process::ExitCode;
     liftsim detect log.csv --time t --acceleration az --unit mg\n  \
     liftsim detect ride.csv --save-state lift.json && liftsim monitor --state lift.json < samples")]
 pub struct Detect {
-    /// The recording.
-    recording: PathBuf,
     /// Print JSON instead of a table.
     #[arg(long)]
     json: bool,
@@ -47,17 +43,9 @@ pub struct Detect {
     /// Replace files that exist.
     #[arg(long)]
     force: bool,
-    /// How the recording begins, where you know it: it decides what is undecided otherwise.
-    #[arg(long, value_name = "STATE", value_enum)]
-    begins: Option<Beginning>,
     #[command(flatten)]
-    options: MonitorArguments,
-    #[command(flatten)]
-    reading: ReadingArguments,
+    rides: RideArguments,
 }
-
-/// The shortest recording in which anything can be found, s.
-const SHORTEST: f64 = 2.0;
 
 const NO_REST: &str =
     "too little rest to learn a state from (record a few seconds of rest before or after the ride)";
@@ -73,44 +61,29 @@ impl Detect {
     /// Runs the command.
     pub fn run(self) -> CommandResult {
         let outputs = self.outputs()?;
-        let setup = self.options.setup()?;
-        let recording = self.open(&setup.config.reading)?;
-        let samples = recording.samples();
-        let seconds = recording.facts().end - recording.facts().start;
-        if seconds < SHORTEST {
-            return Err(self.refused(anyhow!(
-                "must last at least {SHORTEST} s, got {seconds:.2} s (record a whole ride, with rest before and after it)"
-            )));
-        }
-        let (settings, rate) = match &setup.saved {
-            Some(saved) => (saved.settings.clone(), saved.rate),
-            None => (setup.config.settings, recording.rate()),
-        };
-        let design = settings.at(rate);
-        let design = design.map_err(|error| self.refused(error.into()))?;
-        let reference = setup.saved.and_then(|saved| saved.knowledge.reference);
-        let begins_at_rest = self.begins.and_then(Beginning::is_rest);
-        let detection = Detection::of(&design, samples, reference, begins_at_rest);
+        let rides = self.rides.find()?;
+        let Rides {
+            recording,
+            detection,
+            settings: (settings, rate),
+        } = &rides;
         let saved = SavedState {
-            first_sample: samples
-                .first()
+            first_sample: (recording.samples().first())
                 .map(|first| (first.time, first.acceleration)),
             knowledge: detection.knowledge.clone(),
-            settings,
-            rate,
+            settings: settings.clone(),
+            rate: *rate,
         };
         if saved.knowledge.reference.is_none() && self.save_state.is_some() {
-            return Err(self.refused(anyhow!(NO_REST)));
+            return Err(self.rides.refused(anyhow!(NO_REST)));
         }
-        for warning in detection.warnings(recording.rate()) {
-            warn(warning);
-        }
-        let report = DetectReport::new(self.name(), &recording, &detection);
-        self.write(outputs, &report, &detection, &saved)?;
+        rides.warn();
+        let report = DetectReport::new(self.rides.name(), recording, detection);
+        self.write(outputs, &report, detection, &saved)?;
         print(&if self.json {
             report.json()
         } else {
-            found::text(&report, &detection)
+            found::text(&report, detection)
         })?;
         Ok(ExitCode::SUCCESS)
     }
@@ -125,22 +98,8 @@ impl Detect {
             csv: self.csv.as_ref().map(file).transpose()?,
         };
         let files = [&self.figure, &self.save_state, &self.csv];
-        apart(&self.recording, files.into_iter().flatten())?;
+        self.rides.apart(files.into_iter().flatten())?;
         Ok(outputs)
-    }
-
-    /// Opens the recording, and prints the warnings about it.
-    fn open(&self, reading: &Reading) -> Result<Recording, Failure> {
-        let reading = self.reading.over(reading)?;
-        let recording = Recording::open(&self.recording, &reading).map_err(Failure::input)?;
-        let facts = recording.facts();
-        check_strength(facts.least)
-            .and(check_strength(facts.greatest))
-            .map_err(|error| self.refused(error))?;
-        for warning in recording.warnings() {
-            warn(warning);
-        }
-        Ok(recording)
     }
 
     /// All files or none.
@@ -153,10 +112,10 @@ impl Detect {
     ) -> Result<(), Failure> {
         let mut written = Vec::new();
         if let Some(figure) = to.figure {
-            let name = self.name();
+            let name = self.rides.name();
             let plot = figure::detection::plot(detection, &name, report.recording.clock_offset);
             let plot = plot.map_err(|error| match error {
-                FigureError::Short => self.refused(error.into()),
+                FigureError::Short => self.rides.refused(error.into()),
                 error => Failure::run(error),
             })?;
             written.push(figure.draw(&plot, &format!("recording {name}"))?);
@@ -168,17 +127,5 @@ impl Detect {
             written.push(csv.write(&report.csv())?);
         }
         written.into_iter().try_for_each(Ready::publish)
-    }
-
-    /// The recording's file, without its folder.
-    fn name(&self) -> String {
-        let path = self.recording.as_path();
-        let name = path.file_name().unwrap_or(path.as_os_str());
-        name.to_string_lossy().into_owned()
-    }
-
-    /// The recording cannot be used.
-    fn refused(&self, error: anyhow::Error) -> Failure {
-        Failure::Input(error.context(self.recording.display().to_string()))
     }
 }

@@ -2,7 +2,7 @@
 
 use super::table;
 use liftsim::detection::{
-    AtRest, Brief, DetectReport, Detection, Event, Trip, Undecided, What, Why,
+    AtRest, Brief, DetectReport, Detection, Event, Recorded, Trip, Undecided, What, Why,
 };
 use liftsim::monitor::{Direction, Reference};
 use serde_json::Value;
@@ -32,7 +32,7 @@ const MOST_TIMES: usize = 8;
 /// The whole text.
 pub fn text(report: &DetectReport, detection: &Detection) -> String {
     [
-        recording(report),
+        recording(&report.recording),
         rest(detection),
         trips(report),
         undecided(report.undecided),
@@ -42,8 +42,8 @@ pub fn text(report: &DetectReport, detection: &Detection) -> String {
     .concat()
 }
 
-fn recording(report: &DetectReport) -> String {
-    let it = &report.recording;
+/// How it was read.
+pub fn recording(it: &Recorded) -> String {
     let quantum = it.quantum.map(|step| format!(", step {step:.3e} m/s^2"));
     let offset = (it.clock_offset).map(|offset| format!("; times count from {offset:.3} s"));
     format!(
@@ -109,11 +109,7 @@ fn at_rest(at_rest: &AtRest) -> String {
 
 fn trips(report: &DetectReport) -> String {
     if report.rides.is_empty() {
-        return if report.undecided.is_empty() && report.events.is_empty() {
-            "no rides: the record stays at its level\n".to_owned()
-        } else {
-            "no rides that are decided\n".to_owned()
-        };
+        return no_rides(report.undecided, report.events).to_owned();
     }
     let rows: Vec<_> = (report.rides.iter())
         .map(|trip| TRIP.map(|name| cell(&trip.column(name))).to_vec())
@@ -122,7 +118,17 @@ fn trips(report: &DetectReport) -> String {
     table(&TRIP, &rows) + "times in s of the recording's clock, speed in m/s\n" + &ends
 }
 
-fn other_ends(trip: &Trip) -> String {
+/// What is said where there are none.
+pub fn no_rides(undecided: &[Undecided], events: &[Event]) -> &'static str {
+    if undecided.is_empty() && events.is_empty() {
+        "no rides: the record stays at its level\n"
+    } else {
+        "no rides that are decided\n"
+    }
+}
+
+/// A line for every end that may be another.
+pub fn other_ends(trip: &Trip) -> String {
     let end = |name: &str, time: Option<f64>| {
         let of = |time| {
             format!(
@@ -135,7 +141,8 @@ fn other_ends(trip: &Trip) -> String {
     end("start", trip.or_start) + &end("stop", trip.or_stop)
 }
 
-fn undecided(stretches: &[Undecided]) -> String {
+/// A line for each.
+pub fn undecided(stretches: &[Undecided]) -> String {
     let told = |it: &Undecided| {
         let unknown = match it.why {
             Why::Close | Why::Filter => None,
@@ -195,7 +202,7 @@ fn briefly(trips: &[Brief]) -> String {
 }
 
 /// A line for every kind of event.
-fn events(events: &[Event]) -> String {
+pub fn events(events: &[Event]) -> String {
     let kinds = [
         (What::Shock, "shocks"),
         (What::Swing, "swings to and fro"),
@@ -251,7 +258,8 @@ fn decisions(trips: &[Trip]) -> String {
     "\n".to_owned() + &table(&header, &rows) + legend
 }
 
-fn cell(value: &Value) -> String {
+/// A value for a table.
+pub fn cell(value: &Value) -> String {
     match value {
         Value::Null => "-".to_owned(),
         Value::String(text) => text.clone(),

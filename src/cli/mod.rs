@@ -18,12 +18,15 @@ mod plot;
 mod progress;
 mod reading;
 mod replay;
+mod rides;
+mod rows;
 mod signals;
 mod simulate;
 mod status;
 mod store;
 mod sweep;
 mod threshold;
+mod track;
 
 pub use arguments::{Arguments, brief};
 

@@ -7,7 +7,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use liftsim::counts::Counts;
 use liftsim::run::{self, Progress as _, Session};
-use liftsim::study::Sweep;
+use liftsim::study::{Loaded, Sweep};
 use serde_json::json;
 use std::fmt::Write;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -210,6 +210,15 @@ pub fn count(sweep: &Sweep, reporter: &Reporter) -> Result<Counts, Failure> {
     let counts = counts.map_err(Failure::study)?;
     reporter.say(&json!({ "event": "finished", "total": work }));
     Ok(counts)
+}
+
+/// Counts all trials of a study in memory.
+pub fn count_all(loaded: &Loaded, reporter: &Reporter) -> Result<Counts, Failure> {
+    let Some(trials) = loaded.study.trials() else {
+        return Ok(Counts::default());
+    };
+    let counts = run::whole(trials, loaded.origin.trials, &Follower::new(reporter, None));
+    counts.map_err(Failure::study)
 }
 
 /// A bar over `work` trial-points, `trials` of each point.

@@ -17,7 +17,7 @@ mod trip;
 pub use columns::columns;
 pub use decisions::AtRest;
 pub use options::{MonitorOptions, RecordingTable};
-pub use report::{DetectReport, Recorded, SLOW, Warning};
+pub use report::{DetectReport, Recorded, SLOW, Warning, cell};
 pub use trace::{Column, Trace};
 pub use trip::{Brief, End, Event, Trip, Undecided, What, Why};
 

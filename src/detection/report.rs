@@ -55,6 +55,32 @@ pub struct Recorded {
     pub high_pass: Option<f64>,
 }
 
+impl Recorded {
+    /// A recording called `file`.
+    pub fn of(file: String, recording: &Recording, detection: &Detection) -> Self {
+        let facts = recording.facts();
+        let (time, time_unit) = recording.time_column();
+        Self {
+            file,
+            format: recording.format().to_string(),
+            time: time.to_owned(),
+            time_unit: time_unit.to_string(),
+            acceleration: recording.acceleration_columns().to_vec(),
+            unit: recording.unit().to_string(),
+            vertical: recording.vertical().to_string(),
+            samples: facts.samples,
+            start: facts.start,
+            end: facts.end,
+            rate: facts.rate,
+            jitter: facts.jitter,
+            quantum: facts.quantum,
+            has_gravity: facts.has_gravity,
+            clock_offset: facts.clock_offset,
+            high_pass: detection.filter.time_constant(),
+        }
+    }
+}
+
 /// A reason to distrust the trips.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Warning {
@@ -118,32 +144,13 @@ pub enum Warning {
 impl<'a> DetectReport<'a> {
     /// The report on a recording called `file`.
     pub fn new(file: String, recording: &Recording, detection: &'a Detection) -> Self {
-        let facts = recording.facts();
-        let (time, time_unit) = recording.time_column();
         let of_recording = recording.warnings().iter().map(ToString::to_string);
         let of_detection = detection.warnings(recording.rate());
         Self {
             warnings: of_recording
                 .chain(of_detection.iter().map(ToString::to_string))
                 .collect(),
-            recording: Recorded {
-                file,
-                format: recording.format().to_string(),
-                time: time.to_owned(),
-                time_unit: time_unit.to_string(),
-                acceleration: recording.acceleration_columns().to_vec(),
-                unit: recording.unit().to_string(),
-                vertical: recording.vertical().to_string(),
-                samples: facts.samples,
-                start: facts.start,
-                end: facts.end,
-                rate: facts.rate,
-                jitter: facts.jitter,
-                quantum: facts.quantum,
-                has_gravity: facts.has_gravity,
-                clock_offset: facts.clock_offset,
-                high_pass: detection.filter.time_constant(),
-            },
+            recording: Recorded::of(file, recording, detection),
             settings: &detection.design.settings,
             block: detection.design.block,
             knowledge: &detection.knowledge,
@@ -174,7 +181,8 @@ impl<'a> DetectReport<'a> {
     }
 }
 
-fn cell(value: &Value) -> String {
+/// A value as a cell of CSV.
+pub fn cell(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
         Value::String(text) => text.clone(),

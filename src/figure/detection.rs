@@ -74,7 +74,7 @@ pub fn plot(
 }
 
 /// From when to when each state lasted, s, and its name.
-fn states(detection: &Detection, from: f64, to: f64) -> Vec<((f64, f64), &'static str)> {
+pub(super) fn states(detection: &Detection, from: f64, to: f64) -> Vec<((f64, f64), &'static str)> {
     let mut changes: Vec<(f64, &'static str)> = vec![(from, "rest")];
     for trip in &detection.trips {
         changes.extend(phases(trip));
@@ -111,7 +111,7 @@ fn phases(trip: &Trip) -> impl Iterator<Item = (f64, &'static str)> {
 
 /// A scale for the times at which the state was known: a sensor that is picked up would flatten everything
 /// else.
-fn y_axis(
+pub(super) fn y_axis(
     columns: &[Column],
     states: &[((f64, f64), &str)],
     above: f64,
@@ -132,7 +132,8 @@ fn y_axis(
     Axis::linear(low - 0.08 * room, high + above * room, 5)
 }
 
-fn values(columns: &[Column], value: fn(&Column) -> (f64, f64)) -> Mark {
+/// The record as a line.
+pub(super) fn values(columns: &[Column], value: fn(&Column) -> (f64, f64)) -> Mark {
     let points = columns.iter().flat_map(|column| {
         let ((from, to), (low, high)) = (column.times, value(column));
         [(from, low), (to, high)]

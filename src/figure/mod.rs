@@ -1,6 +1,6 @@
 //! How a [`Plot`] becomes PNG at 300 dpi and SVG.
 //!
-//! `detection` is the picture of a recording; the picture of a study stands beside it.
+//! `detection` and `track` are pictures of a recording; the picture of a study stands beside it.
 
 #![allow(missing_docs, reason = "fields are called what they are")]
 
@@ -8,6 +8,7 @@ pub mod detection;
 mod error;
 mod raster;
 mod svg;
+pub mod track;
 
 pub use error::FigureError;
 

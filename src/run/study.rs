@@ -4,6 +4,7 @@ use super::{Identity, StudyError, Trials};
 use crate::claim::{Evidence, Outcome};
 use crate::counts::Counts;
 use crate::figure::FigureError;
+use crate::gate::Scenario;
 use crate::plot::Plot;
 use crate::results::{Comparison, Origin, csv_bytes};
 
@@ -42,6 +43,12 @@ pub trait AnyStudy: Send + Sync {
     /// # Errors
     /// If the bytes are not the study's rows.
     fn outcomes(&self, points: &[u8]) -> Result<Vec<Outcome>, csv::Error>;
+
+    /// The false alarms that `check` tests.
+    ///
+    /// # Errors
+    /// If the bytes are not the study's rows.
+    fn false_alarms(&self, points: &[u8]) -> Result<Vec<Scenario>, csv::Error>;
 
     /// The plot of the study's rows.
     ///

@@ -4,6 +4,7 @@ use super::{Loaded, Study};
 use crate::claim::{Evidence, Outcome};
 use crate::counts::Counts;
 use crate::figure::FigureError;
+use crate::gate::Scenario;
 use crate::plot::Plot;
 use crate::results::{Comparison, Origin, csv_bytes};
 use crate::run::{AnyStudy, DrawError, Identity, Output, StudyError, Trials};
@@ -49,6 +50,10 @@ impl<S: Study> AnyStudy for S {
 
     fn outcomes(&self, points: &[u8]) -> Result<Vec<Outcome>, csv::Error> {
         Ok(Study::outcomes(self, &rows::<S>(points)?))
+    }
+
+    fn false_alarms(&self, points: &[u8]) -> Result<Vec<Scenario>, csv::Error> {
+        Ok(Study::false_alarms(self, &rows::<S>(points)?))
     }
 
     fn plot(&self, points: &[u8], seed: u64) -> Result<Plot, DrawError> {

@@ -4,6 +4,7 @@ use crate::claim::{Outcome, Scope};
 use crate::counts::{Counts, Key, Shape, Sums};
 use crate::experiment::Experiment;
 use crate::figure::FigureError;
+use crate::gate::Scenario;
 use crate::plot::Plot;
 use crate::results::{Comparison, Quantity};
 use crate::run::{Identity, StudyError, Table, Target, Trials};
@@ -63,6 +64,11 @@ pub trait Study: Send + Sync + Sized + 'static {
     /// The counts behind its rows, if the rows determine them.
     fn recall(&self, _rows: &[Self::Row], _comparisons: &[Comparison]) -> Option<Counts> {
         None
+    }
+
+    /// The false alarms that `check` tests, and the rate that each scenario promises.
+    fn false_alarms(&self, _rows: &[Self::Row]) -> Vec<Scenario> {
+        Vec::new()
     }
 
     /// Draws the rows.

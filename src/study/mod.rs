@@ -8,6 +8,7 @@
 mod any;
 pub(crate) mod autocorrelation;
 mod estimate;
+pub mod floors;
 pub(crate) mod impulse_law;
 pub(crate) mod independence;
 mod kind;
@@ -45,6 +46,7 @@ pub const STUDIES: &[Entry] = &[
     Entry::of::<operating_point::OperatingPoint>(),
     Entry::of::<ride::Rides>(),
     Entry::of::<records::Records>(),
+    Entry::of::<floors::Buildings>(),
 ];
 
 /// An entry of the list of studies.

@@ -46,3 +46,17 @@ fn abstains_on_a_tenth_of_the_trials() {
     assert_eq!(code, 3);
     assert!(out.contains(" 0 pass, 30 inconclusive, 0 fail"));
 }
+
+/// Ordinary stops of a floor map: twenty buildings are too few to pass, and the rule as printed fails with more.
+#[test]
+fn floors_are_gated() {
+    let (code, out) = check(&["configs/floors_alarm.toml", "--trials", "20"]);
+    assert_eq!(code, 3, "{out}");
+    assert!(
+        out.contains("false_any") && out.contains("stops would be enough"),
+        "{out}"
+    );
+    let (code, out) = check(&["configs/floors_noise.toml", "--trials", "20"]);
+    assert_eq!(code, 1, "{out}");
+    assert!(out.contains("FAIL"), "{out}");
+}

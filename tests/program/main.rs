@@ -14,6 +14,7 @@ mod shards;
 mod simulate;
 mod studies;
 mod survival;
+mod track;
 
 use assert_cmd::Command;
 use std::path::{Path, PathBuf};

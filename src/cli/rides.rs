@@ -1,0 +1,109 @@
+//! The front end that `detect` and `track` share: a recording is read and its rides are found.
+
+use super::monitor_options::{Beginning, MonitorArguments, check_strength};
+use super::output::apart;
+use super::reading::ReadingArguments;
+use super::{Failure, warn};
+use anyhow::anyhow;
+use clap::Args;
+use liftsim::detection::Detection;
+use liftsim::monitor::{SavedState, Settings};
+use liftsim::recording::{Reading, Recording};
+use std::path::PathBuf;
+
+/// A recording, how it is read, and how rides are found in it.
+#[derive(Debug, Args)]
+pub struct RideArguments {
+    /// The recording.
+    recording: PathBuf,
+    /// How the recording begins, where you know it: it decides what is undecided otherwise.
+    #[arg(long, value_name = "STATE", value_enum)]
+    begins: Option<Beginning>,
+    #[command(flatten)]
+    options: MonitorArguments,
+    #[command(flatten)]
+    reading: ReadingArguments,
+}
+
+/// A recording and the rides in it.
+pub struct Rides {
+    pub recording: Recording,
+    pub detection: Detection,
+    /// The settings as given, and the rate that they are for, Hz.
+    pub settings: (Settings, f64),
+}
+
+impl Rides {
+    /// Prints the warnings about the rides.
+    pub fn warn(&self) {
+        for warning in self.detection.warnings(self.recording.rate()) {
+            warn(warning);
+        }
+    }
+}
+
+/// The shortest recording in which anything can be found, s.
+const SHORTEST: f64 = 2.0;
+
+impl RideArguments {
+    /// Refuses outputs that are the recording, or each other.
+    pub fn apart<'a>(&'a self, outputs: impl Iterator<Item = &'a PathBuf>) -> Result<(), Failure> {
+        apart(&self.recording, outputs)
+    }
+
+    /// Reads the recording and finds its rides; prints the warnings about it.
+    pub fn find(&self) -> Result<Rides, Failure> {
+        let setup = self.options.setup()?;
+        let recording = self.open(&setup.config.reading)?;
+        let seconds = recording.facts().end - recording.facts().start;
+        if seconds < SHORTEST {
+            return Err(self.refused(anyhow!(
+                "must last at least {SHORTEST} s, got {seconds:.2} s (record a whole ride, with rest before and after it)"
+            )));
+        }
+        let (reference, settings) = match setup.saved {
+            Some(SavedState {
+                knowledge,
+                settings,
+                rate,
+                ..
+            }) => (knowledge.reference, (settings, rate)),
+            None => (None, (setup.config.settings, recording.rate())),
+        };
+        let design = settings.0.at(settings.1);
+        let design = design.map_err(|error| self.refused(error.into()))?;
+        let begins_at_rest = self.begins.and_then(Beginning::is_rest);
+        let detection = Detection::of(&design, recording.samples(), reference, begins_at_rest);
+        Ok(Rides {
+            recording,
+            detection,
+            settings,
+        })
+    }
+
+    /// Opens the recording, and prints the warnings about it.
+    fn open(&self, reading: &Reading) -> Result<Recording, Failure> {
+        let reading = self.reading.over(reading)?;
+        let recording = Recording::open(&self.recording, &reading).map_err(Failure::input)?;
+        let facts = recording.facts();
+        check_strength(facts.least)
+            .and(check_strength(facts.greatest))
+            .map_err(|error| self.refused(error))?;
+        for warning in recording.warnings() {
+            warn(warning);
+        }
+        Ok(recording)
+    }
+
+    /// The recording's file, without its folder.
+    pub fn name(&self) -> String {
+        let path = self.recording.as_path();
+        let name = path.file_name().unwrap_or(path.as_os_str());
+        name.to_string_lossy().into_owned()
+    }
+
+    /// The recording cannot be used.
+    pub fn refused(&self, error: anyhow::Error) -> Failure {
+        Failure::Input(error.context(self.recording.display().to_string()))
+    }
+}

@@ -1,0 +1,58 @@
+//! Where the cage is: the distance of every trip, from the acceleration alone, with a variance that can be trusted.
+//!
+//! The filter is that of a patent [^1]: position, speed and bias are predicted from the acceleration, and a cage that
+//! stands or moves uniformly, both of which an accelerometer shows, gives the filter two pseudo-measurements. Who says when
+//! it does makes the difference:
+//!
+//! - [`Track`]: the trips that a [`Detection`](crate::detection::Detection) finds, which sees the whole record;
+//! - [`LiveTrips`]: a detector of uniform motion with the patent's test of standing, sample by sample, a third of a second
+//!   late; [`TrackSettings::by_the_words`] is the patent as printed, without looking ahead.
+//!
+//! Beside it are [other ways](Method): the moment formula, which is the bound, integration with the drift removed, and plain
+//! integration.
+//!
+//! # What the deviation holds
+//! The noise of the sensor, of its bias, and where a trip does not close, something else that the record shows. It does not
+//! hold the sensor's gain: a gain of 1.01 makes every distance of every trip longer by 1 %.
+//!
+//! # Where [^1] is read one way among several
+//! - It gives no numbers. Noise is given as densities, so that one set serves every rate.
+//! - H of both pseudo-measurements, and the form of ξ_d, are lost in its text: they are inferred.
+//!
+//! [^1]: A patent on the detection of lift motion and abnormal stops by an accelerometer, in Chinese (基于加速度传感器的电梯运
+//!     动检测及异常位置停车判断), claims 1 to 3.
+
+mod course;
+mod filter;
+pub mod floors;
+mod integrals;
+mod level;
+mod live;
+pub mod map;
+mod noise;
+mod phases;
+mod record;
+mod report;
+mod rides;
+mod settings;
+mod steps;
+#[cfg(test)]
+mod tests;
+mod travelled;
+mod uniform;
+mod warning;
+
+pub use course::{Course, Place};
+pub use filter::{TripFilter, Uncertain, Update};
+pub use integrals::{integrated, moments};
+pub use level::Level;
+pub use live::{LiveTrip, LiveTrips};
+pub use noise::{Densities, Deviations, Noise};
+pub use phases::{Method, Phases};
+pub use record::{Track, Tracked, Unknown};
+pub use report::TrackReport;
+pub use settings::{TrackSettings, UniformSettings};
+pub use steps::{Step, Steps};
+pub use travelled::Travelled;
+pub use uniform::UniformDetector;
+pub use warning::Warning;

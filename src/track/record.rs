@@ -1,0 +1,189 @@
+//! The trips of a record, measured.
+
+use super::course::Course;
+use super::filter::Uncertain;
+use super::level::Level;
+use super::phases::Phases;
+use super::rides::Surroundings;
+use super::settings::TrackSettings;
+use super::steps::HOLE;
+use super::travelled::Travelled;
+use crate::detection::{Detection, Trip};
+use crate::explain::Faults;
+use crate::recording::Sample;
+use serde::Serialize;
+use std::ops::Range;
+
+/// A trip and how far it went.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Tracked {
+    /// As detected.
+    #[serde(flatten)]
+    pub trip: Trip,
+    /// m, up positive; of a trip whose end is not recorded, so far.
+    pub distance: Option<f64>,
+    /// Its standard deviation, m.
+    pub deviation: Option<f64>,
+    /// The speed left at the stop, m/s, up positive.
+    pub closing_speed: Option<f64>,
+    /// What that adds to the deviation where it is too much for the noise, m.
+    pub widened: Option<f64>,
+    /// Why there is no distance.
+    #[serde(skip)]
+    pub unknown: Option<Unknown>,
+}
+
+/// Why a trip has no distance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unknown {
+    /// Its start is not recorded.
+    Start,
+    /// A hole hides a change of its speed.
+    Hole,
+    /// The sensor is behind a high-pass filter.
+    Filter,
+}
+
+/// The trips of a record.
+#[derive(Clone, Debug)]
+pub struct Track {
+    /// The settings, with the noise of the record where it is the larger.
+    pub settings: TrackSettings,
+    /// The sensor as the record shows it.
+    pub level: Level,
+    /// How much larger its S_a is, if it is.
+    pub noisier: Option<f64>,
+    /// The sensor's steps, if they are coarser than its noise, m/s².
+    pub step: Option<f64>,
+    /// In order of time.
+    pub trips: Vec<Tracked>,
+    /// For a picture.
+    pub course: Course,
+}
+
+impl Track {
+    /// Measures the trips of a detection in its samples, whose steps are coarser than their noise if `step`, m/s², is
+    /// given.
+    pub fn of(
+        samples: &[Sample],
+        step: Option<f64>,
+        detection: &Detection,
+        settings: TrackSettings,
+    ) -> Self {
+        let (sound, _) = Faults::removed(samples);
+        let stretches = stretches(&sound);
+        let seconds = stretches.iter().map(|it| it.end - it.start).sum();
+        let surroundings = Surroundings::new(detection, stretches);
+        let level = Level::of(&sound, &surroundings.quiet(&detection.trips, &settings));
+        let noisier = settings.noisier(&level);
+        let mut track = Self {
+            settings: noisier.map_or(settings, |it| it.0),
+            noisier: noisier.map(|it| it.1),
+            step,
+            level,
+            trips: Vec::with_capacity(detection.trips.len()),
+            course: Course::new(seconds),
+        };
+        track
+            .course
+            .rest(sound.first().map_or(0.0, |first| first.time));
+        for trip in &detection.trips {
+            let phases = track.phases(trip, detection, &surroundings, &sound);
+            let tracked = match phases {
+                Ok(phases) => track.measure(trip, &phases, &sound),
+                Err(unknown) => {
+                    track.course.lose();
+                    Tracked::unknown(trip, unknown)
+                }
+            };
+            track.trips.push(tracked);
+        }
+        track
+            .course
+            .rest(sound.last().map_or(0.0, |last| last.time));
+        track
+    }
+
+    fn phases(
+        &self,
+        trip: &Trip,
+        detection: &Detection,
+        surroundings: &Surroundings,
+        samples: &[Sample],
+    ) -> Result<Phases, Unknown> {
+        if detection.filter.time_constant().is_some() {
+            return Err(Unknown::Filter);
+        }
+        let phases = surroundings.phases(trip, &self.settings);
+        let phases = phases.ok_or(Unknown::Start)?;
+        let hidden = phases.changes().iter().any(|part| has_hole(samples, part));
+        if hidden {
+            Err(Unknown::Hole)
+        } else {
+            Ok(phases)
+        }
+    }
+
+    fn measure(&mut self, trip: &Trip, phases: &Phases, samples: &[Sample]) -> Tracked {
+        let bias = Uncertain {
+            mean: self.level.bias,
+            ..Uncertain::error(self.settings.bias_error)
+        };
+        let course = &mut self.course;
+        let mut travelled =
+            phases.measure(samples, bias, &self.settings, |step, update, filter| {
+                course.note(step.time, update, filter);
+            });
+        if let Some(step) = self.step {
+            travelled = travelled.plus(Uncertain::error(phases.error_of_steps(step)));
+        }
+        if trip.stop.is_some() {
+            course.stand(phases.after.end, travelled.distance);
+        } else {
+            // Of its speed the gain's error is never taken off.
+            let gone = travelled.distance.mean.abs();
+            travelled = travelled.plus(Uncertain::error(self.settings.gain_error * gone));
+            course.lose();
+        }
+        Tracked::of(trip, &travelled)
+    }
+}
+
+impl Tracked {
+    fn of(trip: &Trip, travelled: &Travelled) -> Self {
+        Self {
+            trip: *trip,
+            distance: Some(travelled.distance.mean),
+            deviation: Some(travelled.distance.variance.sqrt()),
+            closing_speed: travelled.closing_speed,
+            widened: (travelled.widened > 0.0).then_some(travelled.widened),
+            unknown: None,
+        }
+    }
+
+    fn unknown(trip: &Trip, unknown: Unknown) -> Self {
+        Self {
+            trip: *trip,
+            distance: None,
+            deviation: None,
+            closing_speed: None,
+            widened: None,
+            unknown: Some(unknown),
+        }
+    }
+}
+
+/// From when to when a record has no holes, s.
+fn stretches(samples: &[Sample]) -> Vec<Range<f64>> {
+    let stretches = samples.chunk_by(|one, next| next.time - one.time <= 2.0 * HOLE);
+    let stretches = stretches.map(|part| part[0].time..part[part.len() - 1].time);
+    stretches.collect()
+}
+
+fn has_hole(samples: &[Sample], part: &Range<f64>) -> bool {
+    let place = |time: f64| samples.partition_point(|sample| sample.time < time);
+    let (first, end) = (place(part.start), place(part.end));
+    // The samples on either side too.
+    let around = &samples[first.saturating_sub(1)..(end + 1).min(samples.len())];
+    stretches(around).len() > 1
+}

@@ -1,0 +1,90 @@
+//! The report of `liftsim track`: JSON has all of it, CSV and the table have the trips, under the same names.
+
+#![allow(missing_docs, reason = "what a name says is not said again")]
+
+use super::level::Level;
+use super::record::{Track, Tracked};
+use super::settings::TrackSettings;
+use crate::detection::{Detection, Event, Recorded, Undecided, cell, columns};
+use crate::recording::Recording;
+use serde::Serialize;
+use serde_json::Value;
+
+/// A recording and its trips.
+#[derive(Debug, Serialize)]
+pub struct TrackReport<'a> {
+    pub recording: Recorded,
+    pub warnings: Vec<String>,
+    pub settings: &'a TrackSettings,
+    /// The sensor as the record shows it.
+    pub level: Level,
+    pub rides: &'a [Tracked],
+    pub undecided: &'a [Undecided],
+    pub events: &'a [Event],
+}
+
+impl<'a> TrackReport<'a> {
+    /// The report on a recording called `file`.
+    pub fn new(
+        file: String,
+        recording: &Recording,
+        detection: &'a Detection,
+        track: &'a Track,
+    ) -> Self {
+        let of_recording = recording.warnings().iter().map(ToString::to_string);
+        let of_detection = detection.warnings(recording.rate()).into_iter();
+        let of_track = track.warnings().into_iter();
+        Self {
+            warnings: of_recording
+                .chain(of_detection.map(|it| it.to_string()))
+                .chain(of_track.map(|it| it.to_string()))
+                .collect(),
+            recording: Recorded::of(file, recording, detection),
+            settings: &track.settings,
+            level: track.level,
+            rides: &track.trips,
+            undecided: &detection.undecided,
+            events: &detection.events,
+        }
+    }
+
+    pub fn json(&self) -> String {
+        let json = serde_json::to_string_pretty(self);
+        json.expect("a report is plain data") + "\n"
+    }
+
+    /// The names of the columns of [`TrackReport::rows`].
+    pub fn columns() -> Vec<String> {
+        let measured = MEASURED.iter().map(|name| (*name).to_owned());
+        columns().into_iter().chain(measured).collect()
+    }
+
+    /// A row for every trip.
+    pub fn rows(&self) -> Vec<Vec<String>> {
+        let columns = Self::columns();
+        let row = |ride: &Tracked| {
+            columns
+                .iter()
+                .map(|name| cell(&ride.column(name)))
+                .collect()
+        };
+        self.rides.iter().map(row).collect()
+    }
+}
+
+impl Tracked {
+    /// The value of a column; null if it has none.
+    pub fn column(&self, name: &str) -> Value {
+        let measured = match name {
+            "distance" => self.distance,
+            "deviation" => self.deviation,
+            "closing_speed" => self.closing_speed,
+            "widened" => self.widened,
+            _ => return self.trip.column(name),
+        };
+        measured.into()
+    }
+}
+
+/// The columns that a trip gains where it is measured.
+const MEASURED: [&str; 4] = ["distance", "deviation", "closing_speed", "widened"];

@@ -1,0 +1,116 @@
+//! How trips are measured.
+
+use super::level::Level;
+use super::noise::{Densities, Deviations, Noise};
+use serde::{Deserialize, Serialize};
+
+/// The settings of the trip filter. Times in s.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct TrackSettings {
+    /// Of the sensor and the cage.
+    pub noise: Noise,
+    /// γ_d: a standing cage's ξ_d stays below it.
+    pub gate: f64,
+    /// ε: the error of the speed at a stop as a share of the highest, since a sensor's gain differs up and down.
+    pub gain_error: f64,
+    /// γ_δp: the shortest trip, m.
+    pub least_distance: f64,
+    /// The deviation of the bias that is taken for a start, m/s².
+    pub bias_error: f64,
+    /// Left out at either end of a phase that a detection finds.
+    pub margin: f64,
+    /// How much rest before a trip is looked at.
+    pub rest: f64,
+    /// How long after a stop the distance is refined.
+    pub settling: f64,
+    /// How uniform motion is seen without a detection.
+    pub uniform: UniformSettings,
+}
+
+/// How uniform motion is seen as it happens. Times in s.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct UniformSettings {
+    /// Length of the mean.
+    pub window: f64,
+    /// How far around a sample all means must agree.
+    pub beside: f64,
+    /// How far a mean may be off the bias at least, m/s².
+    pub least: f64,
+    /// And in its deviations.
+    pub deviations: f64,
+    /// Whether the mean is centred, which takes looking ahead, or over the time before.
+    pub looks_ahead: bool,
+    /// A motion that is uniform below `slow` of its highest speed for so long stands, whatever ξ_d is.
+    pub patience: f64,
+    /// A share.
+    pub slow: f64,
+    /// And one at any speed for so long.
+    pub longest: f64,
+}
+
+impl Default for TrackSettings {
+    fn default() -> Self {
+        Self {
+            noise: Noise::Density(Densities::default()),
+            gate: 10.8,
+            gain_error: 0.0125,
+            least_distance: 0.5,
+            bias_error: 0.02,
+            margin: 0.3,
+            rest: 2.0,
+            settling: 1.0,
+            uniform: UniformSettings::default(),
+        }
+    }
+}
+
+impl Default for UniformSettings {
+    fn default() -> Self {
+        Self {
+            window: 0.5,
+            beside: 0.1,
+            least: 0.05,
+            deviations: 5.0,
+            looks_ahead: true,
+            patience: 8.0,
+            slow: 0.2,
+            longest: 120.0,
+        }
+    }
+}
+
+impl TrackSettings {
+    /// Those for a sensor that is clearly noisier than they say, and how many times S_a is more.
+    pub(super) fn noisier(self, level: &Level) -> Option<(Self, f64)> {
+        let Noise::Density(noise) = self.noise else {
+            return None;
+        };
+        let ratio = level.excess(noise.acceleration)?;
+        let noise = Noise::Density(noise.noisier(level.density));
+        Some((Self { noise, ..self }, ratio))
+    }
+
+    /// The patent by its words: standard deviations of a sample, uniform motion seen from before alone, and neither a
+    /// gain's error nor patience. The numbers are a choice, since it gives none.
+    pub fn by_the_words() -> Self {
+        Self {
+            noise: Noise::Sample(Deviations {
+                acceleration: 0.04,
+                bias: 1e-4,
+                uniform: 0.01,
+                standing: 0.01,
+            }),
+            gain_error: 0.0,
+            uniform: UniformSettings {
+                looks_ahead: false,
+                beside: 0.0,
+                patience: f64::INFINITY,
+                longest: f64::INFINITY,
+                ..UniformSettings::default()
+            },
+            ..Self::default()
+        }
+    }
+}

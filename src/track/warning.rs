@@ -1,0 +1,75 @@
+//! Reasons to distrust distances.
+
+#![allow(missing_docs, reason = "what a name says is not said again")]
+
+use super::record::{Track, Tracked, Unknown};
+
+/// A reason to distrust distances.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Warning {
+    #[error(
+        "distances are not measured: behind a high-pass filter they would be metres wrong (record the raw \
+         accelerometer, with g)"
+    )]
+    Filter,
+    #[error(
+        "ride {0}: no distance, the record does not hold its start (record a few seconds of rest before the ride)"
+    )]
+    Start(usize),
+    #[error("ride {0}: no distance, a hole hides a change of its speed (record the ride again)")]
+    Hole(usize),
+    #[error(
+        "ride {ride}: the record does not hold its stop; {gone:.2} m is how far it went by then (record a few seconds \
+         of rest after the ride)"
+    )]
+    Stop { ride: usize, gone: f64 },
+    #[error(
+        "ride {ride}: the speed left at the stop, {speed:.3} m/s, is too much for the noise, so the deviation is \
+         widened by {by:.2} m (lay the sensor flat and still, with its gain calibrated)"
+    )]
+    Closing { ride: usize, speed: f64, by: f64 },
+    #[error(
+        "the sensor's steps of {step:.3} m/s^2 are coarser than its noise, so the deviations are widened (choose a \
+         finer range)"
+    )]
+    Coarse { step: f64 },
+    #[error(
+        "the record is {0:.1} times as noisy as the settings say, so the deviations are widened (lay the sensor on the \
+         floor of the lift)"
+    )]
+    Noisy(f64),
+}
+
+impl Track {
+    /// The warnings about its distances.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let is_filtered = (self.trips.iter()).any(|it| it.unknown == Some(Unknown::Filter));
+        let has_distance = self.trips.iter().any(|it| it.distance.is_some());
+        let coarse = self.step.map(|step| Warning::Coarse { step });
+        let noisy = self.noisier.map(|power| Warning::Noisy(power.sqrt()));
+        let of_record = [coarse, noisy].into_iter().flatten();
+        let of_record = of_record.filter(|_| has_distance);
+        let filter = is_filtered.then_some(Warning::Filter).into_iter();
+        let of_trips = self.trips.iter().flat_map(Tracked::warnings);
+        filter.chain(of_record).chain(of_trips).collect()
+    }
+}
+
+impl Tracked {
+    fn warnings(&self) -> impl Iterator<Item = Warning> {
+        let ride = self.trip.ride;
+        let unknown = match self.unknown {
+            Some(Unknown::Start) => Some(Warning::Start(ride)),
+            Some(Unknown::Hole) => Some(Warning::Hole(ride)),
+            Some(Unknown::Filter) | None => None,
+        };
+        let is_open = self.trip.stop.is_none();
+        let open = self
+            .distance
+            .filter(|_| is_open)
+            .map(|gone| Warning::Stop { ride, gone });
+        let closing = self.closing_speed.zip(self.widened);
+        let closing = closing.map(|(speed, by)| Warning::Closing { ride, speed, by });
+        [unknown, open, closing].into_iter().flatten()
+    }
+}

@@ -1,0 +1,247 @@
+//! `liftsim track`: distances against the truth of simulated rides, its formats, and what it refuses to print bare.
+
+use super::{liftsim, outcome};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+type Said = (i32, String, String);
+
+fn track(directory: &Path, arguments: &[&str]) -> Said {
+    let mut command = liftsim();
+    command.current_dir(directory).arg("track").args(arguments);
+    outcome(&mut command)
+}
+
+/// Runs a command that must succeed without warnings.
+fn well((code, out, err): Said) -> String {
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    out
+}
+
+/// A directory with a simulated ride, `ride.csv`.
+fn recorded(flags: &[&str]) -> TempDir {
+    let directory = tempfile::tempdir().unwrap();
+    let mut command = liftsim();
+    command.current_dir(&directory);
+    command.args(["simulate", "--out", "ride.csv"]).args(flags);
+    well(outcome(&mut command));
+    directory
+}
+
+fn rides(out: &str) -> Vec<Value> {
+    let report: Value = serde_json::from_str(out).unwrap();
+    report["rides"].as_array().unwrap().clone()
+}
+
+/// The distances of `ride.truth.csv`.
+fn truth(directory: &Path) -> Vec<f64> {
+    let text = fs::read_to_string(directory.join("ride.truth.csv")).unwrap();
+    let distance = |line: &str| line.split(',').nth(3).unwrap().parse().unwrap();
+    text.lines().skip(1).map(distance).collect()
+}
+
+/// A normal error is beyond 5 deviations once in two million.
+#[test]
+fn distances_are_true_within_their_deviations() {
+    for flags in [
+        &[][..],
+        &[
+            "--trip", "up:3", "--trip", "up:27", "--trip", "down:30", "--speed", "1.6",
+        ],
+        &["--rate", "25", "--with-gravity"],
+        &[
+            "--rate",
+            "400",
+            "--trip",
+            "down:60",
+            "--speed",
+            "4",
+            "--acceleration",
+            "1",
+        ],
+    ] {
+        let directory = recorded(flags);
+        let out = well(track(directory.path(), &["ride.csv", "--format", "json"]));
+        let (rides, truth) = (rides(&out), truth(directory.path()));
+        assert_eq!(rides.len(), truth.len(), "{flags:?}");
+        for (ride, truth) in rides.iter().zip(truth) {
+            let number = |name: &str| ride[name].as_f64().unwrap();
+            let (error, deviation) = (number("distance") - truth, number("deviation"));
+            assert!(error.abs() < 5.0 * deviation, "{flags:?}: {ride} {truth}");
+            assert!(
+                deviation < 0.01 * truth.abs() + 0.05,
+                "{flags:?}: {ride} {truth}"
+            );
+        }
+    }
+}
+
+/// All formats say the same.
+#[test]
+fn formats_agree() {
+    let directory = recorded(&[]);
+    let path = directory.path();
+    let json = rides(&well(track(path, &["ride.csv", "--format", "json"])));
+    let csv = well(track(path, &["ride.csv", "--format", "csv"]));
+    let markdown = well(track(path, &["ride.csv", "--format", "markdown"]));
+    let table = well(track(path, &["ride.csv"]));
+    let lines: Vec<&str> = csv.lines().collect();
+    let columns: Vec<&str> = lines[0].split(',').collect();
+    assert_eq!((lines.len(), markdown.lines().count()), (3, 4));
+    for (place, ride) in json.iter().enumerate() {
+        let cells: Vec<&str> = lines[place + 1].split(',').collect();
+        for name in [
+            "start",
+            "stop",
+            "distance",
+            "deviation",
+            "closing_speed",
+            "speed",
+        ] {
+            let column = columns.iter().position(|it| *it == name).unwrap();
+            assert_eq!(cells[column], ride[name].to_string(), "{name}");
+            assert!(markdown.contains(&ride[name].to_string()), "{name}");
+        }
+        let distance = format!(" {:.2} ", ride["distance"].as_f64().unwrap());
+        assert!(table.contains(&distance), "{table}");
+    }
+}
+
+#[test]
+fn draws_a_picture() {
+    let directory = recorded(&[]);
+    let path = directory.path();
+    for name in ["track.png", "track.svg"] {
+        let out = well(track(path, &["ride.csv", "--figure", name]));
+        assert!(out.contains("distance") && path.join(name).exists());
+    }
+    let before = fs::read(path.join("track.png")).unwrap();
+    for (name, message) in [
+        ("track.png", "already exists"),
+        ("track.pdf", "must end in .png or .svg"),
+        ("nowhere/track.png", "no folder nowhere"),
+    ] {
+        let (code, out, err) = track(path, &["ride.csv", "--figure", name]);
+        assert_eq!((code, out.as_str()), (2, ""), "{name}");
+        assert!(err.contains(message), "{err}");
+    }
+    assert_eq!(fs::read(path.join("track.png")).unwrap(), before);
+    let again = ["ride.csv", "--figure", "track.png", "--force"];
+    well(track(path, &again));
+    assert_eq!(fs::read(path.join("track.png")).unwrap(), before);
+}
+
+/// The part of a record between two times: what is not in it is said.
+#[test]
+fn a_trip_that_is_cut_is_said_to_be() {
+    let directory = recorded(&[]);
+    let path = directory.path();
+    let part = |from: &str, to: &str| {
+        let part = ["ride.csv", "--from", from, "--to", to, "--format", "json"];
+        let (code, out, err) = track(path, &part);
+        assert_eq!(code, 0, "{err}");
+        (rides(&out)[0].clone(), err)
+    };
+    let (ride, err) = part("12", "34");
+    assert!(
+        ride["distance"].is_null() && ride["stop"].is_f64(),
+        "{ride}"
+    );
+    assert!(
+        err.contains("ride 1: no distance, the record does not hold its start"),
+        "{err}"
+    );
+    let (ride, err) = part("0", "20");
+    assert!(
+        ride["stop"].is_null() && ride["deviation"].is_f64(),
+        "{ride}"
+    );
+    let distance = ride["distance"].as_f64().unwrap();
+    assert!((6.0..9.5).contains(&distance), "{ride}");
+    assert!(
+        err.contains("ride 1: the record does not hold its stop"),
+        "{err}"
+    );
+}
+
+/// A first-order high pass of half a second, as many phones have.
+#[test]
+fn behind_a_high_pass_nothing_is_measured() {
+    let directory = recorded(&["--speed", "1.6", "--acceleration", "1", "--jerk", "1"]);
+    let path = directory.path();
+    let text = fs::read_to_string(path.join("ride.csv")).unwrap();
+    let mut low = 0.0;
+    let rows = text.lines().skip(1).map(|line| {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        let filtered = cells[3] - low;
+        low += filtered * 0.02;
+        format!("{},{filtered}\n", cells[0])
+    });
+    let rows: String = rows.collect();
+    fs::write(
+        path.join("filtered.csv"),
+        "time,acceleration\n".to_owned() + &rows,
+    )
+    .unwrap();
+    let (code, out, err) = track(path, &["filtered.csv", "--format", "json"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(
+        rides(&out).iter().all(|ride| ride["distance"].is_null()),
+        "{out}"
+    );
+    assert!(err.contains("high-pass filter"), "{err}");
+}
+
+/// 18 mg a step: the deviation is widened, aloud.
+#[test]
+fn a_coarse_sensor_is_widened() {
+    let speed = ["--speed", "1.6", "--acceleration", "1.1", "--jerk", "2"];
+    let deviation = |step: &[&str]| {
+        let directory = recorded(&[&speed[..], step].concat());
+        let (code, out, err) = track(directory.path(), &["ride.csv", "--format", "json"]);
+        assert_eq!(code, 0, "{err}");
+        let rides = rides(&out);
+        let errors = rides.iter().zip(truth(directory.path()));
+        for (ride, truth) in errors {
+            let number = |name: &str| ride[name].as_f64().unwrap();
+            assert!(
+                (number("distance") - truth).abs() < 3.0 * number("deviation"),
+                "{ride}"
+            );
+        }
+        (rides[0]["deviation"].as_f64().unwrap(), err)
+    };
+    let (fine, _) = deviation(&[]);
+    let (coarse, err) = deviation(&["--step", "0.1765"]);
+    assert!(coarse > 4.0 * fine, "{coarse} {fine}");
+    assert!(err.contains("coarser than its noise"), "{err}");
+}
+
+/// A record that holds no ride, and one that is none.
+#[test]
+fn says_what_it_cannot_use() {
+    let directory = recorded(&["--still", "--rest", "20"]);
+    let path = directory.path();
+    let (code, out, _) = track(path, &["ride.csv"]);
+    assert_eq!(code, 0);
+    assert!(out.contains("no rides"), "{out}");
+    let (code, out, _) = track(path, &["ride.csv", "--format", "csv"]);
+    assert_eq!((code, out.lines().count()), (0, 1), "{out}");
+    fs::write(path.join("empty.csv"), "").unwrap();
+    fs::write(
+        path.join("short.csv"),
+        "time,acceleration\n0,0.1\n0.01,0.2\n",
+    )
+    .unwrap();
+    for (name, message) in [
+        ("nowhere.csv", "nowhere.csv"),
+        ("empty.csv", "empty"),
+        ("short.csv", "must last at least 2 s"),
+    ] {
+        let (code, out, err) = track(path, &[name]);
+        assert_eq!((code, out.as_str()), (2, ""), "{name}");
+        assert!(err.contains(message), "{name}: {err}");
+    }
+}
