@@ -44,6 +44,7 @@ impl<T: AsRef<[f64]> + AsMut<[f64]> + Clone> Storage for T {}
 
 impl<X: Storage, P: Storage> Estimate<X, P> {
     /// Moves the estimate on: x ← F x + u, P ← F P Fᵀ + Q.
+    #[inline]
     pub fn predict(&mut self, transition: &P, input: &X, noise: &P) {
         let n = self.mean.as_ref().len();
         let f = transition.as_ref();
@@ -53,8 +54,9 @@ impl<X: Storage, P: Storage> Estimate<X, P> {
         }
         self.mean = mean;
         // F (F P)ᵀ = F P Fᵀ, as P is symmetric.
-        let moved = product_transposed(n, f, &self.covariance);
-        self.covariance = product_transposed(n, f, &moved);
+        let mut moved = product(n, f, &self.covariance);
+        transpose(n, moved.as_mut());
+        self.covariance = product(n, f, &moved);
         for (p, q) in self.covariance.as_mut().iter_mut().zip(noise.as_ref()) {
             *p += q;
         }
@@ -62,19 +64,17 @@ impl<X: Storage, P: Storage> Estimate<X, P> {
     }
 
     /// The innovation of a measurement z = H x + v with var v = R, which stays unused.
+    #[inline]
     pub fn innovation(&self, row: &X, measured: f64, variance: f64) -> Innovation {
-        let spread = self.spread(row);
-        Innovation {
-            value: measured - dot(row.as_ref(), self.mean.as_ref()),
-            variance: dot(row.as_ref(), spread.as_ref()) + variance,
-        }
+        self.innovation_of(row, &self.spread(row), measured, variance)
     }
 
     /// Takes a measurement z = H x + v with var v = R into the estimate; S must not be 0.
+    #[inline]
     pub fn update(&mut self, row: &X, measured: f64, variance: f64) -> Innovation {
-        let innovation = self.innovation(row, measured, variance);
-        let mut gain = self.spread(row);
-        let spread = gain.clone();
+        let spread = self.spread(row);
+        let innovation = self.innovation_of(row, &spread, measured, variance);
+        let mut gain = spread.clone();
         for k in gain.as_mut() {
             *k /= innovation.variance;
         }
@@ -98,7 +98,16 @@ impl<X: Storage, P: Storage> Estimate<X, P> {
         innovation
     }
 
+    #[inline]
+    fn innovation_of(&self, row: &X, spread: &X, measured: f64, variance: f64) -> Innovation {
+        Innovation {
+            value: measured - dot(row.as_ref(), self.mean.as_ref()),
+            variance: dot(row.as_ref(), spread.as_ref()) + variance,
+        }
+    }
+
     /// P Hᵀ.
+    #[inline]
     fn spread(&self, row: &X) -> X {
         let mut spread = row.clone();
         let n = row.as_ref().len();
@@ -110,24 +119,37 @@ impl<X: Storage, P: Storage> Estimate<X, P> {
     }
 }
 
+#[inline]
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// (A B)ᵀ of two matrices of n × n: the element at (j, i) is Σ a_ik b_kj.
-fn product_transposed<P: Storage>(n: usize, a: &[f64], b: &P) -> P {
+/// A B of two matrices of n × n. Transitions are mostly zeros, which cost nothing.
+#[inline]
+fn product<P: Storage>(n: usize, a: &[f64], b: &P) -> P {
     let mut product = b.clone();
-    for j in 0..n {
-        for i in 0..n {
-            let column = b.as_ref()[j..].iter().step_by(n);
-            let sum = a[i * n..][..n].iter().zip(column).map(|(a, b)| a * b).sum();
-            product.as_mut()[j * n + i] = sum;
+    product.as_mut().fill(0.0);
+    let rows = product.as_mut().chunks_exact_mut(n);
+    for (row, a) in rows.zip(a.chunks_exact(n)) {
+        let terms = a.iter().zip(b.as_ref().chunks_exact(n));
+        for (a, b) in terms.filter(|(a, _)| **a != 0.0) {
+            row.iter_mut().zip(b).for_each(|(sum, b)| *sum += a * b);
         }
     }
     product
 }
 
+#[inline]
+fn transpose(n: usize, p: &mut [f64]) {
+    for i in 0..n {
+        for j in 0..i {
+            p.swap(i * n + j, j * n + i);
+        }
+    }
+}
+
 /// Rounding leaves the two halves of a covariance apart; each takes their mean.
+#[inline]
 fn symmetrise(n: usize, p: &mut [f64]) {
     for i in 0..n {
         for j in 0..i {

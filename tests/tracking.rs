@@ -34,7 +34,8 @@ fn tracked(path: &Path, settings: TrackSettings) -> Vec<Tracked> {
     let recording = Recording::open(path, &Reading::default()).unwrap();
     let design = Settings::default().at(recording.rate()).unwrap();
     let detection = Detection::of(&design, recording.samples(), None, None);
-    Track::of(recording.samples(), None, &detection, settings).trips
+    let step = recording.facts().coarse_step();
+    Track::of(recording.samples(), step, &detection, settings).trips
 }
 
 /// The rows of the table, and the trip of each.

@@ -7,7 +7,6 @@ use super::rows::{self, Format};
 use super::{CommandResult, Failure, print, table, warn};
 use clap::Args;
 use liftsim::figure::{self, FigureError};
-use liftsim::recording::Recording;
 use liftsim::track::{Track, TrackReport, TrackSettings};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -99,15 +98,14 @@ impl TrackCommand {
 }
 
 fn track(rides: &Rides) -> Track {
-    let samples = rides.recording.samples();
-    let step = coarse_step(&rides.recording);
-    Track::of(samples, step, &rides.detection, TrackSettings::default())
-}
-
-/// The sensor's step, where it is so coarse that most samples repeat the one before.
-fn coarse_step(recording: &Recording) -> Option<f64> {
-    let facts = recording.facts();
-    facts.quantum.filter(|_| facts.repeats > 0.5)
+    let recording = &rides.recording;
+    let step = recording.facts().coarse_step();
+    Track::of(
+        recording.samples(),
+        step,
+        &rides.detection,
+        TrackSettings::default(),
+    )
 }
 
 fn text(report: &TrackReport) -> String {

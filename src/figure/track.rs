@@ -116,6 +116,6 @@ fn entries() -> [Entry; 3] {
     [
         shade("known to stand", Update::Standing),
         shade("known to move uniformly", Update::Uniform),
-        Entry::new("two deviations", Style::of(1).faded(0.3), Key::Shade),
+        Entry::new("± 2 deviations", Style::of(1).faded(0.3), Key::Shade),
     ]
 }

