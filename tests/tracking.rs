@@ -13,7 +13,10 @@ use std::path::{Path, PathBuf};
 
 /// The rides that must be within the tolerance of the table; of the others the record is too short, too coarse or too
 /// shaken, and their deviation must cover it.
-const MEASURED: [&str; 6] = [
+const MEASURED: [&str; 9] = [
+    "creep_0_06.csv",
+    "creep_0_10.csv",
+    "creep_0_19.csv",
     "floor_up.csv",
     "floor_up_then_down.csv",
     "iphone12mini_up.csv",
@@ -119,7 +122,7 @@ fn how_much_each_setting_matters() {
             let moved = moved.filter_map(|(one, other)| Some((one.as_ref()? - other?).abs()));
             let most = moved.fold(0.0, f64::max);
             println!("{name:12} × {factor}: {most:.3} m at most");
-            assert!(most < 0.5, "{name} × {factor}: {most}");
+            assert!(most < 1.0, "{name} × {factor}: {most}");
         }
     }
 }

@@ -22,6 +22,9 @@ pub struct Trip {
     pub braking: Option<f64>,
     /// When the braking ended and the cage crept on to the landing, if it did.
     pub levelling: Option<f64>,
+    /// When the last change of its speed began: the braking, or after levelling the landing.
+    #[serde(skip)]
+    pub landing: Option<f64>,
     pub stop: Option<f64>,
     /// The highest speed, m/s.
     pub speed: f64,
@@ -142,6 +145,7 @@ pub(super) fn trips(explanation: &Explanation, decisions: &Decisions) -> Vec<Tri
             inertial: trip.inertial,
             braking: trip.braking,
             levelling: trip.levelling,
+            landing: trip.stop.map(|_| pulse(trip.changes.len() - 1).from),
             stop: trip.stop,
             speed: trip.speed,
             ended: match trip.stop {

@@ -12,7 +12,7 @@
 //! integration.
 //!
 //! On simulated trips of 3 to 27 m (MPU-6050, 1.6 m/s) the first has an RMS error of 1.05 to 1.27 times the bound, with
-//! levelling too. The second is as good without levelling; a creep of 0.1 m/s it takes for a stop one time in ten, since a
+//! levelling too. The second is as good without levelling; a creep of 0.08 m/s it takes for a stop one time in six, since a
 //! gain's error leaves as much.
 //!
 //! # What the deviation holds

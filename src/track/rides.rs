@@ -44,7 +44,10 @@ impl Surroundings {
         let uniform = within(trip.inertial, trip.braking.unwrap_or(stop));
         Some(Phases {
             before: self.rest_before(start, settings),
-            uniform: [uniform, within(trip.levelling, stop)],
+            uniform: [
+                uniform,
+                within(trip.levelling, trip.landing.unwrap_or(stop)),
+            ],
             after,
         })
     }
