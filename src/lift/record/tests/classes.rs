@@ -104,7 +104,7 @@ fn ways_of_driving() {
         for (cage, _) in plans(class) {
             for of in &cage.journeys {
                 let within = |change: &&Pulse| (of.start..of.uniform).contains(&change.from);
-                let last = cage.motion.iter().filter(within).next_back().unwrap();
+                let last = cage.motion.iter().rfind(within).unwrap();
                 let before = cage.speed_at(last.from).abs() / of.speed;
                 assert!(
                     before == 0.0 || share.contains(&before),
