@@ -5,6 +5,9 @@
 use super::cost::{self, Prior};
 use super::pulse::{FARTHEST_SWING, LONGEST_PAUSE, LONGEST_SWING, Pulse};
 
+/// The share of its top speed to which a motion that crept gains speed again.
+const RESTARTED: f64 = 0.3;
+
 /// A pulse in one direction of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Turned {
@@ -106,12 +109,21 @@ impl Progress {
         }
         changed.top = changed.top.max(changed.speed.abs());
         changed.cost += self.creeping(prior, pulses[0].from);
-        if self.is_slow && !changed.crawls(prior) {
+        if self.is_slow && changed.restarts(prior) {
             changed.cost += cost::RESTART;
         } else if total * self.speed > 0.0 {
             changed.cost += self.stage(prior, changed.top, total.abs(), pause);
         }
         changed
+    }
+
+    /// Whether it moves on from a stand. A lift may level faster than it braked to, unless it is known to speed up in stages.
+    fn restarts(&self, prior: &Prior) -> bool {
+        if prior.in_stages {
+            !self.crawls(prior)
+        } else {
+            self.speed.abs() > RESTARTED * self.top
+        }
     }
 
     /// Whether it moves at hardly any speed.

@@ -28,8 +28,8 @@ pub(super) struct Hypothesis {
     pub is_across: bool,
     /// Whether it goes back to a motion that was not seen to begin.
     is_guess: bool,
-    /// Whether the lift has sped up in stages before.
-    in_stages: bool,
+    /// The speed from which the lift has sped up again before, m/s; infinite where that may have been another start.
+    habit: Option<f64>,
     /// Whether the rest began with a shock.
     pub is_jam: bool,
     /// What it has cost to take pulses of the motion, or the one before the rest, for something else.
@@ -47,7 +47,7 @@ impl Hypothesis {
             is_soft: false,
             is_across: false,
             is_guess: false,
-            in_stages: false,
+            habit: None,
             is_jam: false,
             ignored: 0.0,
             braking: None,
@@ -178,8 +178,13 @@ impl Hypothesis {
             }
             (Cage::Moves(progress), _) => {
                 let is_soft = pulses.iter().any(|it| known.is_soft(it));
-                let crept_out = prices::crept_out(&progress, total, pulses[0].from);
-                let soft = prices::unlike(self.is_soft, is_soft, crept_out);
+                let soft = if self.is_soft && !is_soft && Self::is_stage(&progress, total, pulses) {
+                    prices::NOT_SOFT
+                } else if self.is_soft && self.habit.is_some() {
+                    0.0
+                } else {
+                    prices::unlike(self.is_soft, is_soft)
+                };
                 let before = Progress {
                     cost: self.cost + soft + self.again(&progress, total),
                     ..progress
@@ -236,21 +241,41 @@ impl Hypothesis {
         if onwards.is_slow {
             onwards.cost += prices::levelling(&closing, &onwards);
         }
-        let gained = onwards.speed.abs() - before.speed.abs();
-        let is_stage = gained > cost::LEAST_STAGE * onwards.top;
+        let total = onwards.speed - before.speed;
+        let is_stage =
+            total.abs() > cost::LEAST_STAGE * onwards.top && Self::is_stage(before, total, pulses);
+        // One as strong as the start may be another start, and back to the same speed is a stop.
+        let tolerance = closing.tolerance(onwards.top, onwards.variance);
+        let is_doubled = !before.creeps && (total - before.speed).abs() < 2.0 * tolerance;
+        let is_braking = onwards.speed.abs() < before.speed.abs();
+        // That it brakes to the speed at which it crept out is hardly chance either.
+        if let Some(habit) = self.habit.filter(|_| is_braking) {
+            let error = cost::closing(onwards.speed.abs() - habit, tolerance);
+            onwards.cost += (error + prices::chance(tolerance)).min(0.0);
+        }
         Self {
-            in_stages: self.in_stages || is_stage,
-            is_soft: self.is_soft && !is_stage,
+            habit: if !is_stage {
+                self.habit
+            } else if is_doubled {
+                Some(f64::INFINITY)
+            } else {
+                Some(before.speed.abs())
+            },
             cage: Cage::Moves(onwards),
             cost: onwards.cost,
             ..*self
         }
     }
 
+    /// Whether pulses speed a cage up that has kept its speed before.
+    fn is_stage(before: &Progress, change: f64, pulses: &[Turned]) -> bool {
+        change * before.speed > 0.0 && pulses[0].from - before.since > prices::KEPT
+    }
+
     /// Another motion or rest of the same lift, which keeps its habit.
     fn then(&self, next: Self) -> Self {
         Self {
-            in_stages: self.in_stages,
+            habit: self.habit,
             ..next
         }
     }
@@ -258,14 +283,14 @@ impl Hypothesis {
     /// What is known of the lift, with its habit.
     fn prior(&self, known: &Known) -> Prior {
         Prior {
-            in_stages: self.in_stages,
+            in_stages: self.habit.is_some(),
             ..known.prior
         }
     }
 
     /// What a change of speed costs where the cage levelled.
     fn again(&self, progress: &Progress, change: f64) -> f64 {
-        if self.in_stages {
+        if self.habit.is_some() {
             0.0
         } else {
             prices::again(progress, change)
@@ -353,6 +378,6 @@ impl Hypothesis {
             }
             _ => false,
         };
-        does_the_same && self.in_stages == other.in_stages
+        does_the_same && self.habit.is_some() == other.habit.is_some()
     }
 }

@@ -15,8 +15,9 @@ const SLOW: f64 = 6.0;
 const SOFT: (f64, f64) = (2.0, 1.2);
 const SOFT_COST: f64 = 2.5;
 
-/// A cage that creeps out of its floor keeps its speed for so long, s.
-const KEPT: f64 = 1.0;
+/// A cage that creeps out of its floor keeps its speed for so long, s; a soft start that turns out to be that was none.
+pub const KEPT: f64 = 1.0;
+pub const NOT_SOFT: f64 = -SOFT_COST;
 
 /// A lift that starts softly and brakes hard, or the other way round, is rarer still.
 const UNLIKE: f64 = 2.0;
@@ -133,16 +134,10 @@ pub fn soft(is_soft: bool) -> f64 {
     if is_soft { SOFT_COST } else { 0.0 }
 }
 
-/// Whether a cage gains speed from a time on, s, after it has kept its own: it has crept out of its floor.
-pub fn crept_out(motion: &Progress, change: f64, from: f64) -> bool {
-    change * motion.speed > 0.0 && from - motion.since > KEPT
-}
-
-/// A change of speed that is as soft as the start of the motion, or not. To creep out of a floor is no soft start.
-pub fn unlike(start_is_soft: bool, is_soft: bool, crept_out: bool) -> f64 {
+/// A change of speed that is as soft as the start of the motion, or not.
+pub fn unlike(start_is_soft: bool, is_soft: bool) -> f64 {
     match (start_is_soft, is_soft) {
         (false, true) => SOFT_COST + UNLIKE,
-        (true, false) if crept_out => -SOFT_COST,
         (true, false) => UNLIKE,
         _ => 0.0,
     }

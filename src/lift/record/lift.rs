@@ -69,13 +69,14 @@ impl Lift {
             ..drive
         };
         let most = ceil((12.0 * drive.speed).max(2.0)) as usize;
+        let levelling = (
+            draws.within(ranges.levelling),
+            draws.within(ranges.levelling_time),
+        );
         Self {
             drive,
             braking,
-            levelling: (
-                draws.within(ranges.levelling),
-                draws.within(ranges.levelling_time),
-            ),
+            levelling,
             stop: Drive {
                 acceleration: draws.within([0.2, 0.6]),
                 jerk: draws.within([1.0, 4.0]),
@@ -87,7 +88,7 @@ impl Lift {
             },
             habit: match class {
                 Class::TwoStage => Habit::CreepsOut {
-                    speed: draws.within([0.2, 0.5]),
+                    speed: levelling.0,
                     acceleration: draws.within([0.1, 0.6]),
                     seconds: draws.within([2.0, 8.0]),
                 },
