@@ -6,6 +6,7 @@ mod check;
 mod completions;
 mod detect;
 mod figures;
+mod floors;
 mod found;
 mod keys;
 mod man;

@@ -1,10 +1,12 @@
 //! `liftsim track RECORDING`: how far each ride of a recording went, and how well that is known.
 
+use super::floors::{self, Building, FloorArguments};
 use super::found::{self, cell};
 use super::output::Output;
 use super::rides::{RideArguments, Rides};
 use super::rows::{self, Format};
 use super::{CommandResult, Failure, print, table, warn};
+use anyhow::anyhow;
 use clap::Args;
 use liftsim::figure::{self, FigureError};
 use liftsim::track::{Track, TrackReport, TrackSettings};
@@ -20,10 +22,14 @@ use std::process::ExitCode;
 /// `closing` is the speed that is left where the cage stands. Where it is too much for the noise the sensor's gain or tilt
 /// was wrong, and the deviation is widened, aloud. The deviation does not hold an error of the gain that is the same in
 /// all of the record: 1 % of it is 1 % of every distance. Behind a high-pass filter nothing is measured.
+///
+/// With `--floors` or `--map` every stop is compared with the floors: at which the car stands, how far off, and an alarm
+/// where that is too much. The trip after it judges it again.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     liftsim simulate --out ride.csv && liftsim track ride.csv --figure track.png\n  \
-    liftsim track log.csv --time t --acceleration az --unit mg --format csv > rides.csv")]
+    liftsim track log.csv --time t --acceleration az --unit mg --format csv > rides.csv\n  \
+    liftsim track ride.csv --floors 0,12 --at 0 --map lift.json")]
 pub struct TrackCommand {
     /// Print it as this.
     #[arg(long, value_name = "FORMAT", value_enum, default_value_t = Format::Table)]
@@ -34,6 +40,8 @@ pub struct TrackCommand {
     /// Replace files that exist.
     #[arg(long)]
     force: bool,
+    #[command(flatten)]
+    floors: FloorArguments,
     #[command(flatten)]
     rides: RideArguments,
 }
@@ -56,10 +64,15 @@ impl TrackCommand {
     pub fn run(self) -> CommandResult {
         let picture = |path: &PathBuf| Output::picture(path, self.force);
         let figure = self.figure.as_ref().map(picture).transpose()?;
-        self.rides.apart(self.figure.iter())?;
+        let outputs = self.figure.iter().chain(&self.floors.map);
+        self.rides.apart(outputs)?;
+        let mut building = self.floors.building(self.force)?;
         let rides = self.rides.find()?;
         rides.warn();
-        let track = track(&rides);
+        let mut track = track(&rides);
+        if let Some(building) = &mut building {
+            self.land(&mut track, &rides, building)?;
+        }
         for warning in track.warnings() {
             warn(warning);
         }
@@ -71,9 +84,27 @@ impl TrackCommand {
             detection,
             ..
         } = &rides;
-        let report = TrackReport::new(self.rides.name(), recording, detection, &track);
+        let floors = building.as_ref().map(|building| &building.floors);
+        let report = TrackReport::new(self.rides.name(), recording, detection, &track, floors);
         print(&self.printed(&report))?;
+        building.map_or(Ok(()), |building| building.save())?;
         Ok(ExitCode::SUCCESS)
+    }
+
+    fn land(
+        &self,
+        track: &mut Track,
+        rides: &Rides,
+        building: &mut Building,
+    ) -> Result<(), Failure> {
+        if rides.detection.filter.time_constant().is_some() {
+            return Err(self.rides.refused(anyhow!(
+                "behind a high-pass filter no floors are found (record the raw accelerometer, with g, or leave out \
+                 --floors and --map)"
+            )));
+        }
+        track.land(&rides.detection, &mut building.floors);
+        Ok(())
     }
 
     fn draw(&self, figure: Output, rides: &Rides, track: &Track) -> Result<(), Failure> {
@@ -91,8 +122,8 @@ impl TrackCommand {
         match self.format {
             Format::Table => text(report),
             Format::Json => report.json(),
-            Format::Csv => rows::csv(&TrackReport::columns(), &report.rows()),
-            Format::Markdown => rows::markdown(&TrackReport::columns(), &report.rows()),
+            Format::Csv => rows::csv(&report.columns(), &report.rows()),
+            Format::Markdown => rows::markdown(&report.columns(), &report.rows()),
         }
     }
 }
@@ -112,6 +143,7 @@ fn text(report: &TrackReport) -> String {
     [
         found::recording(&report.recording),
         trips(report),
+        floors::text(report),
         found::undecided(report.undecided),
         found::events(report.events),
     ]

@@ -66,6 +66,8 @@ enum Problem {
     Damaged(serde_json::Error),
     #[error("damaged: {0}")]
     Map(#[from] MapError),
+    #[error("{0}")]
+    Start(MapError),
 }
 
 impl Floors {
@@ -140,7 +142,10 @@ impl Floors {
             commissioned: map.commissioned,
             recent: map.recent,
         };
-        Ok(Self::known(settings, &known, start)?)
+        Self::known(settings, &known, start).map_err(|error| match error {
+            MapError::Start { .. } => Problem::Start(error),
+            error => Problem::Map(error),
+        })
     }
 
     /// The text of the file.

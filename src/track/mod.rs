@@ -30,6 +30,7 @@ mod course;
 mod filter;
 pub mod floors;
 mod integrals;
+mod landing;
 mod level;
 mod live;
 pub mod map;

@@ -2,6 +2,7 @@
 
 use super::course::Course;
 use super::filter::Uncertain;
+use super::floors::Stop;
 use super::level::Level;
 use super::phases::Phases;
 use super::rides::Surroundings;
@@ -28,6 +29,9 @@ pub struct Tracked {
     pub closing_speed: Option<f64>,
     /// What that adds to the deviation where it is too much for the noise, m.
     pub widened: Option<f64>,
+    /// The stop after it, where floors are known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub landing: Option<Stop>,
     /// Why there is no distance.
     #[serde(skip)]
     pub unknown: Option<Unknown>,
@@ -157,6 +161,7 @@ impl Tracked {
             deviation: Some(travelled.distance.variance.sqrt()),
             closing_speed: travelled.closing_speed,
             widened: (travelled.widened > 0.0).then_some(travelled.widened),
+            landing: None,
             unknown: None,
         }
     }
@@ -168,6 +173,7 @@ impl Tracked {
             deviation: None,
             closing_speed: None,
             widened: None,
+            landing: None,
             unknown: Some(unknown),
         }
     }

@@ -2,6 +2,8 @@
 
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
+use super::floors::{Floor, Floors};
+use super::landing;
 use super::level::Level;
 use super::record::{Track, Tracked};
 use super::settings::TrackSettings;
@@ -18,6 +20,9 @@ pub struct TrackReport<'a> {
     pub settings: &'a TrackSettings,
     /// The sensor as the record shows it.
     pub level: Level,
+    /// The floors after the trips, from the lowest up, where any are known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub floors: Option<Vec<Floor>>,
     pub rides: &'a [Tracked],
     pub undecided: &'a [Undecided],
     pub events: &'a [Event],
@@ -30,6 +35,7 @@ impl<'a> TrackReport<'a> {
         recording: &Recording,
         detection: &'a Detection,
         track: &'a Track,
+        floors: Option<&Floors>,
     ) -> Self {
         let of_recording = recording.warnings().iter().map(ToString::to_string);
         let of_detection = detection.warnings(recording.rate()).into_iter();
@@ -42,6 +48,7 @@ impl<'a> TrackReport<'a> {
             recording: Recorded::of(file, recording, detection),
             settings: &track.settings,
             level: track.level,
+            floors: floors.map(Floors::floors),
             rides: &track.trips,
             undecided: &detection.undecided,
             events: &detection.events,
@@ -54,14 +61,16 @@ impl<'a> TrackReport<'a> {
     }
 
     /// The names of the columns of [`TrackReport::rows`].
-    pub fn columns() -> Vec<String> {
+    pub fn columns(&self) -> Vec<String> {
         let measured = MEASURED.iter().map(|name| (*name).to_owned());
+        let landing = self.floors.iter().flat_map(|_| landing::columns());
+        let measured = measured.chain(landing);
         columns().into_iter().chain(measured).collect()
     }
 
     /// A row for every trip.
     pub fn rows(&self) -> Vec<Vec<String>> {
-        let columns = Self::columns();
+        let columns = self.columns();
         let row = |ride: &Tracked| {
             columns
                 .iter()
@@ -80,7 +89,10 @@ impl Tracked {
             "deviation" => self.deviation,
             "closing_speed" => self.closing_speed,
             "widened" => self.widened,
-            _ => return self.trip.column(name),
+            _ => {
+                let landing = self.landing_column(name);
+                return landing.unwrap_or_else(|| self.trip.column(name));
+            }
         };
         measured.into()
     }

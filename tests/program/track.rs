@@ -193,6 +193,9 @@ fn behind_a_high_pass_nothing_is_measured() {
         "{out}"
     );
     assert!(err.contains("high-pass filter"), "{err}");
+    let (code, out, err) = track(path, &["filtered.csv", "--floors", "0,12"]);
+    assert_eq!((code, out.as_str()), (2, ""));
+    assert!(err.contains("no floors are found (record the raw"), "{err}");
 }
 
 /// 18 mg a step: the deviation is widened, aloud.
@@ -245,4 +248,178 @@ fn says_what_it_cannot_use() {
         assert_eq!((code, out.as_str()), (2, ""), "{name}");
         assert!(err.contains(message), "{name}: {err}");
     }
+}
+
+/// Three floors 3.2 m apart and one 4 m above: up by 1, 2 and 1 floors, and down to the lowest.
+const BUILDING: [&str; 12] = [
+    "--speed",
+    "1.6",
+    "--acceleration",
+    "1",
+    "--trip",
+    "up:3.2",
+    "--trip",
+    "up:3.2",
+    "--trip",
+    "up:4",
+    "--trip",
+    "down:10.4",
+];
+
+#[test]
+fn given_floors_are_found() {
+    let directory = recorded(&BUILDING);
+    let path = directory.path();
+    let bare = well(track(path, &["ride.csv", "--format", "csv"]));
+    for start in [&["--at", "0"][..], &[]] {
+        let flags = [&["ride.csv", "--floors", "-3.2,0,3.2,7.2"], start].concat();
+        let run = |format: &str| well(track(path, &[&flags[..], &["--format", format]].concat()));
+        let report: Value = serde_json::from_str(&run("json")).unwrap();
+        assert_eq!(report["floors"].as_array().unwrap().len(), 4);
+        let (csv, table) = (run("csv"), run("table"));
+        assert!(!table.contains("alarm,"), "{table}");
+        let lines: Vec<&str> = csv.lines().collect();
+        let columns: Vec<&str> = lines[0].split(',').collect();
+        for (place, line) in bare.lines().enumerate() {
+            assert!(lines[place].starts_with(line), "{csv}");
+        }
+        let rides = report["rides"].as_array().unwrap();
+        assert_eq!(rides.len(), 4);
+        for (place, (ride, floor)) in rides.iter().zip([1, 2, 3, 0]).enumerate() {
+            let landing = &ride["landing"];
+            let cells: Vec<&str> = lines[place + 1].split(',').collect();
+            let cell = |name: &str| cells[columns.iter().position(|it| *it == name).unwrap()];
+            for (name, value) in [
+                ("landing_position", &landing["position"]),
+                ("landing_judgement_offset", &landing["judgement"]["offset"]),
+                ("landing_judgement_xi", &landing["judgement"]["xi"]),
+            ] {
+                assert_eq!(cell(name), value.to_string(), "{name}");
+            }
+            // Of a car that may be anywhere the first trips do not say which floors they join.
+            if place == 3 || !start.is_empty() {
+                assert_eq!(landing["floor"], floor, "{start:?}: {ride}");
+                assert!(landing["judgement"]["fault"].is_null(), "{ride}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_stop_off_every_floor_is_an_alarm() {
+    for (trips, fault, words) in [
+        (
+            ["up:4.9", "down:4.9"],
+            "between_floors",
+            "alarm, between floors: ",
+        ),
+        (["up:9.2", "down:9.2"], "overrun", "alarm, above the top: "),
+    ] {
+        let trips = [
+            "--trip",
+            trips[0],
+            "--trip",
+            trips[1],
+            "--speed",
+            "1.6",
+            "--acceleration",
+            "1",
+        ];
+        let directory = recorded(&trips);
+        let flags = ["ride.csv", "--floors", "0,3.2,6.4,8.4", "--at", "0"];
+        let out = well(track(directory.path(), &flags));
+        assert!(out.contains(&format!("ride 1: {words}")), "{out}");
+        assert!(
+            out.contains(&format!("ride 1, judged again by ride 2: {words}")),
+            "{out}"
+        );
+        let rides = rides(&well(track(
+            directory.path(),
+            &[&flags[..], &["--format", "json"]].concat(),
+        )));
+        assert_eq!(rides[0]["landing"]["judgement"]["fault"], fault);
+        assert!(rides[0]["landing"]["floor"].is_null() && rides[1]["landing"]["floor"] == 0);
+    }
+}
+
+/// Swept by the first record, used by the second.
+#[test]
+fn a_map_is_kept() {
+    let directory = recorded(&BUILDING);
+    let path = directory.path();
+    let run = |more: &[&str]| {
+        let flags = ["ride.csv", "--map", "lift.json", "--format", "json"];
+        let report: Value =
+            serde_json::from_str(&well(track(path, &[&flags[..], more].concat()))).unwrap();
+        let floors = report["floors"].as_array().unwrap().clone();
+        let visits = floors.iter().map(|floor| floor["visits"].as_u64().unwrap());
+        (visits.sum::<u64>(), floors)
+    };
+    let (first, floors) = run(&[]);
+    for (floor, height) in floors.iter().zip([0.0, 3.2, 6.4, 10.4]) {
+        let number = |name: &str| floor[name].as_f64().unwrap();
+        assert!(
+            (number("height") - height).abs() < 5.0 * number("deviation") + 1e-9,
+            "{floor}"
+        );
+    }
+    let (second, again) = run(&["--at", "0"]);
+    assert_eq!((floors.len(), again.len(), first, second), (4, 4, 5, 9));
+    assert!(again[3]["deviation"].as_f64() < floors[3]["deviation"].as_f64());
+    let kept = fs::read(path.join("lift.json")).unwrap();
+    let given = [
+        "ride.csv",
+        "--map",
+        "lift.json",
+        "--floors",
+        "0,3.2,6.4,10.4",
+    ];
+    for (change, message) in [
+        (&kept[..kept.len() / 2], "lift.json: damaged: EOF"),
+        (b"time,acceleration\n", "lift.json: no map of floors"),
+    ] {
+        fs::write(path.join("lift.json"), change).unwrap();
+        let (code, out, err) = track(path, &given[..3]);
+        assert_eq!((code, out.as_str()), (2, ""));
+        assert!(
+            err.contains(message) && err.trim_end().ends_with(')'),
+            "{err}"
+        );
+        assert_eq!(fs::read(path.join("lift.json")).unwrap(), change);
+    }
+    let (code, _, err) = track(path, &given);
+    assert_eq!(code, 2);
+    assert!(
+        err.contains("is a map already (leave out --floors"),
+        "{err}"
+    );
+    well(track(path, &[&given[..], &["--force"]].concat()));
+    well(track(path, &given[..3]));
+}
+
+#[test]
+fn says_which_floors_it_cannot_use() {
+    let directory = recorded(&["--still", "--rest", "20"]);
+    for (flags, message) in [
+        (&["--at", "0"][..], "--at: no floors are known (give"),
+        (&["--floors", "0,3,2"], "--floors[2]: must lie more than"),
+        (&["--floors", "0"], "--floors: must be at least 2"),
+        (
+            &["--floors", "0,3", "--at", "2"],
+            "--at: must be one of 2 floors",
+        ),
+        (
+            &["--map", "lift.json", "--at", "0"],
+            "--at: there is no map yet",
+        ),
+        (&["--map", "ride.csv"], "used for something else too"),
+        (&["--map", "no/lift.json"], "no folder no"),
+    ] {
+        let (code, out, err) = track(directory.path(), &[&["ride.csv"], flags].concat());
+        assert_eq!((code, out.as_str()), (2, ""), "{flags:?}");
+        assert!(err.contains(message), "{err}");
+    }
+    let (code, _, err) = track(directory.path(), &["ride.csv", "--map", "lift.json"]);
+    assert!(code == 0 && err.contains("lift.json: not written"), "{err}");
+    assert!(!directory.path().join("lift.json").exists());
 }

@@ -86,6 +86,8 @@ pub struct Floors {
     is_swept: bool,
     /// Whether the car may be at any of several floors since a trip was lost.
     is_lost: bool,
+    /// Whether it may have been before the latest stop, whose floor nothing then judges again.
+    was_lost: bool,
     /// Each floor as it was after the first stops.
     commissioned: Option<Vec<Height>>,
 }
@@ -129,6 +131,7 @@ impl Floors {
         }
         let earlier = off.and_then(|off| self.judge_again(off));
         self.nearest = Some(floor);
+        self.was_lost = self.is_lost;
         self.is_lost &= self.hypotheses[1..].iter().any(|of| of.cost <= UNDECIDED);
         if let Some(floor) = self.best().floor {
             self.visits[floor] += 1;
@@ -218,7 +221,8 @@ impl Floors {
     /// Judges the stop before by the trip in and the trip out, if this one is at a floor: by the hypothesis that the
     /// stop before was off every floor, or by the best of all.
     fn judge_again(&self, mut off: Hypothesis) -> Option<Judgement> {
-        let before = self.nearest.filter(|_| self.settings.branches)?;
+        let is_known = self.settings.branches && !self.was_lost;
+        let before = self.nearest.filter(|_| is_known)?;
         let (floor, offset) = off.associate(&self.settings);
         let is_level = offset.xi() / self.scale.factor() <= self.settings.threshold;
         let floor = if is_level { floor } else { self.best().floor? };

@@ -44,7 +44,7 @@ pub enum MapError {
         got: f64,
         level: f64,
     },
-    #[error("start: must be one of {floors} floors, from 0 up, got {got}")]
+    #[error("at: must be one of {floors} floors, from 0 up, got {got}")]
     Start { got: usize, floors: usize },
     #[error("covariance: must be symmetric and not negative, with a row for each floor")]
     Covariance,
@@ -69,6 +69,7 @@ impl Floors {
             nearest: None,
             is_swept: false,
             is_lost: false,
+            was_lost: false,
             commissioned: None,
         })
     }
@@ -112,6 +113,7 @@ impl Floors {
         let mut floors = Self {
             is_swept: true,
             is_lost: false,
+            was_lost: false,
             settings,
             hypotheses: vec![best],
             visits: map.visits.clone(),

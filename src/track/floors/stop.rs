@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// A stop as judged at once, and the stop before it judged again.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stop {
     /// Where the car stands, m above the floor of the first stop.
     pub position: f64,
@@ -23,7 +23,7 @@ pub struct Stop {
 }
 
 /// A stop against the floor that it belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Judgement {
     /// From 0 up.
     pub floor: usize,

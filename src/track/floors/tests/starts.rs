@@ -41,7 +41,7 @@ fn no_maps() {
         ),
         (
             refusal(MENDED, &two, Start::Floor(2)),
-            "start: must be one of 2 floors, from 0 up, got 2",
+            "at: must be one of 2 floors, from 0 up, got 2",
         ),
         (
             refusal(
@@ -144,5 +144,22 @@ proptest! {
         let is_ordered = known.heights.windows(2).all(|pair| pair[1] - pair[0] > settings.level);
         let again = Floors::known(settings, &known, Start::Unknown);
         prop_assert_eq!(again.is_ok(), known.heights.len() > 1 && is_ordered, "{:?}", again.err());
+    }
+}
+
+/// A trip of one storey from an unknown floor fits two; which, the next trips tell, and nothing was wrong.
+#[test]
+fn an_unknown_start_is_no_alarm() {
+    for level in [0.02, 0.05] {
+        let heights = [0.0, 3.2, 6.4, 10.4];
+        let mut floors = Floors::given(Settings::MENDED, &heights, level, Start::Unknown).unwrap();
+        for distance in [3.19, 3.2, 3.99, -10.41, 3.2] {
+            let stop = floors.step(distance, 1e-4);
+            let judgements = [stop.judgement, stop.earlier];
+            let mut judgements = judgements.iter().flatten();
+            assert!(judgements.all(|it| it.fault.is_none()), "{stop:?}");
+        }
+        assert!(floors.step(-1.5, 1e-4).judgement.unwrap().fault.is_some());
+        assert!(floors.step(1.5, 1e-4).earlier.unwrap().fault.is_some());
     }
 }
