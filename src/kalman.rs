@@ -1,6 +1,6 @@
 //! The Kalman filter, by its textbook names.
 //!
-//! An estimate is a mean x and a covariance P, row by row. Measurements are scalars: z = H x + v, var v = R. [1]
+//! An estimate is a mean x and a covariance P, row by row. Measurements are scalars: z = H x + v, var v = R. [^1]
 //!
 //! - predict: x ← F x + u, P ← F P Fᵀ + Q
 //! - innovation: y = z − H x, S = H P Hᵀ + R
@@ -10,7 +10,7 @@
 //! The storage is an array where the size is known (`Estimate<[f64; 4], [f64; 16]>`, no allocation) and
 //! a `Vec` where it is not.
 //!
-//! [1]: Y. Bar-Shalom, X. R. Li, T. Kirubarajan, "Estimation with Applications to Tracking and Navigation",
+//! [^1]: Y. Bar-Shalom, X. R. Li, T. Kirubarajan, "Estimation with Applications to Tracking and Navigation",
 //! Wiley 2001, section 5.2.
 
 /// What is known of a state of n elements: its mean, and its covariance of n² elements, row by row.

@@ -1,4 +1,4 @@
-//! The trip filter of [1]: a Kalman filter on x = [d, s, b, s⁻], the distance since the last stop, the speed, the bias of
+//! The trip filter of [^1]: a Kalman filter on x = [d, s, b, s⁻], the distance since the last stop, the speed, the bias of
 //! the accelerometer with gravity's rest, and the speed before.
 //!
 //! - d ← d + T s + T²/2 (u − b), s ← s + T (u − b), b ← b, s⁻ ← s

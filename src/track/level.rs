@@ -1,9 +1,9 @@
 //! What the means of half seconds say of a sensor: its bias and its noise.
 //!
-//! A cage at rest and in uniform motion reads the same, so most means are near the bias, and their half-sample mode [1] does
+//! A cage at rest and in uniform motion reads the same, so most means are near the bias, and their half-sample mode [^1] does
 //! not feel the others. Noise is what neighbouring means differ by where nothing moves the sensor.
 //!
-//! [1]: D. R. Bickel, R. Frühwirth, "On a fast, robust estimator of the mode", Computational Statistics & Data Analysis
+//! [^1]: D. R. Bickel, R. Frühwirth, "On a fast, robust estimator of the mode", Computational Statistics & Data Analysis
 //! 50 (2006) 3500–3530.
 
 use crate::recording::Sample;

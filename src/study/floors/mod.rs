@@ -1,7 +1,7 @@
 //! Floor maps of simulated buildings: alarms beside floors, false alarms, position, missed trips.
 //!
 //! A trial is one building: a sweep of all floors, its trips, and what is measured after them. Trips are drawn from
-//! the stated law of their errors ([`building`]); no accelerometer record is simulated and no trip filter runs. All
+//! the stated law of their errors (`building`); no accelerometer record is simulated and no trip filter runs. All
 //! points use the same draws in a trial.
 //!
 //! | outcome | of | is |

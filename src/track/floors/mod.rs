@@ -1,4 +1,4 @@
-//! The floors of a building and where the car stands, from the distances of its trips. [1]
+//! The floors of a building and where the car stands, from the distances of its trips. [^1]
 //!
 //! The state is x = [p, q, m₁ … m_M]: the car at this stop and at the stop before, and the floors, m from the
 //! floor of the first stop up. A trip moves p ← p + δp with the variance of its distance. A stop at floor i says
@@ -6,12 +6,12 @@
 //!
 //! ξ(i) = (p − mᵢ)²/S(i), S(i) = P_pp − 2 P_pi + P_ii + σ_s²,
 //!
-//! the stop belongs to the floor of least ξ(i) in [1], or of least ξ(i) + ln S(i), the likelihood: a floor that is
+//! the stop belongs to the floor of least ξ(i) in [^1], or of least ξ(i) + ln S(i), the likelihood: a floor that is
 //! known to metres has a small ξ for every stop. Only S is divided by: P is singular, as m₁ = 0 is exact.
 //! ξ > γ_s is an alarm, and the estimate is not updated.
 //!
-//! # What [1] leaves open
-//! The car stands somewhere after an alarm too. Where the trip was measured wrongly, [1] carries its error
+//! # What [^1] leaves open
+//! The car stands somewhere after an alarm too. Where the trip was measured wrongly, [^1] carries its error
 //! along, and alarms come in pairs. So there is a hypothesis for every floor, and one for "off every floor", each
 //! with an estimate and a cost, −2 ln of its likelihood up to what all share:
 //!
@@ -43,7 +43,7 @@
 //! trips drag the map along. The map as it was after ten stops per floor is kept, and a floor's drift from it has
 //! the variance P₀ − P if it has not moved.
 //!
-//! [1]: the patent, claims 4 to 6: "lift motion detection and abnormal stops from an acceleration sensor".
+//! [^1]: the patent, claims 4 to 6: "lift motion detection and abnormal stops from an acceleration sensor".
 
 mod hypothesis;
 mod scale;
