@@ -293,14 +293,17 @@ impl Explained {
     }
 }
 
+/// The trips of one reading that are not those of another.
+fn only(these: &[Trip], those: &[Trip]) -> Vec<Trip> {
+    let only = these.iter().filter(|trip| !those.contains(trip));
+    only.cloned().collect()
+}
+
 /// The doubts between two readings of a record: where their trips differ, those that overlap together.
 fn differences(trips: &[Trip], others: &[Trip], margin: f64) -> Vec<Doubt> {
-    let only = |these: &[Trip], those: &[Trip], is_other: bool| {
-        let only = these.iter().filter(|trip| !those.contains(trip));
-        only.map(|trip| (trip.clone(), is_other))
-            .collect::<Vec<_>>()
-    };
-    let mut all = [only(trips, others, false), only(others, trips, true)].concat();
+    let here = only(trips, others).into_iter().map(|trip| (trip, false));
+    let there = only(others, trips).into_iter().map(|trip| (trip, true));
+    let mut all: Vec<(Trip, bool)> = here.chain(there).collect();
     all.sort_by_key(|(trip, _)| trip.pulses.start);
     let mut doubts: Vec<Doubt> = Vec::new();
     let mut end = 0;
@@ -332,10 +335,6 @@ fn doubts(record: &Record, lattice: &Lattice) -> Vec<Doubt> {
     for (margin, other) in lattice.others().filter(|it| it.0 <= DECIDED) {
         let (best, other) = lattice.detour(other);
         let [trips, instead] = [best, other].map(|parts| Reading::of(record, &parts).trips);
-        let only = |these: &[Trip], those: &[Trip]| {
-            let only = these.iter().filter(|trip| !those.contains(trip));
-            only.cloned().collect::<Vec<_>>()
-        };
         let doubt = Doubt {
             trips: only(&trips, &instead),
             instead: only(&instead, &trips),

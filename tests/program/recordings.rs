@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use tempfile::TempDir;
 
-type Said = (i32, String, String);
+pub(super) type Said = (i32, String, String);
 
 fn detect(directory: &Path, arguments: &[&str]) -> Said {
     let mut command = liftsim();
@@ -29,13 +29,13 @@ fn monitor(directory: &Path, arguments: &[&str], input: impl Into<Vec<u8>>) -> S
 }
 
 /// Runs a command that must succeed without warnings.
-fn well((code, out, err): Said) -> String {
+pub(super) fn well((code, out, err): Said) -> String {
     assert_eq!((code, err.as_str()), (0, ""), "{out}");
     out
 }
 
 /// A directory with a simulated ride, `ride.csv`.
-fn recorded(flags: &[&str]) -> TempDir {
+pub(super) fn recorded(flags: &[&str]) -> TempDir {
     let directory = tempfile::tempdir().unwrap();
     let mut command = liftsim();
     command.current_dir(&directory);

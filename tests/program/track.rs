@@ -1,33 +1,15 @@
 //! `liftsim track`: distances against the truth of simulated rides, its formats, and what it refuses to print bare.
 
+use super::recordings::{Said, recorded, well};
 use super::{liftsim, outcome};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
-use tempfile::TempDir;
-
-type Said = (i32, String, String);
 
 fn track(directory: &Path, arguments: &[&str]) -> Said {
     let mut command = liftsim();
     command.current_dir(directory).arg("track").args(arguments);
     outcome(&mut command)
-}
-
-/// Runs a command that must succeed without warnings.
-fn well((code, out, err): Said) -> String {
-    assert_eq!((code, err.as_str()), (0, ""), "{out}");
-    out
-}
-
-/// A directory with a simulated ride, `ride.csv`.
-fn recorded(flags: &[&str]) -> TempDir {
-    let directory = tempfile::tempdir().unwrap();
-    let mut command = liftsim();
-    command.current_dir(&directory);
-    command.args(["simulate", "--out", "ride.csv"]).args(flags);
-    well(outcome(&mut command));
-    directory
 }
 
 fn rides(out: &str) -> Vec<Value> {
