@@ -10,6 +10,7 @@ use crate::detect::Pooled;
 use crate::explain::{Explanation, Pulse};
 use crate::monitor::{Decider, Decision, Design, Reference, Verdict};
 use crate::whiten;
+use rayon::prelude::*;
 use serde::Serialize;
 use std::ops::Range;
 
@@ -124,17 +125,23 @@ impl<'a> Decisions<'a> {
     pub fn at_rest(&self, rests: &Rests) -> AtRest {
         let samples = &self.design.samples;
         let (shift, gap, scale) = (samples.shift(), samples.gap(), samples.scale());
-        let mut decider = Decider::new(self.design);
-        let mut found = AtRest::default();
-        for rest in rests.iter().filter(|_| self.reference.is_some()) {
+        let within = |rest: Range<usize>| {
+            let mut decider = Decider::new(self.design);
+            let mut found = AtRest::default();
             for end in rest.start + shift + gap + scale..=rest.end {
                 let from = end - scale - gap - shift;
                 let verdict = self.verdict(&mut decider, from..from + shift, end - scale..end);
                 found.decisions += 1;
                 found.false_alarms += u64::from(verdict.is_some_and(|verdict| verdict.moves));
             }
-        }
-        found
+            found
+        };
+        let rests: Vec<_> = rests.iter().filter(|_| self.reference.is_some()).collect();
+        let found = rests.into_par_iter().map(within);
+        found.reduce(AtRest::default, |a, b| AtRest {
+            decisions: a.decisions + b.decisions,
+            false_alarms: a.false_alarms + b.false_alarms,
+        })
     }
 
     /// Whether all uniform motions, from and to these times in s, scatter more than rest, two of them at least.

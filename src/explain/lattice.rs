@@ -10,7 +10,11 @@ use super::path::Paths;
 use super::pulse::Pulse;
 use super::stretch::Stretch;
 use super::trips::{Motion, Motions};
+use rayon::prelude::*;
 use std::ops::Range;
+
+/// So few pulses are not worth another thread.
+const FEW: usize = 64;
 
 /// What an edge says of its pulses.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,9 +144,12 @@ impl Lattice {
         let past: f64 = (0..section.pulses.len())
             .map(|pulse| stretch.passed(pulse))
             .sum();
-        let reversed = Motions::new(stretch.reversed(), ends);
-        let forwards = Motions::new(stretch, begins);
-        let mut add = |motion: Motion, is_open: bool, is_reversed: bool| {
+        let reversed = stretch.reversed();
+        let (forwards, reversed) = rayon::join(
+            || Motions::new(stretch, begins),
+            || Motions::new(reversed, ends),
+        );
+        let add = |(motion, is_open, is_reversed): (Motion, bool, bool)| {
             let pulses = motion.pulses.clone();
             let is_up = motion.top > 0.0;
             let (from, to) = match (is_open, is_reversed) {
@@ -158,16 +165,22 @@ impl Lattice {
             };
             self.edge(from, to, part.cost, Part::Motion(part));
         };
-        for first in 0..section.pulses.len() {
-            forwards.of(first, &mut |motion, is_open| add(motion, is_open, false));
+        let motions = (0..section.pulses.len()).into_par_iter().map(|first| {
+            let mut found = Vec::new();
+            forwards.of(first, &mut |motion, is_open| {
+                found.push((motion, is_open, false));
+            });
             if reversed.reach_the_end(first) {
                 reversed.of(first, &mut |motion, is_open| {
                     if is_open {
-                        add(motion, true, true);
+                        found.push((motion, true, true));
                     }
                 });
             }
-        }
+            found
+        });
+        let motions: Vec<_> = motions.with_min_len(FEW).collect();
+        motions.into_iter().flatten().for_each(add);
         for is_up in [true, false] {
             let part = Part::Through(section.pulses.clone());
             self.edge(section.entry(is_up), section.exit(is_up), past, part);

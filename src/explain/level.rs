@@ -9,6 +9,7 @@
 
 use super::blocks::{Cut, median};
 use super::steps::{Costs, Segment, cut, path};
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// Length of a window, s.
@@ -37,6 +38,9 @@ const SHIFTS: (f64, f64) = (0.015, 0.16);
 /// A shift comes and goes within this time, s, and within this share of it is the level on either side.
 const ABRUPT: f64 = 0.2;
 const SAME: f64 = 0.35;
+
+/// So few windows are not worth another thread.
+const FEW: usize = 1024;
 
 /// Windows on either side whose median refines the path.
 const REACH: usize = 30;
@@ -96,6 +100,8 @@ impl Level {
         let windows = segment.windows.clone();
         let fine: Vec<f64> = windows
             .clone()
+            .into_par_iter()
+            .with_min_len(FEW)
             .map(|window| refined(means, path, self.width, window, &windows))
             .collect();
         let first = windows.start as f64;

@@ -90,9 +90,12 @@ impl Facts {
         let middle = (intervals.len() - 1) / 2;
         let median = *intervals.select_nth_unstable_by(middle, f64::total_cmp).1;
         let count = samples.len() as f64;
-        let (mean, deviation) = moments(accelerations());
         let usual = 0.5 * median..=1.5 * median;
         let usual = intervals.iter().filter(|length| usual.contains(length));
+        let ((mean, deviation), (_, jitter)) = rayon::join(
+            || moments(accelerations()),
+            || moments(usual.map(|length| length / median)),
+        );
         let steps = Steps::of(accelerations().take(LOOKED_AT).collect());
         let step = steps.quantum.unwrap_or(0.0);
         let at_limits = if steps.levels > FEW_LEVELS {
@@ -106,7 +109,7 @@ impl Facts {
             start: first.time,
             end: last.time,
             rate: rate.unwrap_or(1.0 / median),
-            jitter: moments(usual.map(|length| length / median)).1,
+            jitter,
             gaps: intervals.iter().filter(is_gap).count() as u64,
             longest_gap,
             quantum: steps.quantum,

@@ -68,6 +68,7 @@ impl Columns {
                 let rows = source.size() as f64 / (line.bytes.len() + 1) as f64;
                 let fits = columns.check_memory(rows);
                 fits.map_err(|problem| source.error(None, problem))?;
+                columns.reserve(rows as usize);
             }
             if !columns.take(line, reading).map_err(blame)? {
                 break;
@@ -125,6 +126,11 @@ impl Columns {
                 .map_err(located)?;
         }
         Ok(true)
+    }
+
+    fn reserve(&mut self, rows: usize) {
+        self.times.reserve(rows);
+        self.axes.iter_mut().for_each(|axis| axis.reserve(rows));
     }
 
     /// Columns may hold twice what is in them while they grow; samples come to them in the end.
