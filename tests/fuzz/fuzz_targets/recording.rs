@@ -1,5 +1,5 @@
 //! Bytes as a recording, read in the way that the first of them says: refused, or a signal, whose rest is
-//! learnt and whose rides are found.
+//! learnt and whose rides are found and measured.
 
 #![no_main]
 
@@ -7,6 +7,7 @@ use libfuzzer_sys::fuzz_target;
 use liftsim::detection::Detection;
 use liftsim::monitor::Settings;
 use liftsim::recording::{Axis, Reading, Recording, TimeUnit, Unit};
+use liftsim::track::{Track, TrackReport, TrackSettings, Tracked};
 use liftsim::whiten::Order;
 
 fuzz_target!(|bytes: &[u8]| {
@@ -45,6 +46,28 @@ fn detect(recording: &Recording, choice: u8) {
         assert!(it.from <= it.to && it.log_odds >= -1e-9, "{it:?}");
     }
     assert!(found.at_rest.false_alarms <= found.at_rest.decisions);
+    measure(recording, &found);
+}
+
+fn measure(recording: &Recording, found: &Detection) {
+    let step = recording.facts().coarse_step();
+    let track = Track::of(recording.samples(), step, found, TrackSettings::default());
+    for warning in track.warnings() {
+        assert!(!warning.to_string().is_empty());
+    }
+    for Tracked {
+        distance,
+        deviation,
+        unknown,
+        ..
+    } in &track.trips
+    {
+        assert_eq!(distance.is_some(), unknown.is_none());
+        assert!(distance.is_none_or(f64::is_finite));
+        assert!(deviation.is_none_or(|deviation| deviation.is_finite() && deviation >= 0.0));
+    }
+    let report = TrackReport::new("ride".to_owned(), recording, found, &track, None);
+    assert_eq!(report.rows().len(), track.trips.len());
 }
 
 fn reading(choice: u8) -> Reading {
