@@ -9,6 +9,7 @@ use super::{CommandResult, Failure, print, table, warn};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::figure::{self, FigureError};
+use liftsim::track::floors::Floors;
 use liftsim::track::{Track, TrackReport, TrackSettings};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -76,15 +77,15 @@ impl TrackCommand {
         for warning in track.warnings() {
             warn(warning);
         }
+        let floors = building.as_ref().map(|building| &building.floors);
         if let Some(figure) = figure {
-            self.draw(figure, &rides, &track)?;
+            self.draw(figure, &rides, &track, floors)?;
         }
         let Rides {
             recording,
             detection,
             ..
         } = &rides;
-        let floors = building.as_ref().map(|building| &building.floors);
         let report = TrackReport::new(self.rides.name(), recording, detection, &track, floors);
         print(&self.printed(&report))?;
         building.map_or(Ok(()), |building| building.save())?;
@@ -107,10 +108,18 @@ impl TrackCommand {
         Ok(())
     }
 
-    fn draw(&self, figure: Output, rides: &Rides, track: &Track) -> Result<(), Failure> {
+    fn draw(
+        &self,
+        figure: Output,
+        rides: &Rides,
+        track: &Track,
+        floors: Option<&Floors>,
+    ) -> Result<(), Failure> {
         let name = self.rides.name();
         let offset = rides.recording.facts().clock_offset;
-        let plot = figure::track::plot(&rides.detection, track, &name, offset);
+        let floors = floors.into_iter().flat_map(Floors::floors);
+        let heights: Vec<f64> = floors.map(|floor| floor.height).collect();
+        let plot = figure::track::plot(&rides.detection, track, &heights, (&name, offset));
         let plot = plot.map_err(|error| match error {
             FigureError::Short => self.rides.refused(error.into()),
             error => Failure::run(error),

@@ -2,12 +2,10 @@
 //! undecided stretches hatched; X, Y₁ and Y₂ of each decision.
 
 use super::error::FigureError;
-use crate::detection::{Column, Detection, Trip};
+use super::record::Recorded;
+use crate::detection::Detection;
 use crate::monitor::Decision;
-use crate::plot::{
-    Axis, Colour, Entry, Key, Mark, Place, Plot, Style, add_phases, ends, hatch, literal,
-    phase_colour, phase_words,
-};
+use crate::plot::{Colour, Entry, Key, Mark, Plot, Style, add_phases, phase_colour, phase_words};
 
 /// Heights of the panels of the record and of the course, points.
 const PANEL: f64 = 120.0;
@@ -25,120 +23,32 @@ pub fn plot(
     name: &str,
     clock_offset: Option<f64>,
 ) -> Result<Plot, FigureError> {
-    let columns = detection.trace.columns();
-    let (Some(first), Some(last)) = (columns.first(), columns.last()) else {
-        return Err(FigureError::Short);
-    };
-    let (from, to) = (first.times.0, last.times.1);
-    let states = states(detection, from, to);
-    let x = Axis::linear(from, to, 10).labelled("time, s");
-    let record = y_axis(columns, &states, 0.08, |column| column.record).labelled("record, m/s²");
-    let whitened =
-        y_axis(columns, &states, BARS, |column| column.whitened).labelled("whitened, m/s²");
-    let speed = y_axis(columns, &[], 0.08, |column| column.speed).labelled("speed, m/s");
-    let position = y_axis(columns, &[], 0.08, |column| column.position).labelled("position, m");
-    let axes = [record, whitened, speed, position];
-    let mut plot = Plot::stack(
-        &x,
-        [PANEL, PANEL, COURSE, COURSE].into_iter().zip(axes.clone()),
-    );
-    (plot.margins.top, plot.margins.legend) = (16.0, (4.0, 4.0));
-    add_phases(&mut plot, &states, 5.0);
-    for it in &detection.undecided {
-        for (panel, y) in axes.iter().enumerate() {
-            for line in hatch((it.from, it.to), &x, y) {
-                plot.add(panel, line);
-            }
-        }
-    }
+    let recorded = Recorded::of(detection)?;
+    let record = recorded.axis_where_known(0.08, |column| column.record);
+    let whitened = recorded.axis_where_known(BARS, |column| column.whitened);
+    let speed = recorded.axis(0.08, |column| column.speed);
+    let position = recorded.axis(0.08, |column| column.position);
+    let panels = [
+        (PANEL, record.labelled("record, m/s²")),
+        (PANEL, whitened.labelled("whitened, m/s²")),
+        (COURSE, speed.labelled("speed, m/s")),
+        (COURSE, position.labelled("position, m")),
+    ];
+    let mut plot = recorded.panels(&panels);
+    add_phases(&mut plot, &recorded.states, 5.0);
+    recorded.hatch(&mut plot, &panels);
     plot.add(1, Mark::Level(0.0, &[]));
     plot.add(2, Mark::Level(0.0, &[]));
-    plot.add(0, values(columns, |column| column.record));
-    plot.add(1, values(columns, |column| column.whitened));
-    plot.add(2, values(columns, |column| column.speed));
-    plot.add(3, values(columns, |column| column.position));
+    plot.add(0, recorded.values(|column| column.record));
+    plot.add(1, recorded.values(|column| column.whitened));
+    plot.add(2, recorded.values(|column| column.speed));
+    plot.add(3, recorded.values(|column| column.position));
     for trip in &detection.trips {
         for decision in trip.start_decision.iter().chain(&trip.stop_decision) {
             add_decision(&mut plot, decision);
         }
     }
-    plot.add_to_all(&Mark::Axes);
-    plot.add_legend(entries(), Place::Across);
-    let mut caption = caption(detection, name);
-    caption.extend(clock_offset.map(|offset| format!("times count from {offset:.3} s")));
-    if let Some(time_constant) = detection.filter.time_constant() {
-        caption.push(format!("restored from a high pass of {time_constant:.2} s"));
-    }
-    plot.set_caption(&caption);
-    Ok(plot)
-}
-
-/// From when to when each state lasted, s, and its name.
-pub(super) fn states(detection: &Detection, from: f64, to: f64) -> Vec<((f64, f64), &'static str)> {
-    let mut changes: Vec<(f64, &'static str)> = vec![(from, "rest")];
-    for trip in &detection.trips {
-        changes.extend(phases(trip));
-        if trip.start.is_none() {
-            changes[0].1 = "unknown";
-        }
-    }
-    for it in &detection.undecided {
-        changes.retain(|(time, _)| !(it.from..it.to).contains(time));
-        changes.extend([(it.from, "unknown"), (it.to, "rest")]);
-    }
-    changes.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let ends = changes.iter().skip(1).map(|(time, _)| *time).chain([to]);
-    let spans = changes
-        .iter()
-        .zip(ends)
-        .map(|((from, name), to)| ((*from, to), *name));
-    spans.filter(|((from, to), _)| from < to).collect()
-}
-
-/// When the phases of a trip begin, as far as the record shows.
-fn phases(trip: &Trip) -> impl Iterator<Item = (f64, &'static str)> {
-    let phases = [
-        (trip.start, "acceleration"),
-        (trip.inertial, "inertial"),
-        (trip.braking, "braking"),
-        (trip.levelling, "levelling"),
-        (trip.stop, "rest"),
-    ];
-    phases
-        .into_iter()
-        .filter_map(|(time, name)| time.map(|time| (time, name)))
-}
-
-/// A scale for the times at which the state was known: a sensor that is picked up would flatten everything
-/// else.
-pub(super) fn y_axis(
-    columns: &[Column],
-    states: &[((f64, f64), &str)],
-    above: f64,
-    value: fn(&Column) -> (f64, f64),
-) -> Axis {
-    let is_known = |column: &&Column| {
-        let mut known = states.iter().filter(|(_, name)| *name != "unknown");
-        known.any(|((from, to), _)| *from <= column.times.0 && column.times.1 <= *to)
-    };
-    let known: Vec<_> = columns.iter().filter(is_known).map(value).collect();
-    let shown = if known.is_empty() {
-        columns.iter().map(value).collect()
-    } else {
-        known
-    };
-    let (low, high) = ends(shown.into_iter().flat_map(|(low, high)| [low, high]));
-    let room = (high - low).max(1e-9);
-    Axis::linear(low - 0.08 * room, high + above * room, 5)
-}
-
-/// The record as a line.
-pub(super) fn values(columns: &[Column], value: fn(&Column) -> (f64, f64)) -> Mark {
-    let points = columns.iter().flat_map(|column| {
-        let ((from, to), (low, high)) = (column.times, value(column));
-        [(from, low), (to, high)]
-    });
-    Mark::Dense(points.collect(), Style::of(0))
+    Ok(recorded.finish(plot, entries(), (name, clock_offset), settings(detection)))
 }
 
 /// A bar for each of X, Y₁ and Y₂.
@@ -178,11 +88,9 @@ fn entries() -> [Entry; 8] {
     ]
 }
 
-fn caption(detection: &Detection, name: &str) -> Vec<String> {
+fn settings(detection: &Detection) -> Vec<String> {
     let design = &detection.design;
     let mut parts = vec![
-        literal(name),
-        format!("{:.1} Hz", design.rate),
         format!("blocks of {:.0} ms", 1000.0 * design.block),
         format!("N/M_1/M_2 = {}", design.samples),
         format!("α = {}", design.settings.detector.alpha),

@@ -7,6 +7,7 @@
 pub mod detection;
 mod error;
 mod raster;
+mod record;
 mod svg;
 pub mod track;
 

@@ -1,12 +1,10 @@
 //! How far the rides of a recording went: the record, the speed, and the position within two deviations; where the filter
 //! knew that the cage stands or moves uniformly is shaded, undecided stretches are hatched.
 
-use super::detection::{states, values, y_axis};
 use super::error::FigureError;
+use super::record::{Recorded, axis};
 use crate::detection::Detection;
-use crate::plot::{
-    Axis, Entry, Key, Mark, Place, Plot, Point, Style, ends, hatch, literal, phase_colour,
-};
+use crate::plot::{Colour, Entry, Key, Mark, Plot, Point, Style, phase_colour};
 use crate::track::{self, Track, Update};
 
 /// Heights of the panels, points.
@@ -14,83 +12,73 @@ const RECORD: f64 = 110.0;
 const SPEED: f64 = 80.0;
 const POSITION: f64 = 130.0;
 
+const FLOOR: Style = Style::of(0).coloured(Colour::new(150, 150, 150)).wide(0.6);
+
 /// Deviations on either side of a position.
 const WIDE: f64 = 2.0;
 
-/// The picture of a recording, whose name is `name` and whose times count from `clock_offset`, and its trips.
+/// The picture of a recording, whose name is `name` and whose times count from `clock_offset`, and its trips among
+/// floors at these heights, m.
 ///
 /// # Errors
 /// Where the recording has not even one block.
 pub fn plot(
     detection: &Detection,
     track: &Track,
-    name: &str,
-    clock_offset: Option<f64>,
+    floors: &[f64],
+    (name, clock_offset): (&str, Option<f64>),
 ) -> Result<Plot, FigureError> {
-    let columns = detection.trace.columns();
-    let (Some(first), Some(last)) = (columns.first(), columns.last()) else {
-        return Err(FigureError::Short);
-    };
-    let (from, to) = (first.times.0, last.times.1);
-    let x = Axis::linear(from, to, 10).labelled("time, s");
-    let states = states(detection, from, to);
-    let record = y_axis(columns, &states, 0.08, |column| column.record).labelled("record, m/s²");
-    let speed = axis(track, |place| [place.speed; 2]).labelled("speed, m/s");
-    let position = axis(track, within).labelled("position, m");
-    let axes = [record, speed, position];
-    let heights = [RECORD, SPEED, POSITION];
-    let mut plot = Plot::stack(&x, heights.into_iter().zip(axes.clone()));
-    (plot.margins.top, plot.margins.legend) = (16.0, (4.0, 4.0));
+    let recorded = Recorded::of(detection)?;
+    let places = || track.course.stretches().iter().flatten();
+    let record = recorded.axis_where_known(0.08, |column| column.record);
+    let speed = axis(0.08, places().map(|place| (place.speed, place.speed)));
+    let position = axis(0.08, places().map(within));
+    let panels = [
+        (RECORD, record.labelled("record, m/s²")),
+        (SPEED, speed.labelled("speed, m/s")),
+        (POSITION, position.labelled("position, m")),
+    ];
+    let mut plot = recorded.panels(&panels);
     for (span, update) in track.course.updates() {
         if let Some(colour) = phase(*update).map(phase_colour) {
             plot.add_to_all(&Mark::Span((span.start, span.end), colour));
         }
     }
-    for it in &detection.undecided {
-        for (panel, y) in axes.iter().enumerate() {
-            for line in hatch((it.from, it.to), &x, y) {
-                plot.add(panel, line);
-            }
-        }
-    }
+    recorded.hatch(&mut plot, &panels);
     plot.add(1, Mark::Level(0.0, &[]));
-    plot.add(0, values(columns, |column| column.record));
+    plot.add(0, recorded.values(|column| column.record));
+    let (from, to) = recorded.span();
+    let y = &panels[2].1;
+    for height in floors.iter().filter(|it| (y.from..=y.to).contains(*it)) {
+        plot.add(2, Mark::Line(vec![(from, *height), (to, *height)], FLOOR));
+    }
     for places in track.course.stretches() {
         add_places(&mut plot, places);
     }
-    plot.add_to_all(&Mark::Axes);
-    plot.add_legend(entries(), Place::Across);
-    let mut caption = vec![literal(name), format!("{:.1} Hz", detection.design.rate)];
-    caption.extend(track.trips.iter().filter_map(|it| {
+    let entries = entries()
+        .into_iter()
+        .filter(|it| !floors.is_empty() || it.text != "floors");
+    let trips = track.trips.iter().filter_map(|it| {
         let (distance, deviation) = it.distance.zip(it.deviation)?;
         Some(format!(
             "ride {}: {distance:.2} ± {deviation:.2} m",
             it.trip.ride
         ))
-    }));
-    caption.extend(clock_offset.map(|offset| format!("times count from {offset:.3} s")));
-    plot.set_caption(&caption);
-    Ok(plot)
+    });
+    Ok(recorded.finish(plot, entries, (name, clock_offset), trips))
 }
 
 /// The ends of a position's interval, m.
-fn within(place: &track::Place) -> [f64; 2] {
+fn within(place: &track::Place) -> (f64, f64) {
     let wide = WIDE * place.position.variance.sqrt();
-    [place.position.mean - wide, place.position.mean + wide]
-}
-
-fn axis(track: &Track, value: fn(&track::Place) -> [f64; 2]) -> Axis {
-    let places = track.course.stretches().iter().flatten();
-    let (low, high) = ends(places.flat_map(value));
-    let room = (high - low).max(0.1);
-    Axis::linear(low - 0.08 * room, high + 0.08 * room, 5)
+    (place.position.mean - wide, place.position.mean + wide)
 }
 
 fn add_places(plot: &mut Plot, places: &[track::Place]) {
     let speeds = places.iter().map(|it| (it.time, it.speed));
     plot.add(1, Mark::Line(speeds.collect(), Style::of(0)));
     let points = places.iter().map(|it| {
-        let [low, high] = within(it);
+        let (low, high) = within(it);
         Point::new(it.time, [low, it.position.mean, high])
     });
     let points: Vec<Point> = points.collect();
@@ -108,7 +96,7 @@ fn phase(update: Update) -> Option<&'static str> {
     }
 }
 
-fn entries() -> [Entry; 3] {
+fn entries() -> [Entry; 4] {
     let shade = |text: &str, update: Update| {
         let colour = phase_colour(phase(update).unwrap_or("rest"));
         Entry::new(text, Style::of(0).coloured(colour), Key::Shade)
@@ -116,6 +104,7 @@ fn entries() -> [Entry; 3] {
     [
         shade("known to stand", Update::Standing),
         shade("known to move uniformly", Update::Uniform),
+        Entry::new("floors", FLOOR, Key::Line),
         Entry::new("± 2 deviations", Style::of(1).faded(0.3), Key::Shade),
     ]
 }

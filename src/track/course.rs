@@ -21,6 +21,8 @@ pub struct Course {
     updates: Vec<(Range<f64>, Update)>,
     /// Where the cage stood last.
     stood: Uncertain,
+    /// The first moment after that, in the latest stretch.
+    begun: usize,
     /// Seconds between moments that are kept.
     pitch: f64,
 }
@@ -66,10 +68,28 @@ impl Course {
         }
     }
 
-    /// It stands again, after a trip of this distance.
-    pub(super) fn stand(&mut self, time: f64, distance: Uncertain) {
+    /// It stands again `after` a trip of this distance. The way there is bent so that it ends where the trip does, and as
+    /// uncertain, as if the acceleration had a constant error.
+    pub(super) fn stand(&mut self, after: &Range<f64>, distance: Uncertain) {
         self.stood = self.stood.plus(distance);
-        self.rest(time);
+        let places = self.stretches.last_mut().expect("there is a stretch");
+        let trip = &mut places[self.begun..];
+        let stood = trip.partition_point(|place| place.time < after.start);
+        let (moved, stood) = trip.split_at_mut(stood);
+        stood
+            .iter_mut()
+            .for_each(|place| place.position = self.stood);
+        if let [first, .., last] = &*moved {
+            let (start, seconds) = (first.time, last.time - first.time);
+            let off = self.stood.mean - last.position.mean;
+            let wider = (self.stood.variance - last.position.variance).max(0.0);
+            for place in moved {
+                let share = ((place.time - start) / seconds).powi(2);
+                place.position.mean += off * share;
+                place.position.variance += wider * share * share;
+            }
+        }
+        self.rest(after.end);
     }
 
     /// It stands.
@@ -80,12 +100,28 @@ impl Course {
             speed: 0.0,
             position: self.stood,
         });
+        self.begun = places.len();
         self.updates.push((time..time, Update::None));
     }
 
     /// Where it is, is not known any more.
     pub(super) fn lose(&mut self) {
         self.stood = Uncertain::default();
+        self.begun = 0;
         self.stretches.push(Vec::new());
+    }
+
+    /// The stretch in which the cage stood at this time, s, is where this position, m, says.
+    pub(super) fn lay(&mut self, time: f64, position: f64) {
+        let stands = |place: &&Place| place.time >= time && place.speed == 0.0;
+        let at = |places: &&mut Vec<Place>| places.last().is_some_and(|last| last.time >= time);
+        if let Some(places) = self.stretches.iter_mut().find(at)
+            && let Some(stood) = places.iter().find(stands)
+        {
+            let by = position - stood.position.mean;
+            for place in places {
+                place.position.mean += by;
+            }
+        }
     }
 }

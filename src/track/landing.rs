@@ -28,8 +28,9 @@ impl Track {
                 .closed()
                 .filter(|_| !is_undecided(start, stop))
                 .map(|(distance, deviation)| floors.step(distance, deviation * deviation));
-            if it.landing.is_none() {
-                floors.lose();
+            match it.landing {
+                Some(landing) => self.course.lay(stop, landing.position),
+                None => floors.lose(),
             }
             stood = stop;
         }

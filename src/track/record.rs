@@ -142,7 +142,7 @@ impl Track {
             travelled = travelled.plus(Uncertain::error(phases.error_of_steps(step)));
         }
         if trip.stop.is_some() {
-            course.stand(phases.after.end, travelled.distance);
+            course.stand(&phases.after, travelled.distance);
         } else {
             // Of its speed the gain's error is never taken off.
             let gone = travelled.distance.mean.abs();
