@@ -30,6 +30,9 @@ const MOST_PULSES: usize = 12;
 const APART: f64 = 0.1;
 const SHOCK: f64 = 0.5;
 
+/// Pulses in one direction no farther apart than this, s, are parts of one.
+const BESIDE: f64 = 0.5;
+
 impl Hypotheses {
     pub fn new(now: &[Hypothesis]) -> Self {
         Self {
@@ -66,7 +69,7 @@ impl Hypotheses {
                 }
             }
             let ignored = if first == place {
-                pulse.ignored.min(known.passing(pulse))
+                ignored(known, &pulses[..place], pulse)
             } else {
                 match swing(&pulses[first..]) {
                     Some(swing) => known.prior.disturbance(swing.speed),
@@ -111,13 +114,13 @@ impl Hypotheses {
         current: Option<&Turned>,
         mut take: impl FnMut(&Hypothesis, f64, bool),
     ) {
+        let ignored = current.map_or(0.0, |pulse| ignored(known, &self.pulses, pulse));
         for hypothesis in &self.now {
             let aged = hypothesis.aged(known, now);
             let Some(pulse) = current else {
                 take(hypothesis, aged, false);
                 continue;
             };
-            let ignored = pulse.ignored.min(known.passing(pulse));
             if hypothesis.is_rest() {
                 take(hypothesis, aged + ignored, false);
                 if let Some(started) = hypothesis.started(known, pulse) {
@@ -158,6 +161,36 @@ impl Hypotheses {
             }
         }
     }
+}
+
+/// What it costs to take a pulse for something else. Where it goes on from those before, all of them cost what they would
+/// as one: a soft start that is seen in parts is not less of a start.
+fn ignored(known: &Known, before: &[Turned], pulse: &Turned) -> f64 {
+    let cost = |it: &Turned| it.ignored.min(known.passing(it));
+    let goes_on = |one: &Turned, next: &Turned| {
+        let is_beside = next.from - one.to < BESIDE && one.change * next.change > 0.0;
+        is_beside && !one.is_shock() && !next.is_shock()
+    };
+    let (mut parts, mut next): (Option<Turned>, &Turned) = (None, pulse);
+    for part in before.iter().rev() {
+        if !goes_on(part, next) {
+            break;
+        }
+        parts = Some(parts.map_or(*part, |later| together(known, part, &later)));
+        next = part;
+    }
+    let alone = cost(pulse);
+    parts.map_or(alone, |parts| {
+        alone.max(cost(&together(known, &parts, pulse)) - cost(&parts))
+    })
+}
+
+/// Two pulses as one.
+fn together(known: &Known, one: &Turned, next: &Turned) -> Turned {
+    let deviation = (one.variance + next.variance).sqrt();
+    let span = (one.from, next.to);
+    let pulse = Pulse::passing(span, one.change + next.change, deviation);
+    Turned::new(&known.prior, &pulse)
 }
 
 /// The pulse that goes on under shocks, which leave its beginning or its end to be seen, and what the shocks cost.
@@ -204,4 +237,40 @@ fn prune(hypotheses: &mut Vec<Hypothesis>, kept: &mut Vec<Hypothesis>) {
         }
     }
     hypotheses.clear();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::explain::Prior;
+
+    #[test]
+    fn a_pulse_in_parts_costs_what_it_costs_as_one() {
+        let prior = Prior::default();
+        let known = Known { prior, soft: 0.1 };
+        let pulse = |from: f64, to: f64, change: f64| {
+            Turned::new(&prior, &Pulse::passing((from, to), change, 0.01))
+        };
+        let cost = |parts: &[Turned]| -> f64 {
+            let each =
+                (0..parts.len()).map(|place| ignored(&known, &parts[..place], &parts[place]));
+            each.sum()
+        };
+        let parts = [
+            pulse(0.0, 2.0, 0.08),
+            pulse(2.1, 4.0, 0.09),
+            pulse(4.3, 6.0, 0.08),
+        ];
+        let whole = cost(&[pulse(0.0, 6.0, 0.25)]);
+        assert!(
+            (cost(&parts) - whole).abs() < 1e-9,
+            "{} {whole}",
+            cost(&parts)
+        );
+        let alone: f64 = parts.iter().map(|it| cost(&[*it])).sum();
+        assert!(alone < whole - 1.0, "{alone} {whole}");
+        let back = [pulse(0.0, 2.0, 0.08), pulse(2.1, 4.0, -0.09)];
+        let apart = [pulse(0.0, 2.0, 0.08), pulse(2.6, 4.0, 0.09)];
+        assert!(cost(&back) < alone && cost(&apart) < alone);
+    }
 }
