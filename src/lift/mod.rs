@@ -29,7 +29,7 @@ mod trip;
 pub use drive::Drive;
 pub use export::{ExportLayout, write_phyphox, write_truth};
 pub use pickup::{Pickup, PickupError};
-pub use record::{Class, Record};
+pub use record::{Class, Limits, Record};
 pub use simulate::Simulated;
 pub use trip::{Course, Ending, Trip, TripError};
 

@@ -59,7 +59,7 @@ impl Facts {
     ///
     /// # Errors
     /// If there are too few samples or only equal ones.
-    pub(super) fn of(
+    pub(crate) fn of(
         samples: &[Sample],
         has_gravity: bool,
         rate: Option<f64>,

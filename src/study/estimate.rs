@@ -1,9 +1,11 @@
-//! Rates and quantiles with exact intervals.
+//! Rates and quantiles with exact intervals, and means with that of the normal law.
 
-use crate::counts::Values;
+use crate::counts::{Sums, Values};
+use crate::stats::normal::two_sided_quantile;
 use crate::stats::poisson;
 use crate::stats::quantile::Quantile;
 use crate::stats::tally::Tally;
+use libm::sqrt;
 
 /// One outcome: a count and the estimate that follows from it.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,4 +81,70 @@ pub fn delays(outcome: &str, delays: &Values, confidence: f64) -> Vec<Estimate> 
         }
     };
     QUANTILES.map(quantile).into()
+}
+
+/// A number that is computed, not counted.
+pub fn computed(outcome: &str, value: f64) -> Estimate {
+    Estimate {
+        outcome: outcome.to_owned(),
+        count: 0,
+        exposure: 0.0,
+        unit: "computed",
+        value,
+        low: value,
+        high: value,
+    }
+}
+
+/// A mean with its interval.
+#[derive(Clone, Copy)]
+pub struct Mean {
+    pub value: f64,
+    low: f64,
+    high: f64,
+}
+
+impl Mean {
+    /// Of a quantity whose sum and sum of squares are a pair of lengths, in so many cases.
+    pub fn new(sums: &Sums, pair: usize, cases: u64, confidence: f64) -> Self {
+        let n = cases.max(1) as f64;
+        let [value, square] = [0, 1].map(|at| sums.lengths[2 * pair + at].value() / n);
+        let deviation = sqrt((square - value * value).max(0.0) / (n - 1.0).max(1.0));
+        let half = two_sided_quantile(confidence) * deviation;
+        Self {
+            value,
+            low: value - half,
+            high: value + half,
+        }
+    }
+
+    /// The root of a mean square.
+    pub fn root(self) -> Self {
+        self.map(|value| sqrt(value.max(0.0)))
+    }
+
+    /// In a unit of this size.
+    pub fn over(self, unit: f64) -> Self {
+        self.map(|value| value / unit)
+    }
+
+    fn map(self, of: impl Fn(f64) -> f64) -> Self {
+        Self {
+            value: of(self.value),
+            low: of(self.low),
+            high: of(self.high),
+        }
+    }
+
+    pub fn named(self, outcome: &str, cases: u64, unit: &'static str) -> Estimate {
+        Estimate {
+            outcome: outcome.to_owned(),
+            count: cases,
+            exposure: cases as f64,
+            unit,
+            value: self.value,
+            low: self.low,
+            high: self.high,
+        }
+    }
 }

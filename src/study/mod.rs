@@ -22,6 +22,7 @@ pub mod ride;
 mod rules;
 mod sweep;
 pub(crate) mod trace;
+pub mod trips;
 
 pub use kind::{Context, Study, TooMany};
 pub use loaded::Loaded;
@@ -47,6 +48,7 @@ pub const STUDIES: &[Entry] = &[
     Entry::of::<ride::Rides>(),
     Entry::of::<records::Records>(),
     Entry::of::<floors::Buildings>(),
+    Entry::of::<trips::Trips>(),
 ];
 
 /// An entry of the list of studies.

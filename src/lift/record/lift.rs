@@ -2,6 +2,7 @@
 
 use super::class::{Class, Ranges};
 use super::draws::Draws;
+use super::limits::Limits;
 use super::pulse::{Pulse, Shape};
 use crate::lift::Journey;
 use crate::lift::drive::{Drive, Start};
@@ -98,6 +99,22 @@ impl Lift {
                 },
                 _ => Habit::None,
             },
+        }
+    }
+
+    /// One that moves by these limits, without habits.
+    pub fn of(limits: &Limits) -> Self {
+        Self {
+            drive: limits.drive,
+            braking: limits.braking,
+            levelling: limits.levelling,
+            stop: Drive {
+                acceleration: 0.4,
+                jerk: 2.0,
+                ..limits.drive
+            },
+            habit: Habit::None,
+            floors: 0,
         }
     }
 

@@ -18,12 +18,14 @@ mod class;
 mod disturbance;
 mod draws;
 mod lift;
+mod limits;
 mod pulse;
 mod sensor;
 #[cfg(test)]
 mod tests;
 
 pub use class::Class;
+pub use limits::Limits;
 
 use super::Journey;
 use crate::rng::{Generator, Stream};

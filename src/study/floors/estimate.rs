@@ -7,9 +7,8 @@ use super::building::variance;
 use super::keys::Keys;
 use super::measure::Measure;
 use crate::counts::Sums;
-use crate::stats::normal::two_sided_quantile;
 use crate::stats::tally::Tally;
-use crate::study::estimate::{Estimate, share};
+use crate::study::estimate::{Estimate, Mean, computed, share};
 use libm::{erfc, sqrt};
 use std::f64::consts::SQRT_2;
 
@@ -51,9 +50,9 @@ pub fn of(
             let mut estimates: Vec<Estimate> = ["position", "reckoned", "map"]
                 .iter()
                 .zip(0..)
-                .map(|(name, at)| mean(at).root().named(name, trials))
+                .map(|(name, at)| mean(at).root().named(name, trials, "trials"))
                 .collect();
-            estimates.push(mean(3).named("nees", trials));
+            estimates.push(mean(3).named("nees", trials, "trials"));
             estimates
         }
     }
@@ -74,59 +73,4 @@ fn bounds(keys: &Keys) -> [f64; 2] {
         let offset = keys.offset / sqrt(variance + level);
         0.5 * (erfc((gate - offset) / SQRT_2) + erfc((gate + offset) / SQRT_2))
     })
-}
-
-fn computed(outcome: &str, value: f64) -> Estimate {
-    Estimate {
-        outcome: outcome.to_owned(),
-        count: 0,
-        exposure: 0.0,
-        unit: "computed",
-        value,
-        low: value,
-        high: value,
-    }
-}
-
-/// A mean with its interval.
-#[derive(Clone, Copy)]
-struct Mean {
-    value: f64,
-    low: f64,
-    high: f64,
-}
-
-impl Mean {
-    /// Of the quantity whose sum and sum of squares are a pair of lengths.
-    fn new(sums: &Sums, pair: usize, trials: u64, confidence: f64) -> Self {
-        let n = trials as f64;
-        let [value, square] = [0, 1].map(|at| sums.lengths[2 * pair + at].value() / n);
-        let deviation = sqrt((square - value * value).max(0.0) / (n - 1.0).max(1.0));
-        let half = two_sided_quantile(confidence) * deviation;
-        Self {
-            value,
-            low: (value - half).max(0.0),
-            high: value + half,
-        }
-    }
-
-    fn root(self) -> Self {
-        Self {
-            value: sqrt(self.value),
-            low: sqrt(self.low),
-            high: sqrt(self.high),
-        }
-    }
-
-    fn named(self, outcome: &str, trials: u64) -> Estimate {
-        Estimate {
-            outcome: outcome.to_owned(),
-            count: trials,
-            exposure: trials as f64,
-            unit: "trials",
-            value: self.value,
-            low: self.low,
-            high: self.high,
-        }
-    }
 }

@@ -1,0 +1,236 @@
+//! One trip, and its distance by every method.
+
+use super::condition::Numbers;
+use super::table::Point;
+use crate::counts::{Fixed, Shape, Sums, Values};
+use crate::detection::Detection;
+use crate::lift::Journey;
+use crate::monitor;
+use crate::recording::{Facts, Sample};
+use crate::rng::{Generator, Stream};
+use crate::signal::{Law, Noise};
+use crate::track::{
+    Densities, LiveTrips, Method, Phases, Steps, Track, TrackSettings, Uncertain, moments,
+};
+use libm::{fabs, round, sqrt};
+use rand::Rng;
+
+/// How a distance is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Way {
+    /// As `liftsim track` does it.
+    Track,
+    /// The same filter, sample by sample.
+    Live,
+    /// The patent by its words.
+    Words,
+    /// Integration, with the drift of the speed removed.
+    DriftRemoved,
+    /// Plain integration.
+    Integrated,
+    /// The moment formula, told the phases: the bound.
+    Moments,
+}
+
+impl Way {
+    pub const ALL: [Self; 6] = [
+        Self::Track,
+        Self::Live,
+        Self::Words,
+        Self::DriftRemoved,
+        Self::Integrated,
+        Self::Moments,
+    ];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Track => "track",
+            Self::Live => "live",
+            Self::Words => "words",
+            Self::DriftRemoved => "drift_removed",
+            Self::Integrated => "integrated",
+            Self::Moments => "moments",
+        }
+    }
+}
+
+/// For each way, whether it gives the trip a distance, and whether that is within 1.96 deviations; the sums and the sums
+/// of squares of the error, of its square and of the square over its variance. First the variance of the bound.
+pub(super) const COUNTS: usize = 2;
+pub(super) const LENGTHS: usize = 6;
+
+pub(super) fn shape() -> Shape {
+    let ways = Way::ALL.len();
+    Shape {
+        most: vec![Some(1); COUNTS * ways],
+        lengths: 2 + LENGTHS * ways,
+        values: vec![1; ways],
+    }
+}
+
+/// At rest before the trip and after it, s.
+const RESTS: [f64; 2] = [5.0, 5.0];
+
+/// Before and after the trip the rest of those who are told when it begins, s.
+const MARGIN: f64 = 0.3;
+
+/// Of 95 %, in deviations.
+const WITHIN: f64 = 1.96;
+
+/// Errors are counted in steps of this, m.
+const STEP: f64 = 1e-4;
+
+/// A recorded trip.
+struct Recorded {
+    samples: Vec<Sample>,
+    journey: Journey,
+    numbers: Numbers,
+}
+
+/// The sums of one trial.
+pub(super) fn run(point: &Point, seed: u64, trial: u64) -> Sums {
+    let recorded = Recorded::new(point, seed, trial);
+    let settings = TrackSettings::default();
+    let design = monitor::Settings::default().at(recorded.numbers.rate);
+    let design = design.expect("every rate here fits the defaults");
+    let samples = &recorded.samples;
+    let detection = Detection::of(&design, samples, None, None);
+    let facts = Facts::of(samples, false, None).expect("noise has more than one value");
+    let step = facts.coarse_step();
+    let track = Track::of(samples, step, &detection, settings);
+    let bound = recorded.bound();
+    let mut sums = shape().empty().sums;
+    sums.lengths[0] = Fixed::new(bound.variance);
+    sums.lengths[1] = Fixed::new(bound.variance * bound.variance);
+    let bias = Uncertain {
+        mean: track.level.bias,
+        variance: settings.bias_error * settings.bias_error,
+    };
+    let told = recorded.told();
+    for (place, way) in Way::ALL.into_iter().enumerate() {
+        let found = match way {
+            Way::Track => tracked(&track),
+            Way::Live => live(samples, settings, bias.mean),
+            Way::Words => live(samples, TrackSettings::by_the_words(), bias.mean),
+            Way::DriftRemoved => {
+                Some(told.distance(Method::DriftRemoved, samples, bias, &settings))
+            }
+            Way::Integrated => Some(told.distance(Method::Integrated, samples, bias, &settings)),
+            Way::Moments => Some(bound),
+        };
+        if let Some(found) = found {
+            let error = found.mean - recorded.journey.distance;
+            add(&mut sums, place, error, found.variance);
+        }
+    }
+    sums
+}
+
+fn add(sums: &mut Sums, place: usize, error: f64, variance: f64) {
+    sums.counts[COUNTS * place] = 1;
+    let square = error * error;
+    sums.counts[COUNTS * place + 1] = u64::from(square <= WITHIN * WITHIN * variance);
+    let nees = square / variance;
+    let lengths = [error, square, square, square * square, nees, nees * nees];
+    let first = 2 + LENGTHS * place;
+    for (length, value) in sums.lengths[first..].iter_mut().zip(lengths) {
+        *length = Fixed::new(value);
+    }
+    let mut values = Values::default();
+    values.push(STEP * round(fabs(error) / STEP));
+    sums.values[place] = values;
+}
+
+/// The one trip that is found.
+fn tracked(track: &Track) -> Option<Uncertain> {
+    let [trip] = track.trips[..] else {
+        return None;
+    };
+    let (mean, deviation) = trip.distance.zip(trip.deviation)?;
+    let variance = deviation * deviation;
+    trip.trip.stop.map(|_| Uncertain { mean, variance })
+}
+
+fn live(samples: &[Sample], settings: TrackSettings, bias: f64) -> Option<Uncertain> {
+    let mut filter = LiveTrips::new(settings, bias);
+    let mut told: Vec<_> = samples.iter().filter_map(|it| filter.step(*it)).collect();
+    told.extend(filter.end());
+    match told[..] {
+        [trip] => Some(trip.travelled.distance),
+        _ => None,
+    }
+}
+
+impl Recorded {
+    fn new(point: &Point, seed: u64, trial: u64) -> Self {
+        let (numbers, distance) = (point.condition.numbers(), point.distance);
+        let mut draws = Stream::new(seed, "trips", "").at(trial);
+        let bias = uniform(&mut draws) - 0.5;
+        let start = RESTS[0] + uniform(&mut draws);
+        let (journey, _) = numbers.limits.trip(start, distance, (numbers.rate, 0));
+        let count = ((journey.stop + RESTS[1]) * numbers.rate) as usize;
+        let (_, truth) = (numbers.limits).trip(start, distance, (numbers.rate, count));
+        let sigma = sqrt(Densities::of_sheet(numbers.density) * numbers.rate);
+        let mut noise = vec![0.0; 2 * count];
+        let normal = Noise::new(Law::Normal).expect("the normal law has no parameter");
+        normal.fill(&mut draws, &mut noise);
+        let mut speed = 0.0;
+        let samples = truth.into_iter().zip(noise.chunks(2)).enumerate();
+        let samples = samples.map(|(place, (acceleration, noise))| {
+            speed += acceleration / numbers.rate;
+            let shaken = numbers.shaken * fabs(speed) / numbers.limits.drive.speed;
+            let gain = if acceleration > 0.0 {
+                numbers.gain
+            } else {
+                1.0
+            };
+            let read = gain * acceleration + bias + sigma * (noise[0] + shaken * noise[1]);
+            Sample {
+                time: place as f64 / numbers.rate,
+                acceleration: numbers.step * round(read / numbers.step),
+            }
+        });
+        Self {
+            samples: samples.collect(),
+            journey,
+            numbers,
+        }
+    }
+
+    /// The phases, each known to a sample.
+    fn phases(&self, margin: f64) -> Phases {
+        let Journey {
+            start,
+            uniform,
+            braking,
+            levelling,
+            stop,
+            ..
+        } = self.journey;
+        let creep = levelling.map_or(stop..stop, |from| {
+            from..from + self.numbers.limits.levelling.1
+        });
+        let (before, after) = (start - margin, stop + margin);
+        Phases {
+            before: before - 2.0..before,
+            uniform: [uniform..braking, creep],
+            after: after..after + 1.0,
+        }
+    }
+
+    /// The trip for those who know only when it begins and ends.
+    fn told(&self) -> Phases {
+        self.phases(MARGIN)
+    }
+
+    fn bound(&self) -> Uncertain {
+        let steps: Vec<_> = Steps::of(&self.samples).collect();
+        let density = Densities::of_sheet(self.numbers.density);
+        moments(&steps, &self.phases(0.0).changes(), density)
+    }
+}
+
+/// Uniform in [0, 1).
+fn uniform(draws: &mut Generator) -> f64 {
+    (draws.next_u64() >> 11) as f64 * 0.5f64.powi(53)
+}
