@@ -26,8 +26,8 @@ pub(super) struct Hypothesis {
     is_soft: bool,
     /// Whether there was a hole in the record since.
     pub is_across: bool,
-    /// Whether it goes back to a motion that was not seen to begin.
-    is_guess: bool,
+    /// By how much better it must be excluded because it goes back to a motion that was not seen to begin, nats.
+    guess: f64,
     /// The speed from which the lift has sped up again before, m/s; infinite where that may have been another start.
     habit: Option<f64>,
     /// Whether the rest began with a shock.
@@ -46,7 +46,7 @@ impl Hypothesis {
             since,
             is_soft: false,
             is_across: false,
-            is_guess: false,
+            guess: 0.0,
             habit: None,
             is_jam: false,
             ignored: 0.0,
@@ -57,7 +57,7 @@ impl Hypothesis {
     pub fn open(since: f64, cost: f64) -> Self {
         Self {
             cage: Cage::Open,
-            is_guess: true,
+            guess: prices::GUESS,
             ..Self::rest(since, cost)
         }
     }
@@ -65,7 +65,7 @@ impl Hypothesis {
     /// A motion that is known to have begun before.
     pub fn moving(since: f64) -> Self {
         Self {
-            is_guess: false,
+            guess: 0.0,
             ..Self::open(since, 0.0)
         }
     }
@@ -107,8 +107,8 @@ impl Hypothesis {
         } else {
             0.0
         };
-        if self.is_guess {
-            strained.max(prices::GUESS)
+        if self.guess > 0.0 {
+            strained.max(self.guess)
         } else {
             strained + fast
         }
@@ -128,7 +128,7 @@ impl Hypothesis {
         Some(self.then(Self {
             cage: Cage::Moves(progress),
             is_soft,
-            is_guess: self.is_guess,
+            guess: self.guess,
             ..Self::rest(pulse.from, self.cost + cost)
         }))
     }
@@ -201,7 +201,7 @@ impl Hypothesis {
     fn stopped(&self, pulses: &[Turned], cost: f64) -> Self {
         let (first, last) = (&pulses[0], &pulses[pulses.len() - 1]);
         self.then(Self {
-            is_guess: self.is_guess,
+            guess: self.guess,
             is_jam: pulses.iter().any(|pulse| pulse.is_shock()),
             ignored: self.ignored,
             braking: Some((first.from, last.to)),
@@ -342,6 +342,7 @@ impl Hypothesis {
             take(*self);
             take(self.then(Self {
                 is_across: true,
+                guess: prices::GUESS_IN_HOLE,
                 ..Self::open(now, self.cost + change)
             }));
         } else {
@@ -356,6 +357,7 @@ impl Hypothesis {
             });
             take(self.then(Self {
                 is_across: true,
+                guess: prices::GUESS_IN_HOLE,
                 ..Self::open(self.since, self.cost + change)
             }));
             take(self.then(Self::rest(now, self.cost + change)));

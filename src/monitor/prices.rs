@@ -81,7 +81,10 @@ pub const STRAINED: f64 = 2.0;
 
 /// By how much better motions must be excluded that go back to one that was not seen to begin: one trip read backwards
 /// looks as good.
-pub const GUESS: f64 = 3.0;
+pub const GUESS: f64 = 2.0;
+
+/// And back to one that may have begun in a hole.
+pub const GUESS_IN_HOLE: f64 = 3.0;
 
 /// A disturbance that may still be going on.
 pub const PENDING: f64 = 1.5;
