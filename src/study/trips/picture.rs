@@ -16,6 +16,9 @@ const APART: f64 = 0.17;
 /// The rows of a panel by their names, from the top.
 type Named<'a> = Vec<(String, Vec<&'a Row>)>;
 
+/// The lower end of an interval, the place of the estimate, and the upper end.
+type Placed = (f64, (f64, f64), f64);
+
 /// The picture of a study.
 pub fn plot(rows: &[Row], conditions: &[Condition], seed: u64) -> Plot {
     let of = |condition: Condition, outcome: String| -> Vec<&Row> {
@@ -86,7 +89,7 @@ fn x_axis(named: &Named, is_long: bool) -> Axis {
 }
 
 /// For each length the interval of each name, and its place.
-fn points(named: &Named, is_long: bool) -> Vec<Vec<(f64, (f64, f64), f64)>> {
+fn points(named: &Named, is_long: bool) -> Vec<Vec<Placed>> {
     let lengths = named.iter().map(|(_, rows)| rows.len()).max().unwrap_or(0);
     let of = |length: usize| {
         let places = named.iter().rev().zip((0..).map(f64::from));
