@@ -1,4 +1,4 @@
-//! The RMS error over the bound: of every way under the first condition, and of `track` under every condition.
+//! The RMS error over the bound: of every way under the first condition, then of `track` under the others.
 
 use super::condition::Condition;
 use super::row::Row;
@@ -13,7 +13,10 @@ const LINE: f64 = 17.0;
 /// How far apart the lengths of a name are, as a part of that.
 const APART: f64 = 0.17;
 
-/// The rows of a panel by their names, from the top.
+/// Half the thickness of a bar, as a part of that.
+const THICK: f64 = 0.03;
+
+/// Rows by their names, from the top.
 type Named<'a> = Vec<(String, Vec<&'a Row>)>;
 
 /// The lower end of an interval, the place of the estimate, and the upper end.
@@ -21,48 +24,33 @@ type Placed = (f64, (f64, f64), f64);
 
 /// The picture of a study.
 pub fn plot(rows: &[Row], conditions: &[Condition], seed: u64) -> Plot {
-    let of = |condition: Condition, outcome: String| -> Vec<&Row> {
+    let over = |condition: Condition, way: Way| {
+        let outcome = format!("over_bound_{}", way.name());
         let here = |row: &&Row| row.condition == condition && row.outcome == outcome;
-        rows.iter().filter(here).collect()
+        let name = format!("{condition}, {}", way.name()).replace('_', " ");
+        (name, rows.iter().filter(here).collect())
     };
-    let over = |condition, way: Way| of(condition, format!("over_bound_{}", way.name()));
-    let words = |name: &str| name.replace('_', " ");
-    let ways = Way::ALL.map(|way| (words(way.name()), over(conditions[0], way)));
-    let each = conditions.iter();
-    let each = each.map(|it| (words(&it.to_string()), over(*it, Way::Track)));
-    let shown: [(String, Named, bool); 2] = [
-        (
-            format!("{}: RMS over bound", words(&conditions[0].to_string())),
-            ways.into(),
-            true,
-        ),
-        ("track: RMS over bound".to_owned(), each.collect(), false),
-    ];
-    let panels = shown.iter().map(|(title, named, is_long)| {
-        let names = named.iter().rev().map(|(name, _)| name.clone());
-        let height = LINE * named.len() as f64;
-        let x = x_axis(named, *is_long);
-        Panel::new(height, x, Axis::names(names.collect())).titled(title)
-    });
-    let mut plot = Plot::of(panels.collect(), 1);
-    plot.margins.left = 100.0;
-    plot.margins.top = 24.0;
-    for (panel, (_, named, is_long)) in shown.iter().enumerate() {
-        plot.add(panel, Mark::Grid);
-        for (length, points) in points(named, *is_long).into_iter().enumerate() {
-            let style = Style::of(length);
-            let bars = points.iter().map(|(low, at, high)| {
-                let thick = 0.03;
-                ((*low, at.1 - thick), (*high, at.1 + thick), style.colour)
-            });
-            plot.add(panel, Mark::Cells(bars.collect()));
-            let markers = points.iter().map(|(_, at, _)| Point::at(*at));
-            plot.add(panel, Mark::Markers(markers.collect(), style));
-        }
-        plot.add(panel, Mark::Axes);
+    let ways = Way::ALL.map(|way| over(conditions[0], way)).into_iter();
+    let others = conditions[1..].iter().map(|it| over(*it, Way::Track));
+    let named: Named = ways.chain(others).collect();
+    let names = named.iter().rev().map(|(name, _)| name.clone());
+    let y = Axis::names(names.collect());
+    let height = LINE * named.len() as f64;
+    let mut plot = Plot::of(vec![Panel::new(height, x_axis(&named), y)], 1);
+    plot.margins.left = 130.0;
+    plot.add(0, Mark::Grid);
+    for (length, points) in points(&named).into_iter().enumerate() {
+        let style = Style::of(length);
+        let bars = points.iter().map(|(low, at, high)| {
+            let corners = [(*low, at.1 - THICK), (*high, at.1 + THICK)];
+            (corners[0], corners[1], style.colour)
+        });
+        plot.add(0, Mark::Cells(bars.collect()));
+        let markers = points.iter().map(|(_, at, _)| Point::at(*at));
+        plot.add(0, Mark::Markers(markers.collect(), style));
     }
-    let lengths = shown[0].1[0].1.iter();
-    let lengths = lengths.map(|row| format!("{} m", row.distance));
+    plot.add(0, Mark::Axes);
+    let lengths = named[0].1.iter().map(|row| format!("{} m", row.distance));
     plot.add_legend(Entry::of_curves(lengths, Key::Marker), Place::Above);
     plot.set_caption(&[
         "each trip simulated with its accelerometer record".to_owned(),
@@ -73,30 +61,27 @@ pub fn plot(rows: &[Row], conditions: &[Condition], seed: u64) -> Plot {
     plot
 }
 
-fn scaled(value: f64, is_long: bool) -> f64 {
-    if is_long { log10(value) } else { value }
-}
-
-fn x_axis(named: &Named, is_long: bool) -> Axis {
+fn x_axis(named: &Named) -> Axis {
     let rows = named.iter().flat_map(|(_, rows)| rows);
     let values = rows.filter(|row| row.count > 0);
-    let (low, high) = ends(values.map(|row| scaled(row.estimate, is_long)));
-    match is_long {
-        _ if low > high => Axis::linear(0.0, 1.0, 5),
-        true => Axis::decades(low - 0.1, high + 0.1),
-        false => Axis::linear(0.9 * low, 1.05 * high, 6),
-    }
+    let (low, high) = ends(values.map(|row| log10(row.estimate)));
+    let axis = if low > high {
+        Axis::decades(0.0, 1.0)
+    } else {
+        Axis::decades(low - 0.1, high + 0.1)
+    };
+    axis.labelled("RMS error over the bound")
 }
 
 /// For each length the interval of each name, and its place.
-fn points(named: &Named, is_long: bool) -> Vec<Vec<Placed>> {
+fn points(named: &Named) -> Vec<Vec<Placed>> {
     let lengths = named.iter().map(|(_, rows)| rows.len()).max().unwrap_or(0);
     let of = |length: usize| {
         let places = named.iter().rev().zip((0..).map(f64::from));
         let points = places.filter_map(|((_, rows), y)| {
             let row = rows.get(length).filter(|row| row.count > 0)?;
             let off = (lengths - 1) as f64 / 2.0 - length as f64;
-            let [low, x, high] = [row.low, row.estimate, row.high].map(|it| scaled(it, is_long));
+            let [low, x, high] = [row.low, row.estimate, row.high].map(log10);
             Some((low, (x, y + APART * off), high))
         });
         points.filter(|(low, ..)| low.is_finite()).collect()
