@@ -2,7 +2,6 @@
 
 use super::class::{Class, Ranges};
 use super::draws::Draws;
-use super::limits::Limits;
 use super::pulse::{Pulse, Shape};
 use crate::lift::Journey;
 use crate::lift::drive::{Drive, Start};
@@ -103,15 +102,15 @@ impl Lift {
     }
 
     /// One that moves by these limits, without habits.
-    pub fn of(limits: &Limits) -> Self {
+    pub fn of(drive: Drive, braking: Drive, levelling: (f64, f64)) -> Self {
         Self {
-            drive: limits.drive,
-            braking: limits.braking,
-            levelling: limits.levelling,
+            drive,
+            braking,
+            levelling,
             stop: Drive {
                 acceleration: 0.4,
                 jerk: 2.0,
-                ..limits.drive
+                ..drive
             },
             habit: Habit::None,
             floors: 0,

@@ -29,7 +29,7 @@ impl Limits {
         distance: f64,
         (rate, samples): (f64, usize),
     ) -> (Journey, Vec<f64>) {
-        let lift = Lift::of(self);
+        let lift = Lift::of(self.drive, self.braking, self.levelling);
         let mut motion: Vec<Pulse> = Vec::new();
         let mut journey = lift.trip(start, distance, None, &mut motion);
         // The levelling of a trip too short for its full speed leads beyond the floor.
