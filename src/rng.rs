@@ -14,7 +14,7 @@
 //! assert_ne!(noise.at(3).next_u64(), noise.at(4).next_u64());
 //! ```
 
-use rand::SeedableRng;
+use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use sha2::{Digest, Sha256};
 
@@ -49,10 +49,14 @@ impl Stream {
     }
 }
 
+/// Uniform in [0, 1), a multiple of 2⁻⁵³.
+pub fn unit(generator: &mut Generator) -> f64 {
+    (generator.next_u64() >> 11) as f64 * 0.5f64.powi(53)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rand::Rng;
 
     #[test]
     fn every_coordinate_matters() {

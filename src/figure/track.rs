@@ -55,9 +55,7 @@ pub fn plot(
     for places in track.course.stretches() {
         add_places(&mut plot, places);
     }
-    let entries = entries()
-        .into_iter()
-        .filter(|it| !floors.is_empty() || it.text != "floors");
+    let entries = entries(!floors.is_empty());
     let trips = track.trips.iter().filter_map(|it| {
         let (distance, deviation) = it.distance.zip(it.deviation)?;
         Some(format!(
@@ -96,15 +94,14 @@ fn phase(update: Update) -> Option<&'static str> {
     }
 }
 
-fn entries() -> [Entry; 4] {
+fn entries(has_floors: bool) -> impl Iterator<Item = Entry> {
     let shade = |text: &str, update: Update| {
         let colour = phase_colour(phase(update).unwrap_or("rest"));
         Entry::new(text, Style::of(0).coloured(colour), Key::Shade)
     };
-    [
-        shade("known to stand", Update::Standing),
-        shade("known to move uniformly", Update::Uniform),
-        Entry::new("floors", FLOOR, Key::Line),
-        Entry::new("± 2 deviations", Style::of(1).faded(0.3), Key::Shade),
-    ]
+    let stands = shade("known to stand", Update::Standing);
+    let moves = shade("known to move uniformly", Update::Uniform);
+    let floors = has_floors.then(|| Entry::new("floors", FLOOR, Key::Line));
+    let within = Entry::new("± 2 deviations", Style::of(1).faded(0.3), Key::Shade);
+    [stands, moves].into_iter().chain(floors).chain([within])
 }

@@ -1,6 +1,7 @@
 //! Rates and quantiles with exact intervals, and means with that of the normal law.
 
 use crate::counts::{Sums, Values};
+use crate::results::eight_digits;
 use crate::stats::normal::two_sided_quantile;
 use crate::stats::poisson;
 use crate::stats::quantile::Quantile;
@@ -20,6 +21,19 @@ pub struct Estimate {
     pub value: f64,
     pub low: f64,
     pub high: f64,
+}
+
+impl Estimate {
+    /// As it is written.
+    pub fn rounded(self) -> Self {
+        Self {
+            exposure: eight_digits(self.exposure),
+            value: eight_digits(self.value),
+            low: eight_digits(self.low),
+            high: eight_digits(self.high),
+            ..self
+        }
+    }
 }
 
 /// The quantiles of delays, by name.
@@ -65,22 +79,24 @@ pub fn rate(
 
 /// Quantiles of a delay. The count is the number of reported events.
 pub fn delays(outcome: &str, delays: &Values, confidence: f64) -> Vec<Estimate> {
-    let ascending = delays.ascending();
-    let told = delays.count(f64::is_finite);
-    let all = delays.count(|_| true);
-    let quantile = |(name, p)| {
-        let Quantile { value, low, high } = Quantile::of(&ascending, p, confidence);
-        Estimate {
-            outcome: format!("{outcome}_{name}"),
-            count: told,
-            exposure: all as f64,
-            unit: "trips",
-            value,
-            low,
-            high,
-        }
-    };
-    QUANTILES.map(quantile).into()
+    let named = QUANTILES.iter();
+    let each =
+        named.map(|(name, p)| quantile(&format!("{outcome}_{name}"), delays, *p, confidence));
+    each.collect()
+}
+
+/// The `p`-quantile of a number that trips have. The count is that of finite ones.
+pub fn quantile(outcome: &str, values: &Values, p: f64, confidence: f64) -> Estimate {
+    let Quantile { value, low, high } = Quantile::of(&values.ascending(), p, confidence);
+    Estimate {
+        outcome: outcome.to_owned(),
+        count: values.count(f64::is_finite),
+        exposure: values.count(|_| true) as f64,
+        unit: "trips",
+        value,
+        low,
+        high,
+    }
 }
 
 /// A number that is computed, not counted.

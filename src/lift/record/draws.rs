@@ -1,15 +1,14 @@
 //! The random numbers behind a plan.
 
-use crate::rng::Generator;
+use crate::rng::{self, Generator};
 use libm::{log, pow};
-use rand::Rng;
 
 pub(super) struct Draws(pub Generator);
 
 impl Draws {
     /// Uniform in [0, 1).
     fn unit(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 * 0.5f64.powi(53)
+        rng::unit(&mut self.0)
     }
 
     /// Uniform.

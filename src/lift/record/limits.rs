@@ -21,14 +21,10 @@ const EXACT: f64 = 1e-9;
 const MOST_TRIES: usize = 100;
 
 impl Limits {
-    /// A trip over `distance` metres, up positive, that starts at `start`, s; and the mean acceleration around each of so many
-    /// samples a rate, Hz, apart, the first at 0 s.
-    pub fn trip(
-        &self,
-        start: f64,
-        distance: f64,
-        (rate, samples): (f64, usize),
-    ) -> (Journey, Vec<f64>) {
+    /// A trip over `distance` metres, up positive, after and before a rest, s; and the mean acceleration around each sample
+    /// at a rate, Hz.
+    pub fn trip(&self, rests: [f64; 2], distance: f64, rate: f64) -> (Journey, Vec<f64>) {
+        let [start, after] = rests;
         let lift = Lift::of(self.drive, self.braking, self.levelling);
         let mut motion: Vec<Pulse> = Vec::new();
         let mut journey = lift.trip(start, distance, None, &mut motion);
@@ -43,6 +39,7 @@ impl Limits {
             motion.clear();
             journey = lift.trip(start, way, None, &mut motion);
         }
+        let samples = ((journey.stop + after) * rate) as usize;
         let mut acceleration = vec![0.0; samples];
         for pulse in motion {
             pulse.add_to(&mut acceleration, rate);

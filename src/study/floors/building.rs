@@ -6,9 +6,8 @@
 //! The error may be larger than claimed. The car stops σ_s beside its floor.
 
 use crate::lift::{Drive, Ending, Trip};
-use crate::rng::Generator;
+use crate::rng::{self, Generator};
 use libm::{cos, log, sqrt};
-use rand::Rng;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -77,7 +76,7 @@ impl Building {
 
     /// Uniform in [0, 1).
     pub fn unit(&mut self) -> f64 {
-        (self.draws.next_u64() >> 11) as f64 * 0.5_f64.powi(53)
+        rng::unit(&mut self.draws)
     }
 
     /// A number below another, each with equal probability.

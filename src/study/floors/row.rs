@@ -3,7 +3,6 @@
 use super::building::Traffic;
 use super::keys::JudgingRule;
 use super::table::{Point, Table};
-use crate::results::eight_digits;
 use crate::study::estimate::Estimate;
 use crate::study::kind::Context;
 use crate::track::floors::Association;
@@ -55,6 +54,7 @@ impl Row {
     pub(super) fn new(table: &Table, point: &Point, estimate: Estimate, context: &Context) -> Self {
         let keys = point.keys.clone();
         let settings = keys.settings();
+        let estimate = estimate.rounded();
         Self {
             curve: point.curve + 1,
             label: table.labels[point.curve].clone(),
@@ -62,11 +62,11 @@ impl Row {
             x: point.x,
             outcome: estimate.outcome,
             count: estimate.count,
-            exposure: eight_digits(estimate.exposure),
+            exposure: estimate.exposure,
             unit: estimate.unit.to_owned(),
-            estimate: eight_digits(estimate.value),
-            low: eight_digits(estimate.low),
-            high: eight_digits(estimate.high),
+            estimate: estimate.value,
+            low: estimate.low,
+            high: estimate.high,
             trials: context.trials,
             confidence: context.confidence,
             measure: table.measure.to_string(),

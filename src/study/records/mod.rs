@@ -198,14 +198,9 @@ impl Trials for &Records {
 
     /// Each class forms a group of its own.
     fn groups(&self, targets: &[usize]) -> Vec<Group<'_>> {
-        let group = |&at: &usize| {
-            let class = self.table.class[self.counters.points[at]];
-            Group::new(vec![at], move |trials| {
-                let mut sums = self.table.watch.shape().empty().sums;
-                trials.for_each(|trial| sums.add(&self.trial(class, trial)));
-                vec![sums]
-            })
-        };
-        targets.iter().map(group).collect()
+        self.counters.apart(targets, |at| {
+            let class = self.table.class[at];
+            move |number| self.trial(class, number)
+        })
     }
 }

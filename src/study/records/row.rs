@@ -2,7 +2,6 @@
 
 use super::table::Table;
 use crate::lift::Class;
-use crate::results::eight_digits;
 use crate::study::estimate::Estimate;
 use crate::study::kind::Context;
 use serde::{Deserialize, Serialize};
@@ -31,15 +30,16 @@ pub struct Row {
 
 impl Row {
     pub(super) fn new(class: Class, estimate: Estimate, table: &Table, context: &Context) -> Self {
+        let estimate = estimate.rounded();
         Self {
             class,
             outcome: estimate.outcome,
             count: estimate.count,
-            exposure: eight_digits(estimate.exposure),
+            exposure: estimate.exposure,
             unit: estimate.unit.to_owned(),
-            estimate: eight_digits(estimate.value),
-            low: eight_digits(estimate.low),
-            high: eight_digits(estimate.high),
+            estimate: estimate.value,
+            low: estimate.low,
+            high: estimate.high,
             trials: context.trials,
             confidence: context.confidence,
             watch: table.watch.to_string(),

@@ -6,8 +6,7 @@ use super::point::RidePoint;
 use crate::lift::Ride;
 use crate::monitor::{Design, Event, Knowledge, Monitor};
 use crate::recording::Sample;
-use crate::rng::Stream;
-use rand::Rng;
+use crate::rng::{self, Stream};
 
 /// A point, ready for trials.
 pub(super) struct Watch<'a> {
@@ -55,7 +54,7 @@ impl<'a> Watch<'a> {
 
     fn ride(&self, trial: u64) -> Account {
         let mut draws = Stream::new(self.seed, "ride plan", "").at(trial);
-        let mut uniform = || (draws.next_u64() >> 11) as f64 * 0.5f64.powi(53);
+        let mut uniform = || rng::unit(&mut draws);
         let ride = self.point.ride(&mut uniform).expect(CHECKED);
         let from = match self.point.measure {
             Measure::SwitchedOn => {

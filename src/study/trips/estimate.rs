@@ -2,9 +2,8 @@
 
 use super::trial::{COUNTS, LENGTHS, Way};
 use crate::counts::Sums;
-use crate::stats::quantile::Quantile;
 use crate::stats::tally::Tally;
-use crate::study::estimate::{Estimate, Mean, computed, share};
+use crate::study::estimate::{Estimate, Mean, computed, quantile, share};
 use libm::sqrt;
 
 /// All outcomes of a point.
@@ -18,22 +17,12 @@ pub(super) fn of(sums: &Sums, trials: u64, confidence: f64) -> Vec<Estimate> {
         let first = 1 + LENGTHS / 2 * place;
         let mean = |at: usize| Mean::new(sums, first + at, told, confidence);
         let rms = mean(1).root();
-        let ascending = sums.values[place].ascending();
-        let largest = Quantile::of(&ascending, 0.95, confidence);
         estimates.extend([
             share(&name("told"), tally(told, trials), "trials", confidence),
             mean(0).named(&name("bias"), told, "trips"),
             rms.named(&name("rms"), told, "trips"),
             rms.over(bound).named(&name("over_bound"), told, "trips"),
-            Estimate {
-                outcome: name("error_95"),
-                count: told,
-                exposure: told as f64,
-                unit: "trips",
-                value: largest.value,
-                low: largest.low,
-                high: largest.high,
-            },
+            quantile(&name("error_95"), &sums.values[place], 0.95, confidence),
             mean(2).named(&name("nees"), told, "trips"),
             share(&name("within"), tally(within, told), "trips", confidence),
         ]);

@@ -139,15 +139,9 @@ impl Trials for &Trips {
 
     /// Each point forms a group of its own.
     fn groups(&self, targets: &[usize]) -> Vec<Group<'_>> {
-        let group = |&at: &usize| {
-            let point = self.points[self.counters.points[at]];
-            Group::new(vec![at], move |trials| {
-                let mut sums = trial::shape().empty().sums;
-                let run = |trial| trial::run(&point, self.context.seed, trial);
-                trials.for_each(|trial| sums.add(&run(trial)));
-                vec![sums]
-            })
-        };
-        targets.iter().map(group).collect()
+        self.counters.apart(targets, |at| {
+            let (point, seed) = (self.points[at], self.context.seed);
+            move |number| trial::run(&point, seed, number)
+        })
     }
 }

@@ -24,13 +24,13 @@ fn trips_go_as_far_as_they_should() {
     for condition in ALL {
         let limits = condition.numbers().limits;
         for distance in [1.5, 9.0, 27.0] {
-            let (journey, acceleration) = limits.trip(2.0, distance, (500.0, 30_000));
+            let (journey, acceleration) = limits.trip([2.0, 3.0], distance, 500.0);
             let (mut speed, mut way) = (0.0, 0.0);
             for a in acceleration {
                 way += (speed + a / 1000.0) / 500.0;
                 speed += a / 500.0;
             }
-            assert!(journey.stop < 55.0 && speed.abs() < 1e-9, "{condition}");
+            assert!(speed.abs() < 1e-9, "{condition}");
             assert!((way - distance).abs() < 2e-3, "{condition}: {way}");
             assert_eq!(journey.levelling.is_some(), condition == Condition::Creep);
         }

@@ -7,13 +7,12 @@ use crate::detection::Detection;
 use crate::lift::Journey;
 use crate::monitor;
 use crate::recording::{Facts, Sample};
-use crate::rng::{Generator, Stream};
+use crate::rng::{self, Stream};
 use crate::signal::{Law, Noise};
 use crate::track::{
     Densities, LiveTrips, Method, Phases, Steps, Track, TrackSettings, Uncertain, moments,
 };
 use libm::{fabs, round, sqrt};
-use rand::Rng;
 
 /// How a distance is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -165,13 +164,11 @@ impl Recorded {
     fn new(point: &Point, seed: u64, trial: u64) -> Self {
         let (numbers, distance) = (point.condition.numbers(), point.distance);
         let mut draws = Stream::new(seed, "trips", "").at(trial);
-        let bias = uniform(&mut draws) - 0.5;
-        let start = RESTS[0] + uniform(&mut draws);
-        let (journey, _) = numbers.limits.trip(start, distance, (numbers.rate, 0));
-        let count = ((journey.stop + RESTS[1]) * numbers.rate) as usize;
-        let (_, truth) = (numbers.limits).trip(start, distance, (numbers.rate, count));
+        let bias = rng::unit(&mut draws) - 0.5;
+        let start = RESTS[0] + rng::unit(&mut draws);
+        let (journey, truth) = (numbers.limits).trip([start, RESTS[1]], distance, numbers.rate);
         let sigma = sqrt(Densities::of_sheet(numbers.density) * numbers.rate);
-        let mut noise = vec![0.0; 2 * count];
+        let mut noise = vec![0.0; 2 * truth.len()];
         let normal = Noise::new(Law::Normal).expect("the normal law has no parameter");
         normal.fill(&mut draws, &mut noise);
         let mut speed = 0.0;
@@ -228,9 +225,4 @@ impl Recorded {
         let density = Densities::of_sheet(self.numbers.density);
         moments(&steps, &self.phases(0.0).changes(), density)
     }
-}
-
-/// Uniform in [0, 1).
-fn uniform(draws: &mut Generator) -> f64 {
-    (draws.next_u64() >> 11) as f64 * 0.5f64.powi(53)
 }
