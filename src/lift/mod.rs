@@ -17,23 +17,28 @@
 //! # Ok::<(), liftsim::lift::RideError>(())
 //! ```
 
+mod course;
+mod draws;
 mod drive;
 mod export;
 mod pickup;
+mod pulse;
 mod record;
 mod simulate;
 #[cfg(test)]
 mod tests;
 mod trip;
 
+pub use course::Course;
 pub use drive::Drive;
 pub use export::{ExportLayout, write_phyphox, write_truth};
 pub use pickup::{Pickup, PickupError};
 pub use record::{Class, Limits, Record};
 pub use simulate::Simulated;
-pub use trip::{Course, Ending, Trip, TripError};
+pub use trip::{Braking, Ending, Trip, TripError};
 
 use crate::signal::Phase;
+use pulse::Pulse;
 
 /// Rests and trips in turn, sampled at a rate.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,6 +47,8 @@ pub struct Ride {
     rests: Vec<f64>,
     trips: Vec<Trip>,
     courses: Vec<Course>,
+    /// What shakes the cage along the vertical, and along the way of its doors.
+    shocks: [Vec<Pulse>; 2],
 }
 
 /// A part of a ride in one phase.
@@ -171,6 +178,7 @@ impl Ride {
             rests,
             trips,
             courses,
+            shocks: Default::default(),
         }
         .of_some_length()
     }
@@ -259,7 +267,7 @@ impl Ride {
                     start,
                     uniform: start + uniform,
                     braking: start + braking,
-                    levelling: None,
+                    levelling: course.levelling().map(|time| start + time),
                     stop: start + course.duration(),
                     direction: course.direction(),
                     distance: course.distance(),

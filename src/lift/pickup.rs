@@ -1,8 +1,9 @@
 //! The model of a sensor in the cage.
 //!
-//! r = bias + a cos φ + σ(x + d + v + λ): φ is the angle between its axis and the vertical, x the noise of the
+//! r = bias + w + a cos φ + c cos ψ + σ(x + d + v + λ): φ is the angle between its axis and the vertical, ψ that to
+//! the way of the doors, along which they knock with c; w is a random walk of the bias, x the noise of the
 //! sensor, d a disturbance at rest and in motion alike, v vibration and λ impulses, both only in motion; then
-//! the digitiser. σ is the standard deviation of the noise that drives the sensor, in m/s²: the unit of
+//! the digitiser. An error of the gain is in the cosines. σ is the standard deviation of the noise that drives the sensor, in m/s²: the unit of
 //! everything else in [`crate::signal`].
 //!
 //! The standard deviation of σx is gσ with g² = Σ h_k², the energy of the sensor's impulse response; g = 1 for
@@ -25,6 +26,10 @@ pub struct Pickup {
     pub bias: f64,
     /// cos φ: 1 for a vertical axis, 0 for a horizontal one.
     pub cosine: f64,
+    /// cos ψ.
+    pub across: f64,
+    /// Deviation of the bias's random walk after a second, m/s².
+    pub walk: f64,
     /// Standard deviation, in σ, of the white normal noise added at the drive's full speed. At lower speeds it is
     /// proportional to the speed, because a cage that starts is still quiet.
     pub vibration: f64,
@@ -61,6 +66,8 @@ impl Pickup {
             digitiser: Digitiser::default(),
             bias: 0.0,
             cosine: 1.0,
+            across: 0.0,
+            walk: 0.0,
             vibration: 0.0,
             impulses: Impulses::none(),
             disturbance: Disturbance::default(),

@@ -3,9 +3,11 @@
 //! Each kind of draw has its own stream, so that rides that differ only in strength share their draws: the
 //! same noise serves every Δ/σ.
 
+use super::pulse::add_speed;
 use super::{Course, Journey, Pickup, Ride, Stretch};
 use crate::rng::{Generator, Stream};
 use crate::signal::{During, ImpulseMemory, Law, Noise, Phase};
+use libm::sqrt;
 use rand::Rng;
 use std::ops::Range;
 
@@ -37,6 +39,7 @@ impl Ride {
         self.vibrate(pickup, &mut generator("ride vibration"), &mut record);
         self.knock(pickup, &mut generator("ride impulses"), &mut record);
         self.accelerate(pickup, &mut record);
+        wander(pickup, self.rate, &mut generator("ride bias"), &mut record);
         write_down(pickup, &mut record);
         Simulated {
             rate: self.rate,
@@ -46,15 +49,28 @@ impl Ride {
         }
     }
 
+    /// The times of the samples on the record's clock, s: they vary with a deviation of `jitter`, cut off so that they
+    /// increase. A record says when its samples were stored, not when they were taken.
+    pub fn clock(&self, jitter: f64, seed: u64) -> Vec<f64> {
+        let mut late = vec![0.0; self.samples()];
+        if jitter > 0.0 {
+            normal().fill(&mut Stream::new(seed, "ride clock", "").at(0), &mut late);
+        }
+        let most = 0.4 / self.rate;
+        let times = late.iter().enumerate();
+        times
+            .map(|(i, late)| (i as f64 + 0.5) / self.rate + (jitter * late).clamp(-most, most))
+            .collect()
+    }
+
     fn vibrate(&self, pickup: &Pickup, generator: &mut Generator, record: &mut [f64]) {
         if pickup.vibration == 0.0 {
             return;
         }
-        let normal = Noise::new(Law::Normal).expect("the normal law has no parameter");
         for ((start, course), trip) in self.started().zip(&self.trips) {
             let range = self.in_motion(start, course, record.len());
             let mut draws = vec![0.0; range.len()];
-            normal.fill(generator, &mut draws);
+            normal().fill(generator, &mut draws);
             let strength = pickup.vibration / trip.drive.speed;
             for (i, draw) in range.zip(draws) {
                 let speed = course.speed_at(i as f64 / self.rate - start).abs();
@@ -89,19 +105,36 @@ impl Ride {
     fn accelerate(&self, pickup: &Pickup, record: &mut [f64]) {
         let scale = self.rate * pickup.cosine / pickup.sigma;
         for (start, course) in self.started() {
-            let edge = |i: usize| (i as f64 - 0.5) / self.rate - start;
-            let first = (start * self.rate).round() as usize;
-            let mut speed = 0.0;
-            for (i, r) in record.iter_mut().enumerate().skip(first) {
-                let next = course.speed_at(edge(i + 1));
-                *r += (next - speed) * scale;
-                speed = next;
-                if edge(i + 1) >= course.duration() {
-                    break;
-                }
+            let span = (start, start + course.duration());
+            let speed_at = |time| course.speed_at(time - start);
+            add_speed(record, self.rate, scale, span, speed_at);
+        }
+        let across = self.rate * pickup.across / pickup.sigma;
+        for (pulses, scale) in self.shocks.iter().zip([scale, across]) {
+            for pulse in pulses {
+                pulse.add_to(record, self.rate, scale);
             }
         }
     }
+}
+
+/// The random walk of the bias.
+fn wander(pickup: &Pickup, rate: f64, generator: &mut Generator, record: &mut [f64]) {
+    if pickup.walk == 0.0 {
+        return;
+    }
+    let mut steps = vec![0.0; record.len()];
+    normal().fill(generator, &mut steps);
+    let scale = pickup.walk / sqrt(rate) / pickup.sigma;
+    let mut bias = 0.0;
+    for (r, step) in record.iter_mut().zip(steps) {
+        bias += scale * step;
+        *r += bias;
+    }
+}
+
+fn normal() -> Noise {
+    Noise::new(Law::Normal).expect("the normal law has no parameter")
 }
 
 /// x, stationary from the first sample.

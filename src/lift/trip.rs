@@ -1,14 +1,17 @@
 //! One trip: from rest over a distance to rest again, or to a jam.
 //!
-//! A commanded trip ends like its start, reversed in time. A cage that jams in uniform motion at speed v stops
+//! A commanded trip ends like its start, reversed in time, or by a braking with limits of its own and a creep of
+//! speed c to the landing: then its highest speed v ≤ V is the largest for which start, braking and creep are
+//! no longer than the trip, by bisection, since each grows with v. A trip too short to creep does without.
+//!
+//! A cage that jams in uniform motion at speed v stops
 //! within w seconds by a half-sine deceleration, a(t) = −(πv/2w) sin(πt/w), the shape used in shock tests:
 //! v(t) = v (1 + cos(πt/w))/2, and the stopping distance is vw/2. At 1 m/s and 0.1 s the peak is 15.7 m/s².
-//! The cage stays where it jammed.
+//! The cage stays where it jammed, or where an emergency brake has stopped it.
 
-use super::drive::{Drive, Start};
-use crate::signal::Phase;
-use libm::{cos, sin};
-use std::f64::consts::PI;
+use super::course::Course;
+use super::drive::Drive;
+use crate::stats::bisect::bisect;
 
 /// A trip as asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +29,10 @@ pub struct Trip {
 pub enum Ending {
     /// By braking, at the distance asked for.
     Commanded,
+    /// The same with limits of its own.
+    Braked(Braking),
+    /// Half way through the uniform motion, by a deceleration of this size, m/s², that is reached within 0.1 s.
+    Emergency(f64),
     /// By a jam in uniform motion.
     Jam {
         /// Time of the jam, s from the start of the trip.
@@ -33,6 +40,19 @@ pub enum Ending {
         /// Stopping time, s.
         within: f64,
     },
+}
+
+/// A braking that is not the start reversed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Braking {
+    /// m/s².
+    pub acceleration: f64,
+    /// m/s³.
+    pub jerk: f64,
+    /// Speed of the creep to the landing, m/s; 0 for none.
+    pub creep: f64,
+    /// Its duration, s.
+    pub seconds: f64,
 }
 
 /// Why a trip was refused.
@@ -71,17 +91,6 @@ pub enum TripError {
     },
 }
 
-/// The motion of a trip at any time, in seconds from its start.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Course {
-    direction: f64,
-    start: Start,
-    /// Duration of the uniform motion, s.
-    uniform: f64,
-    /// Stopping time, s, if it ends in a jam.
-    jam: Option<f64>,
-}
-
 impl Trip {
     /// Computes the motion.
     ///
@@ -105,12 +114,60 @@ impl Trip {
             direction: self.distance.signum(),
             start,
             uniform: (distance / start.speed - start.duration).max(0.0),
+            braking: start,
+            creep: 0.0,
+            stop: self.drive.start_to(0.0),
             jam: None,
         };
         match self.ending {
             Ending::Commanded => Ok(course),
-            Ending::Jam { after, within } => course.jammed(after, within, self.distance),
+            Ending::Braked(braking) => self.braked(braking),
+            Ending::Emergency(deceleration) => stopped(course, deceleration),
+            Ending::Jam { after, within } => jammed(course, after, within, self.distance),
         }
+    }
+
+    fn braked(&self, braking: Braking) -> Result<Course, TripError> {
+        let limits = braking.limits()?;
+        let (distance, full) = (self.distance.abs(), self.drive.speed);
+        let with = |creep: f64, seconds, speed: f64| Course {
+            direction: self.distance.signum(),
+            start: self.drive.start_to(speed),
+            uniform: 0.0,
+            braking: limits.start_to(speed - creep),
+            creep: seconds,
+            stop: limits.start_to(creep),
+            jam: None,
+        };
+        let fits = |course: Course| course.distance().abs() <= distance;
+        let (creep, seconds) = (braking.creep.min(full), braking.seconds);
+        let creeps = creep > 0.0 && seconds > 0.0 && fits(with(creep, seconds, creep));
+        let (creep, seconds) = if creeps { (creep, seconds) } else { (0.0, 0.0) };
+        let speed = if fits(with(creep, seconds, full)) {
+            full
+        } else {
+            // Below the boundary, so that uniform motion fills what is left.
+            let boundary = bisect(creep, full, |speed| fits(with(creep, seconds, speed)));
+            (boundary * (1.0 - 2e-12)).max(creep)
+        };
+        let course = with(creep, seconds, speed);
+        let uniform = (distance - course.distance().abs()) / speed;
+        Ok(Course {
+            uniform: uniform.max(0.0),
+            ..course
+        })
+    }
+}
+
+impl Braking {
+    fn limits(&self) -> Result<Drive, TripError> {
+        positive("braking.acceleration", self.acceleration)?;
+        positive("braking.jerk", self.jerk)?;
+        Ok(Drive {
+            speed: f64::INFINITY,
+            acceleration: self.acceleration,
+            jerk: self.jerk,
+        })
     }
 }
 
@@ -122,117 +179,35 @@ fn positive(name: &'static str, value: f64) -> Result<(), TripError> {
     }
 }
 
-impl Course {
-    fn jammed(self, after: f64, within: f64, distance: f64) -> Result<Self, TripError> {
-        positive("jam.within", within)?;
-        let (from, to) = self.uniform_motion();
-        // If the drive just reaches its speed, rounding may leave a uniform motion of almost no duration.
-        if self.uniform < 1e-9 {
-            return Err(TripError::NeverUniform { distance });
-        }
-        if !(from..=to).contains(&after) {
-            return Err(TripError::JamOutside { after, from, to });
-        }
-        Ok(Self {
-            uniform: after - from,
-            jam: Some(within),
-            ..self
-        })
-    }
+/// Stopped half way through the uniform motion, at once.
+fn stopped(course: Course, deceleration: f64) -> Result<Course, TripError> {
+    const WITHIN: f64 = 0.1;
+    positive("deceleration", deceleration)?;
+    let brake = Drive {
+        speed: f64::INFINITY,
+        acceleration: deceleration,
+        jerk: deceleration / WITHIN,
+    };
+    Ok(Course {
+        uniform: course.uniform / 2.0,
+        braking: brake.start_to(course.start.speed),
+        ..course
+    })
+}
 
-    /// 1 up, −1 down.
-    pub fn direction(&self) -> i8 {
-        self.direction as i8
+fn jammed(course: Course, after: f64, within: f64, distance: f64) -> Result<Course, TripError> {
+    positive("jam.within", within)?;
+    let (from, to) = course.uniform_motion();
+    // If the drive just reaches its speed, rounding may leave a uniform motion of almost no duration.
+    if course.uniform < 1e-9 {
+        return Err(TripError::NeverUniform { distance });
     }
-
-    /// The highest speed, m/s, without its sign.
-    pub fn top_speed(&self) -> f64 {
-        self.start.speed
+    if !(from..=to).contains(&after) {
+        return Err(TripError::JamOutside { after, from, to });
     }
-
-    /// Whether it ends in a jam.
-    pub fn is_jammed(&self) -> bool {
-        self.jam.is_some()
-    }
-
-    /// Start and end of the uniform motion, s from the start; equal if there is none.
-    pub fn uniform_motion(&self) -> (f64, f64) {
-        (self.start.duration, self.start.duration + self.uniform)
-    }
-
-    /// The duration of the trip, s.
-    pub fn duration(&self) -> f64 {
-        self.braking_from() + self.braking()
-    }
-
-    /// The distance travelled, m, up positive.
-    pub fn distance(&self) -> f64 {
-        self.position_at(self.duration())
-    }
-
-    /// Its phases in order, each with its duration in s; phases of no length are left out.
-    pub fn phases(&self) -> impl Iterator<Item = (Phase, f64)> {
-        let phases = [
-            (Phase::Accelerating, self.start.duration),
-            (Phase::Inertial, self.uniform),
-            (Phase::Braking, self.braking()),
-        ];
-        phases.into_iter().filter(|(_, duration)| *duration > 0.0)
-    }
-
-    /// The phase at `time`.
-    pub fn phase_at(&self, time: f64) -> Phase {
-        match time {
-            _ if !(0.0..self.duration()).contains(&time) => Phase::Rest,
-            _ if time < self.start.duration => Phase::Accelerating,
-            _ if time < self.braking_from() => Phase::Inertial,
-            _ => Phase::Braking,
-        }
-    }
-
-    /// m/s², up positive.
-    pub fn acceleration_at(&self, time: f64) -> f64 {
-        let (braked, left) = (time - self.braking_from(), self.duration() - time);
-        let size = match self.jam {
-            _ if braked <= 0.0 => self.start.acceleration_at(time),
-            None => -self.start.acceleration_at(left),
-            Some(_) if left <= 0.0 => 0.0,
-            Some(within) => -self.start.speed * PI / (2.0 * within) * sin(PI * braked / within),
-        };
-        self.direction * size
-    }
-
-    /// m/s, up positive.
-    pub fn speed_at(&self, time: f64) -> f64 {
-        let (braked, left) = (time - self.braking_from(), self.duration() - time);
-        let size = match self.jam {
-            _ if braked <= 0.0 => self.start.speed_at(time),
-            None => self.start.speed_at(left),
-            Some(_) if left <= 0.0 => 0.0,
-            Some(within) => self.start.speed * (1.0 + cos(PI * braked / within)) / 2.0,
-        };
-        self.direction * size
-    }
-
-    /// m from the start, up positive.
-    pub fn position_at(&self, time: f64) -> f64 {
-        let braked = (time - self.braking_from()).clamp(0.0, self.braking());
-        let uniform = (time - self.start.duration).clamp(0.0, self.uniform);
-        let of_braking = match self.jam {
-            None => self.start.way_at(self.braking()) - self.start.way_at(self.braking() - braked),
-            Some(within) => {
-                self.start.speed / 2.0 * (braked + within / PI * sin(PI * braked / within))
-            }
-        };
-        self.direction * (self.start.way_at(time) + self.start.speed * uniform + of_braking)
-    }
-
-    /// Start of the braking or the jam, s from the start.
-    fn braking_from(&self) -> f64 {
-        self.uniform_motion().1
-    }
-
-    fn braking(&self) -> f64 {
-        self.jam.unwrap_or(self.start.duration)
-    }
+    Ok(Course {
+        uniform: after - from,
+        jam: Some(within),
+        ..course
+    })
 }

@@ -1,12 +1,12 @@
 //! What the cage does and what is done to it, in order of time.
 
 use super::class::{Class, Ranges};
-use super::disturbance::{disturbance, footfalls, handling};
-use super::draws::Draws;
+use super::disturbance::{disturbance, handling};
 use super::lift::{FLOOR, Lift};
-use super::pulse::{Pulse, Shape};
 use crate::lift::Journey;
+use crate::lift::draws::Draws;
 use crate::lift::drive::Drive;
+use crate::lift::pulse::{Pulse, Shape, footfalls};
 
 /// The motion of a cage, from time 0 on.
 pub(super) struct Cage {

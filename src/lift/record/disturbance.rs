@@ -1,8 +1,8 @@
 //! What else a sensor feels: people, hands, ropes, and its own faults.
 
 use super::class::Class;
-use super::draws::Draws;
-use super::pulse::{Pulse, Shape};
+use crate::lift::draws::Draws;
+use crate::lift::pulse::{Pulse, Shape};
 use crate::recording::GRAVITY;
 use libm::cos;
 use std::f64::consts::PI;
@@ -85,21 +85,6 @@ pub(super) fn handling(from: f64, to: f64, draws: &mut Draws) -> Vec<Pulse> {
         let shape = Shape::Sine { peak, seconds };
         pulses.push(Pulse { from: now, shape });
         now += seconds * draws.within([1.0, 1.5]);
-    }
-    pulses
-}
-
-/// People walk about, with so many steps a second.
-pub(super) fn footfalls(steps: f64, (from, to): (f64, f64), draws: &mut Draws) -> Vec<Pulse> {
-    let mut pulses = Vec::new();
-    let mut now = from + draws.gap(steps);
-    while now < to {
-        let shape = Shape::Sine {
-            peak: draws.sign() * draws.decades([0.03, 0.4]),
-            seconds: draws.within([0.06, 0.2]),
-        };
-        pulses.push(Pulse { from: now, shape });
-        now += draws.gap(steps);
     }
     pulses
 }

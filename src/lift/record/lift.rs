@@ -1,10 +1,10 @@
 //! A lift in its building, and its trips.
 
 use super::class::{Class, Ranges};
-use super::draws::Draws;
-use super::pulse::{Pulse, Shape};
 use crate::lift::Journey;
+use crate::lift::draws::Draws;
 use crate::lift::drive::{Drive, Start};
+use crate::lift::pulse::{Pulse, Shape};
 use libm::ceil;
 
 /// The height of a floor, m.

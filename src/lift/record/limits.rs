@@ -1,9 +1,9 @@
 //! One trip by given limits, where a study wants to know its distance.
 
 use super::lift::Lift;
-use super::pulse::Pulse;
 use crate::lift::Journey;
 use crate::lift::drive::Drive;
+use crate::lift::pulse::Pulse;
 
 /// How a lift moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +42,7 @@ impl Limits {
         let samples = ((journey.stop + after) * rate) as usize;
         let mut acceleration = vec![0.0; samples];
         for pulse in motion {
-            pulse.add_to(&mut acceleration, rate);
+            pulse.add_to(&mut acceleration, rate, rate);
         }
         (journey, acceleration)
     }

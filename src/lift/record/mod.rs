@@ -16,10 +16,8 @@
 mod cage;
 mod class;
 mod disturbance;
-mod draws;
 mod lift;
 mod limits;
-mod pulse;
 mod sensor;
 #[cfg(test)]
 mod tests;
@@ -28,10 +26,10 @@ pub use class::Class;
 pub use limits::Limits;
 
 use super::Journey;
+use super::draws::Draws;
 use crate::rng::{Generator, Stream};
 use cage::Cage;
 use class::Ranges;
-use draws::Draws;
 use sensor::Mounted;
 
 /// A record and its truth. Times are in s on the record's clock, accelerations in m/s², up positive.

@@ -2,7 +2,7 @@
 
 use super::cage::Cage;
 use super::class::{Class, Ranges};
-use super::draws::Draws;
+use crate::lift::draws::Draws;
 use crate::recording::GRAVITY;
 use crate::rng::Generator;
 use crate::signal::{Law, Noise, Sensor};
@@ -77,7 +77,7 @@ impl Mounted {
         self.add_noise(&mut record, generator);
         self.add_vibration(cage, &mut record, generator);
         for pulse in cage.motion.iter().chain(&cage.disturbances) {
-            pulse.add_to(&mut record, self.rate);
+            pulse.add_to(&mut record, self.rate, self.rate);
         }
         self.drift(&mut record);
         match self.tau {

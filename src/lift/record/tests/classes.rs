@@ -1,9 +1,9 @@
 //! Each class against its name.
 
 use super::{plans, records};
+use crate::lift::pulse::{Pulse, Shape};
 use crate::lift::record::cage::Cage;
 use crate::lift::record::plan;
-use crate::lift::record::pulse::{Pulse, Shape};
 use crate::lift::{Class, Journey};
 
 fn rests(cage: &Cage) -> Vec<f64> {

@@ -3,9 +3,9 @@
 mod classes;
 
 use super::disturbance::jump;
-use super::pulse::{Pulse, Shape};
 use super::sensor::high_pass;
 use super::*;
+use crate::lift::pulse::{Pulse, Shape};
 
 const ALL: [Class; 27] = [
     Class::Ordinary,
@@ -53,7 +53,7 @@ fn samples_add_up_to_the_speed() {
         for (cage, sensor) in plans(class) {
             let mut record = vec![0.0; sensor.samples(&cage)];
             for change in &cage.motion {
-                change.add_to(&mut record, sensor.rate);
+                change.add_to(&mut record, sensor.rate, sensor.rate);
             }
             let mut speed = 0.0;
             for (i, a) in record.iter().enumerate() {
@@ -110,7 +110,7 @@ fn disturbances_leave_no_speed() {
             let mut record = vec![0.0; 80_000];
             pulses
                 .iter()
-                .for_each(|pulse| pulse.add_to(&mut record, rate));
+                .for_each(|pulse| pulse.add_to(&mut record, rate, rate));
             let speed = record.iter().sum::<f64>() / rate;
             let strength = record.iter().map(|a| a.abs()).sum::<f64>() / rate;
             assert!(

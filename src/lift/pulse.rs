@@ -3,7 +3,8 @@
 //! A sample is the mean acceleration over its period, so it is the difference of two such speeds divided by the
 //! period: samples add up exactly, however short the pulse.
 
-use crate::lift::drive::Start;
+use super::draws::Draws;
+use super::drive::Start;
 use libm::{cos, exp, sin};
 use std::f64::consts::PI;
 
@@ -55,21 +56,48 @@ impl Pulse {
             .speed_after((time - self.from).clamp(0.0, self.shape.seconds()))
     }
 
-    /// Adds it to samples that begin at time 0.
-    pub fn add_to(&self, acceleration: &mut [f64], rate: f64) {
-        let edge = |i: usize| (i as f64 - 0.5) / rate;
-        let first = (self.from * rate).round().max(0.0) as usize;
+    /// Adds it to samples that begin at time 0, `scale` to a change of 1 m/s in a sample.
+    pub fn add_to(&self, acceleration: &mut [f64], rate: f64, scale: f64) {
         let until = self.from + self.shape.seconds();
-        let mut speed = self.speed_at(edge(first));
-        for (i, a) in acceleration.iter_mut().enumerate().skip(first) {
-            let next = self.speed_at(edge(i + 1));
-            *a += (next - speed) * rate;
-            speed = next;
-            if edge(i + 1) >= until {
-                break;
-            }
+        let span = (self.from, until);
+        add_speed(acceleration, rate, scale, span, |time| self.speed_at(time));
+    }
+}
+
+/// Adds the acceleration of what changes its speed from one time to another: the mean over each sample's period.
+pub(super) fn add_speed(
+    acceleration: &mut [f64],
+    rate: f64,
+    scale: f64,
+    (from, until): (f64, f64),
+    speed_at: impl Fn(f64) -> f64,
+) {
+    let edge = |i: usize| (i as f64 - 0.5) / rate;
+    let first = (from * rate).round().max(0.0) as usize;
+    let mut speed = speed_at(edge(first));
+    for (i, a) in acceleration.iter_mut().enumerate().skip(first) {
+        let next = speed_at(edge(i + 1));
+        *a += (next - speed) * scale;
+        speed = next;
+        if edge(i + 1) >= until {
+            break;
         }
     }
+}
+
+/// People walk about, with so many steps a second.
+pub(super) fn footfalls(steps: f64, (from, to): (f64, f64), draws: &mut Draws) -> Vec<Pulse> {
+    let mut pulses = Vec::new();
+    let mut now = from + draws.gap(steps);
+    while now < to {
+        let shape = Shape::Sine {
+            peak: draws.sign() * draws.decades([0.03, 0.4]),
+            seconds: draws.within([0.06, 0.2]),
+        };
+        pulses.push(Pulse { from: now, shape });
+        now += draws.gap(steps);
+    }
+    pulses
 }
 
 impl Shape {
