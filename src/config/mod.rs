@@ -11,15 +11,3 @@ pub use axis::{Axis, AxisValue};
 pub use refusal::Refusal;
 pub use source::{ConfigError, Conflict, Source};
 pub use tree::{Node, Table, Value};
-
-use serde::de::DeserializeOwned;
-use std::path::Path;
-
-/// Reads a TOML file that is not an experiment.
-///
-/// # Errors
-/// If the file cannot be read, is not TOML, or has an unknown key or a wrong value.
-pub fn read<T: DeserializeOwned>(path: &Path) -> Result<T, ConfigError> {
-    let source = Source::load(path)?;
-    source.read(&source.parse()?, "")
-}

@@ -17,6 +17,8 @@
 //! # Ok::<(), liftsim::lift::RideError>(())
 //! ```
 
+mod accelerometer;
+mod building;
 mod course;
 mod draws;
 mod drive;
@@ -29,6 +31,8 @@ mod simulate;
 mod tests;
 mod trip;
 
+pub use accelerometer::{Accelerometer, Model, Pose};
+pub use building::{Building, BuildingError, Fault, FaultKind, Journeys, Levelling, Stop};
 pub use course::Course;
 pub use drive::Drive;
 pub use export::{ExportLayout, write_phyphox, write_truth};

@@ -2,6 +2,8 @@
 
 use super::{liftsim, outcome, project};
 use liftsim::results::sha256;
+use serde_json::Value;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -276,6 +278,148 @@ fn bad_flags_get_sentences() {
         err.contains(
             "none/ride.csv: cannot be written: no folder none (make it, or give another name)"
         ),
+        "{err}"
+    );
+}
+
+/// The building that is shipped: its truth, its trips as `track` measures them within four deviations, and its floors,
+/// with an alarm at the two stops that are wrong and at no other.
+#[test]
+fn the_building_is_tracked() {
+    let directory = tempfile::tempdir().unwrap();
+    let config = project().join("configs/simulate/building.toml");
+    let flags = [config.to_str().unwrap(), "--out", "building.csv"];
+    let (code, out, err) = simulate(directory.path(), &flags);
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert!(out.ends_with("building.truth.csv  10 trips\n"), "{out}");
+    let mut truth = csv::Reader::from_path(directory.path().join("building.truth.csv")).unwrap();
+    let truth: Vec<BTreeMap<String, String>> =
+        truth.deserialize().collect::<Result<_, _>>().unwrap();
+    let mut track = liftsim();
+    track.current_dir(directory.path()).args([
+        "track",
+        "building.csv",
+        "--floors",
+        "0,4.2,7.4,10.6,13.8,17",
+        "--at",
+        "0",
+        "--format",
+        "json",
+    ]);
+    let (code, out, err) = outcome(&mut track);
+    assert_eq!(code, 0, "{err}");
+    let report: Value = serde_json::from_str(&out).unwrap();
+    let rides = report["rides"].as_array().unwrap();
+    assert_eq!(rides.len(), truth.len());
+    for (ride, truth) in rides.iter().zip(&truth) {
+        let number = |name: &str| truth[name].parse::<f64>().unwrap();
+        let of = |name: &str| ride[name].as_f64().unwrap();
+        let (distance, deviation) = (of("distance"), of("deviation"));
+        let error = distance - number("distance");
+        println!(
+            "{distance:.3} ± {deviation:.3} m, off by {error:.3}, {}",
+            ride["landing"]
+        );
+        assert!(error.abs() < 4.0 * deviation, "{ride}");
+        assert!((of("start") - number("start")).abs() < 0.5, "{ride}");
+        assert!((of("stop") - number("stop")).abs() < 0.5, "{ride}");
+        let landing = &ride["landing"];
+        let is_wrong = !truth["fault"].is_empty();
+        assert_eq!(
+            landing["judgement"]["fault"].is_string(),
+            is_wrong,
+            "{landing}"
+        );
+        if !is_wrong {
+            assert_eq!(landing["floor"].to_string(), truth["to"], "{landing}");
+        }
+    }
+}
+
+/// What is wrong with a building is said at its place, with a remedy.
+#[test]
+fn buildings_are_refused_at_their_place() {
+    let directory = tempfile::tempdir().unwrap();
+    let refused = |text: &str, flags: &[&str]| {
+        fs::write(directory.path().join("b.toml"), text).unwrap();
+        let all = [&["b.toml", "--out", "b.csv"], flags].concat();
+        let (code, out, err) = simulate(directory.path(), &all);
+        assert_eq!((code, out.as_str()), (2, ""), "{text}: {err}");
+        err
+    };
+    for (text, message) in [
+        (
+            "[building]\nfloors = [0, 3, 2]",
+            "b.toml:2:17: building.floors[2]: must lie above the floor before it, 3, got 2 (give heights",
+        ),
+        (
+            "[building]\njourneys = [0, 9]",
+            "b.toml:2:16: building.journeys[1]: must be a floor, 0 to 5, got 9 (count floors from 0, the lowest)",
+        ),
+        (
+            "[building]\njourneys = \"all\"",
+            "b.toml:2:12: building.journeys: must be a list of floors, or { random = N } with a whole number",
+        ),
+        (
+            "speed = 0\n[building]",
+            "b.toml:1:9: speed: must be positive and finite, got 0",
+        ),
+        (
+            "[building]\nfloor = [0, 3]",
+            "b.toml:2:1: building: unknown key `floor`, did you mean `floors`?",
+        ),
+        (
+            "[building]\nfaults = [{ journey = 1, kind = { pitt = 1 } }]",
+            "unknown value `pitt`, did you mean `pit`?",
+        ),
+        (
+            "[building]\nfaults = [{ journey = 1, kind = { between_floors = 1 } }]",
+            "must lie strictly between 0 and 1, got 1",
+        ),
+        (
+            "[building]\nfaults = [{ journey = 0, kind = { pit = 1 } }]",
+            "b.toml:2:23: building.faults[0].journey: must be a journey, 1 to 10, got 0",
+        ),
+        (
+            "trip = [\"up:3\"]\n[building]",
+            "b.toml:1:8: trip: means nothing with a [building] (leave it out)",
+        ),
+        (
+            "[sensor]\nmodel = \"phone\"",
+            "sensor: means nothing without a [building]",
+        ),
+        (
+            "[building]\n[sensor]\nmodel = \"mpu6051\"",
+            "b.toml:3:9: sensor.model: unknown value `mpu6051`, did you mean `mpu6050`?",
+        ),
+        (
+            "[building]\n[sensor]\ndensity = 0",
+            "b.toml:3:11: sensor.density: must lie in [1e-6, 1e6] µg/√Hz, got 0",
+        ),
+        (
+            "[building]\n[sensor]\nstep = 1e-9\ndensity = 1e6",
+            "b.toml:3:8: sensor.step: must be 1e-9 to 1e9 times the noise, got 0.000000001 (0 is none)",
+        ),
+        (
+            "[building]\njourneys = [0, 1]\ndwell = [0, 0]\nfaults = [{ journey = 1, kind = { mis_levelling = -4.2 } }]",
+            "b.toml:2:12: building: journey 1: distance must be finite and not zero, got 0",
+        ),
+        (
+            "rate = 0\n[building]",
+            "b.toml:1:8: rate must lie in [1e-3, 1e9] Hz, got 0",
+        ),
+    ] {
+        let err = refused(text, &[]);
+        assert!(err.contains(message), "{text}: {err}");
+    }
+    let err = refused("speed = 1\n[building]", &["--speed", "0"]);
+    assert!(
+        err.starts_with("error: --speed: must be positive and finite, got 0"),
+        "{err}"
+    );
+    let err = refused("[building]", &["--still"]);
+    assert!(
+        err.contains("--trip: means nothing with a [building]"),
         "{err}"
     );
 }

@@ -1,14 +1,20 @@
-//! `liftsim simulate`: a ride as a phone would record it, with the truth beside it.
+//! `liftsim simulate`: a ride as a phone would record it, or a building's lift by any sensor, with the truth beside it.
+
+mod building;
+mod request;
+mod trips;
 
 use super::output::Output;
 use super::{CommandResult, Failure, print};
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use clap::Args;
-use liftsim::config;
-use liftsim::lift::{Drive, Ending, ExportLayout, Pickup, Ride, Trip, write_phyphox, write_truth};
-use liftsim::recording::GRAVITY;
-use liftsim::signal::Digitiser;
+use liftsim::config::{Conflict, Source};
+use liftsim::lift::{
+    Accelerometer, Building, Drive, ExportLayout, Fault, Pickup, Ride, Stop, write_phyphox,
+    write_truth,
+};
 use liftsim::study::reference;
+use request::Request;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::io::{self, Write};
@@ -17,7 +23,7 @@ use std::process::ExitCode;
 
 /// Simulate a ride as a phone on the cage's floor would record it, with the truth beside it.
 ///
-/// The record is CSV in the layout of phyphox: time, acceleration along x, y and z (up), its size. FILE.truth.csv
+/// A config with a [building] has the lift go from floor to floor, with faults, before a sensor in any pose. The record is CSV in the layout of phyphox: time, acceleration along x, y and z (up), its size. FILE.truth.csv
 /// has a line for each trip: start, stop, direction, distance, top speed, how it ended, and from when to when
 /// the cage moved uniformly. Equal settings give equal bytes on every machine.
 #[derive(Debug, Args)]
@@ -28,6 +34,7 @@ use std::process::ExitCode;
     up:30:jam@9  jams 9 s after the start\n\n\
     Examples:\n  \
     liftsim simulate configs/simulate/ride.toml --out ride.csv\n  \
+    liftsim simulate configs/simulate/building.toml --out building.csv\n  \
     liftsim simulate --out jam.csv --trip up:6 --trip down:20:jam --speed 1.6\n  \
     liftsim simulate --out rest.csv --still --rest 600 --step 0.01")]
 pub struct Simulate {
@@ -92,95 +99,38 @@ struct Settings {
     /// Leave gravity in the vertical axis: 9.80665 m/s^2.
     #[arg(long)]
     with_gravity: bool,
+    #[arg(skip)]
+    #[schemars(skip)]
+    building: Option<Box<Building>>,
+    #[arg(skip)]
+    #[schemars(skip)]
+    sensor: Option<Box<Accelerometer>>,
 }
 
-/// A trip as it is typed.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(try_from = "String")]
-struct Request {
-    distance: f64,
-    jam: Option<When>,
-}
-
-/// When a trip jams.
-#[derive(Clone, Copy, Debug)]
-enum When {
-    HalfWay,
-    /// s from the start.
-    After(f64),
-}
-
-impl Request {
-    /// `up:12`, `down:7.5`, `up:30:jam`, `up:30:jam@9`.
-    fn parse(text: &str) -> Result<Self, String> {
-        let refused =
-            || "must be up:METRES or down:METRES, then :jam or :jam@SECONDS if it jams".to_owned();
-        let mut parts = text.splitn(3, ':');
-        let sign = match parts.next() {
-            Some("up") => 1.0,
-            Some("down") => -1.0,
-            _ => return Err(refused()),
-        };
-        let metres = parts.next().and_then(|metres| metres.parse::<f64>().ok());
-        let metres = metres.ok_or_else(refused)?;
-        if !(metres > 0.0 && metres.is_finite()) {
-            return Err(format!(
-                "METRES must be positive, got {metres} (up or down says which way)"
-            ));
-        }
-        let jam = parts.next().map(|jam| When::parse(jam).ok_or_else(refused));
-        Ok(Self {
-            distance: sign * metres,
-            jam: jam.transpose()?,
-        })
-    }
-
-    fn trip(&self, drive: Drive, jam_within: f64) -> anyhow::Result<Trip> {
-        let commanded = Trip {
-            distance: self.distance,
-            drive,
-            ending: Ending::Commanded,
-        };
-        let (from, to) = commanded.course()?.uniform_motion();
-        let ending = self.jam.map_or(Ending::Commanded, |when| Ending::Jam {
-            after: match when {
-                When::HalfWay => f64::midpoint(from, to),
-                When::After(seconds) => seconds,
-            },
-            within: jam_within,
-        });
-        let trip = Trip {
-            ending,
-            ..commanded
-        };
-        trip.course()?;
-        Ok(trip)
-    }
-}
-
-impl TryFrom<String> for Request {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, String> {
-        Self::parse(&text)
-    }
-}
-
-impl When {
-    /// `jam`, `jam@9`.
-    fn parse(text: &str) -> Option<Self> {
-        match text.strip_prefix("jam")? {
-            "" => Some(Self::HalfWay),
-            at => at.strip_prefix('@')?.parse().ok().map(Self::After),
-        }
-    }
+/// A ride, and the axes before which it is made.
+struct Simulation {
+    ride: Ride,
+    stops: Vec<Stop>,
+    axes: [Pickup; 3],
+    layout: ExportLayout,
+    /// s.
+    jitter: f64,
 }
 
 /// The keys of the config, in words.
 pub fn reference() -> String {
-    let title = "# Keys of `simulate`\n\n";
-    title.to_owned()
-        + &reference::table::<Settings>("a ride", "Flags of the same names go over them.")
+    let building = "A lift among floors, instead of trips; of the keys above it takes the seed, the rate and the drive's \
+        three limits.";
+    let sensor =
+        "What a building's ride is recorded with; what is left out is as in its data sheet.";
+    [
+        "# Keys of `simulate`\n\n",
+        &reference::table::<Settings>("a ride", "Flags of the same names go over them."),
+        &reference::table::<Building>("[building]", building),
+        &reference::table::<Fault>("[[building.faults]]", "What goes wrong on a journey."),
+        &reference::table::<Accelerometer>("[sensor]", sensor),
+    ]
+    .concat()
 }
 
 impl Simulate {
@@ -193,11 +143,10 @@ impl Simulate {
         let record = Output::new(&self.out, self.force)?;
         let truth = Output::new(&self.out.with_extension("truth.csv"), self.force)?;
         let paths = [&record, &truth].map(|output| output.path().display().to_string());
-        let settings = self.settings()?;
-        let ride = settings.ride().map_err(Failure::Input)?;
-        let upright = settings.pickup().map_err(Failure::Input)?;
-        let record = record.write_with(|out| settings.write_record(out, &ride, &upright))?;
-        let truth = truth.write_with(|out| write_truth(out, &ride))?;
+        let (simulation, seed) = self.simulation()?;
+        let record = record.write_with(|out| simulation.write(out, seed))?;
+        let ride = &simulation.ride;
+        let truth = truth.write_with(|out| write_truth(out, ride, &simulation.stops))?;
         record.publish()?;
         truth.publish()?;
         print(&format!(
@@ -213,8 +162,41 @@ impl Simulate {
         Ok(ExitCode::SUCCESS)
     }
 
-    /// The flags over the config.
-    fn settings(&self) -> Result<Settings, Failure> {
+    /// What the flags over the config ask for, and the seed of its noise.
+    fn simulation(&self) -> Result<(Simulation, u64), Failure> {
+        let flags = self.flags()?;
+        let Some(path) = &self.config else {
+            return made(&flags);
+        };
+        let source = Source::load(path).map_err(Failure::input)?;
+        let tree = source.parse().map_err(Failure::input)?;
+        let config: Settings = source.read(&tree, "").map_err(Failure::input)?;
+        let settings = flags.clone().over(config);
+        let Some(building) = &settings.building else {
+            if settings.sensor.is_some() {
+                let problem =
+                    "sensor: means nothing without a [building] (add one, or give sigma and step)";
+                let conflict = Conflict::of(["sensor"], problem);
+                return Err(Failure::input(source.conflict(&tree, conflict, &tree.span)));
+            }
+            return made(&settings);
+        };
+        let simulation = settings.of_building(building).map_err(|conflict| {
+            // A flag has no place in the file.
+            let is_flag = conflict
+                .keys
+                .iter()
+                .any(|key| flags.names().contains(&&key[..]));
+            if is_flag {
+                Failure::Input(anyhow!("--{}", conflict.error))
+            } else {
+                Failure::input(source.conflict(&tree, conflict, &tree.span))
+            }
+        })?;
+        Ok((simulation, settings.seed()))
+    }
+
+    fn flags(&self) -> Result<Settings, Failure> {
         let mut flags = self.settings.clone();
         if self.still {
             flags.trip = Some(Vec::new());
@@ -225,8 +207,24 @@ impl Simulate {
                 )));
             }
         }
-        let config = self.config.as_deref().map(config::read).transpose();
-        Ok(flags.over(config.map_err(Failure::input)?.unwrap_or_default()))
+        Ok(flags)
+    }
+}
+
+fn made(settings: &Settings) -> Result<(Simulation, u64), Failure> {
+    let simulation = settings.of_trips().map_err(Failure::Input)?;
+    Ok((simulation, settings.seed()))
+}
+
+impl Simulation {
+    fn write(&self, out: &mut impl Write, seed: u64) -> io::Result<()> {
+        let axis = |place: usize, index| {
+            let simulated = self.ride.simulate(&self.axes[place], seed, index);
+            simulated.record
+        };
+        let (x, y, z) = (axis(0, 1), axis(1, 2), axis(2, 0));
+        let clock = self.ride.clock(self.jitter, seed);
+        write_phyphox(out, self.layout, &clock, [&x, &y, &z])
     }
 }
 
@@ -245,75 +243,40 @@ impl Settings {
             vibration: self.vibration.or(config.vibration),
             step: self.step.or(config.step),
             with_gravity: self.with_gravity || config.with_gravity,
+            building: config.building,
+            sensor: config.sensor,
         }
     }
 
-    fn rate(&self) -> f64 {
-        self.rate.unwrap_or(100.0)
+    /// The keys that are given and mean something else, or nothing, to a building.
+    fn names(&self) -> Vec<&'static str> {
+        let given = [
+            ("rate", self.rate.is_some()),
+            ("speed", self.speed.is_some()),
+            ("acceleration", self.acceleration.is_some()),
+            ("jerk", self.jerk.is_some()),
+            ("trip", self.trip.is_some()),
+            ("rest", self.rest.is_some()),
+            ("jam_within", self.jam_within.is_some()),
+            ("sigma", self.sigma.is_some()),
+            ("vibration", self.vibration.is_some()),
+            ("step", self.step.is_some()),
+            ("with_gravity", self.with_gravity),
+        ];
+        let given = given.into_iter().filter(|(_, is_given)| *is_given);
+        given.map(|(name, _)| name).collect()
     }
 
-    fn ride(&self) -> anyhow::Result<Ride> {
+    fn seed(&self) -> u64 {
+        self.seed.unwrap_or(1)
+    }
+
+    fn drive(&self) -> Drive {
         let slow = Drive::slow();
-        let drive = Drive {
+        Drive {
             speed: self.speed.unwrap_or(slow.speed),
             acceleration: self.acceleration.unwrap_or(slow.acceleration),
             jerk: self.jerk.unwrap_or(slow.jerk),
-        };
-        let jam_within = self.jam_within.unwrap_or(0.1);
-        let there_and_back = [12.0, -12.0].map(|distance| Request {
-            distance,
-            jam: None,
-        });
-        let requests = self.trip.as_deref().unwrap_or(&there_and_back);
-        let trips = (1..)
-            .zip(requests)
-            .map(|(number, request)| {
-                let trip = request.trip(drive, jam_within);
-                trip.with_context(|| format!("trip {number}"))
-            })
-            .collect::<anyhow::Result<Vec<_>>>()?;
-        let rests = match self.rest.as_deref().unwrap_or(&[8.0]) {
-            [rest] => vec![*rest; trips.len() + 1],
-            rests => rests.to_vec(),
-        };
-        Ok(Ride::new(self.rate(), rests, trips)?)
-    }
-
-    /// The sensor of the vertical axis.
-    fn pickup(&self) -> anyhow::Result<Pickup> {
-        let sigma = self.sigma.unwrap_or(0.012);
-        let pickup = Pickup {
-            vibration: self.vibration.unwrap_or(2.2),
-            bias: if self.with_gravity { GRAVITY } else { 0.0 },
-            ..Pickup::white(sigma)
-        };
-        let pickup = pickup.checked().context("sensor")?;
-        let digitiser = Digitiser::new(self.step.map(|step| step / sigma), None).map_err(|_| {
-            anyhow!(
-                "step must lie in [1e-9, 1e9] times sigma, got {} (leave it out for no steps)",
-                self.step.unwrap_or_default()
-            )
-        })?;
-        Ok(Pickup {
-            digitiser,
-            ..pickup
-        })
-    }
-
-    fn write_record(&self, out: &mut impl Write, ride: &Ride, upright: &Pickup) -> io::Result<()> {
-        let level = Pickup {
-            cosine: 0.0,
-            bias: 0.0,
-            ..upright.clone()
-        };
-        let seed = self.seed.unwrap_or(1);
-        let axis = |pickup: &Pickup, index| ride.simulate(pickup, seed, index).record;
-        let (x, y, z) = (axis(&level, 1), axis(&level, 2), axis(upright, 0));
-        let layout = if self.with_gravity {
-            ExportLayout::WithGravity
-        } else {
-            ExportLayout::Linear
-        };
-        write_phyphox(out, layout, self.rate(), [&x, &y, &z])
+        }
     }
 }

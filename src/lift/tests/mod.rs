@@ -1,5 +1,7 @@
 //! Rides against closed forms, against integration by brute force, and their noise against theory.
 
+mod accelerometer;
+mod building;
 mod course;
 mod record;
 
