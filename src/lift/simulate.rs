@@ -102,13 +102,25 @@ impl Ride {
         first(start)..first(start + course.duration())
     }
 
-    fn accelerate(&self, pickup: &Pickup, record: &mut [f64]) {
-        let scale = self.rate * pickup.cosine / pickup.sigma;
+    /// The mean acceleration of the cage around each sample, m/s².
+    pub(crate) fn acceleration(&self) -> Vec<f64> {
+        let mut acceleration = vec![0.0; self.samples()];
+        self.travel(self.rate, &mut acceleration);
+        acceleration
+    }
+
+    /// Adds the acceleration of the trips, `scale` to a change of 1 m/s in a sample.
+    fn travel(&self, scale: f64, record: &mut [f64]) {
         for (start, course) in self.started() {
             let span = (start, start + course.duration());
             let speed_at = |time| course.speed_at(time - start);
             add_speed(record, self.rate, scale, span, speed_at);
         }
+    }
+
+    fn accelerate(&self, pickup: &Pickup, record: &mut [f64]) {
+        let scale = self.rate * pickup.cosine / pickup.sigma;
+        self.travel(scale, record);
         let across = self.rate * pickup.across / pickup.sigma;
         for (pulses, scale) in self.shocks.iter().zip([scale, across]) {
             for pulse in pulses {

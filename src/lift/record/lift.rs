@@ -101,22 +101,6 @@ impl Lift {
         }
     }
 
-    /// One that moves by these limits, without habits.
-    pub fn of(drive: Drive, braking: Drive, levelling: (f64, f64)) -> Self {
-        Self {
-            drive,
-            braking,
-            levelling,
-            stop: Drive {
-                acceleration: 0.4,
-                jerk: 2.0,
-                ..drive
-            },
-            habit: Habit::None,
-            floors: 0,
-        }
-    }
-
     /// A trip over about `way` metres, up positive; a jam after a share of the uniform motion.
     pub fn trip(&self, start: f64, way: f64, jam: Option<f64>, motion: &mut Vec<Pulse>) -> Journey {
         let sign = way.signum();

@@ -17,13 +17,11 @@ mod cage;
 mod class;
 mod disturbance;
 mod lift;
-mod limits;
 mod sensor;
 #[cfg(test)]
 mod tests;
 
 pub use class::Class;
-pub use limits::Limits;
 
 use super::Journey;
 use super::draws::Draws;

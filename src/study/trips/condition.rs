@@ -1,6 +1,6 @@
 //! Under which conditions trips are simulated.
 
-use crate::lift::{Drive, Limits};
+use crate::lift::{Braking, Drive, Ending, Ride, Trip};
 use crate::recording::GRAVITY;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -40,7 +40,8 @@ pub enum Condition {
 /// A condition in numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Numbers {
-    pub limits: Limits,
+    pub drive: Drive,
+    pub braking: Braking,
     /// Hz.
     pub rate: f64,
     /// One-sided, g/√Hz.
@@ -66,34 +67,47 @@ impl Condition {
             acceleration: 1.1,
             jerk: 2.0,
         };
-        let of = |drive: Drive, braking: Drive, levelling| Numbers {
-            limits: Limits {
-                drive,
-                braking,
-                levelling,
-            },
+        let braking = Braking {
+            acceleration: drive.acceleration,
+            jerk: drive.jerk,
+            creep: 0.0,
+            seconds: 0.0,
+        };
+        let typical = Numbers {
+            drive,
+            braking,
             rate: 200.0,
             density: 400e-6,
             step: GRAVITY / 16_384.0,
             shaken: 0.0,
             gain: 1.0,
         };
-        let typical = of(drive, drive, (0.0, 0.0));
         match self {
             Self::Typical => typical,
-            Self::SoftBrake => {
-                let soft = Drive {
+            Self::SoftBrake => Numbers {
+                braking: Braking {
                     acceleration: 0.5,
                     jerk: 1.0,
-                    ..drive
-                };
-                of(drive, soft, (0.0, 0.0))
-            }
-            Self::SlowJerk => {
-                let slow = Drive { jerk: 0.7, ..drive };
-                of(slow, slow, (0.0, 0.0))
-            }
-            Self::Creep => of(drive, drive, (0.08, 3.0)),
+                    ..braking
+                },
+                ..typical
+            },
+            Self::SlowJerk => Numbers {
+                drive: Drive { jerk: 0.7, ..drive },
+                braking: Braking {
+                    jerk: 0.7,
+                    ..braking
+                },
+                ..typical
+            },
+            Self::Creep => Numbers {
+                braking: Braking {
+                    creep: 0.08,
+                    seconds: 3.0,
+                    ..braking
+                },
+                ..typical
+            },
             Self::Rough => Numbers {
                 shaken: 4.0,
                 ..typical
@@ -122,5 +136,17 @@ impl Condition {
                 ..typical
             },
         }
+    }
+}
+
+impl Numbers {
+    /// A trip of so many metres, up positive, between two rests, s.
+    pub fn ride(&self, distance: f64, rests: [f64; 2]) -> Ride {
+        let trip = Trip {
+            distance,
+            drive: self.drive,
+            ending: Ending::Braked(self.braking),
+        };
+        Ride::new(self.rate, rests.to_vec(), vec![trip]).expect("every limit here is positive")
     }
 }

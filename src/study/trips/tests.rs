@@ -1,6 +1,6 @@
 //! The simulated trips against their truth, and the bound against its own law.
 
-use super::condition::Condition;
+use super::condition::{Condition, Numbers};
 use super::trial::{self, LENGTHS, Way};
 use super::*;
 use crate::study::parse;
@@ -22,17 +22,21 @@ const ALL: [Condition; 10] = [
 #[test]
 fn trips_go_as_far_as_they_should() {
     for condition in ALL {
-        let limits = condition.numbers().limits;
+        let numbers = Numbers {
+            rate: 500.0,
+            ..condition.numbers()
+        };
         for distance in [1.5, 9.0, 27.0] {
-            let (journey, acceleration) = limits.trip([2.0, 3.0], distance, 500.0);
-            let (mut speed, mut way) = (0.0, 0.0);
-            for a in acceleration {
+            let ride = numbers.ride(distance, [2.0, 3.0]);
+            let (mut speed, mut way) = (0.0f64, 0.0f64);
+            for a in ride.acceleration() {
                 way += (speed + a / 1000.0) / 500.0;
                 speed += a / 500.0;
             }
             assert!(speed.abs() < 1e-9, "{condition}");
             assert!((way - distance).abs() < 2e-3, "{condition}: {way}");
-            assert_eq!(journey.levelling.is_some(), condition == Condition::Creep);
+            let levels = ride.journeys()[0].levelling.is_some();
+            assert_eq!(levels, condition == Condition::Creep);
         }
     }
 }

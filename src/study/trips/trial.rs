@@ -166,7 +166,8 @@ impl Recorded {
         let mut draws = Stream::new(seed, "trips", "").at(trial);
         let bias = rng::unit(&mut draws) - 0.5;
         let start = RESTS[0] + rng::unit(&mut draws);
-        let (journey, truth) = (numbers.limits).trip([start, RESTS[1]], distance, numbers.rate);
+        let ride = numbers.ride(distance, [start, RESTS[1]]);
+        let truth = ride.acceleration();
         let sigma = sqrt(Densities::of_sheet(numbers.density) * numbers.rate);
         let mut noise = vec![0.0; 2 * truth.len()];
         let normal = Noise::new(Law::Normal).expect("the normal law has no parameter");
@@ -175,7 +176,7 @@ impl Recorded {
         let samples = truth.into_iter().zip(noise.chunks(2)).enumerate();
         let samples = samples.map(|(place, (acceleration, noise))| {
             speed += acceleration / numbers.rate;
-            let shaken = numbers.shaken * fabs(speed) / numbers.limits.drive.speed;
+            let shaken = numbers.shaken * fabs(speed) / numbers.drive.speed;
             let gain = if acceleration > 0.0 {
                 numbers.gain
             } else {
@@ -189,7 +190,7 @@ impl Recorded {
         });
         Self {
             samples: samples.collect(),
-            journey,
+            journey: ride.journeys()[0],
             numbers,
         }
     }
@@ -204,9 +205,8 @@ impl Recorded {
             stop,
             ..
         } = self.journey;
-        let creep = levelling.map_or(stop..stop, |from| {
-            from..from + self.numbers.limits.levelling.1
-        });
+        let creeps = self.numbers.braking.seconds;
+        let creep = levelling.map_or(stop..stop, |from| from..from + creeps);
         let (before, after) = (start - margin, stop + margin);
         Phases {
             before: before - 2.0..before,
