@@ -117,8 +117,10 @@ fn density(settings: &mut TrackSettings) -> &mut Densities {
 }
 
 /// Every default of the trips that a detection finds.
-const SETTINGS: [(&str, Set); 9] = [
+const SETTINGS: [(&str, Set); 11] = [
     ("margin", |it, factor| it.margin *= factor),
+    ("foot", |it, factor| it.foot *= factor),
+    ("shaken", |it, factor| it.shaken *= factor),
     ("rest", |it, factor| it.rest *= factor),
     ("settling", |it, factor| it.settling *= factor),
     ("bias_error", |it, factor| it.bias_error *= factor),
@@ -191,7 +193,7 @@ fn how_much_each_setting_matters_as_it_happens() {
         folder().map(|folder| (row.clone(), opened(&folder.join(&row["file"]))))
     };
     let recordings: Vec<_> = rows.iter().filter_map(opened).collect();
-    let all = [&SETTINGS[3..], &LIVE].concat();
+    let all = [&SETTINGS[5..], &LIVE].concat();
     let farthest = sensitivity(&all, |settings| {
         let measured = recordings.iter().map(|(row, recording)| {
             let start: f64 = row["start"].parse().ok()?;

@@ -139,6 +139,22 @@ impl Mean {
         self.map(|value| sqrt(value.max(0.0)))
     }
 
+    /// Over another mean of the same cases, where the mean of their products is known; the relative errors by the delta
+    /// method.
+    pub fn ratio(self, other: Self, product: f64, cases: u64, confidence: f64) -> Self {
+        let value = self.value / other.value;
+        let [one, another] = [self, other].map(|mean| (mean.value - mean.low) / mean.value);
+        let z = two_sided_quantile(confidence);
+        let expected = self.value * other.value;
+        let shared = z * z * (product / expected - 1.0) / (cases.max(2) - 1) as f64;
+        let half = value * sqrt((one * one + another * another - 2.0 * shared).max(0.0));
+        Self {
+            value,
+            low: value - half,
+            high: value + half,
+        }
+    }
+
     /// In a unit of this size.
     pub fn over(self, unit: f64) -> Self {
         self.map(|value| value / unit)
@@ -162,5 +178,49 @@ impl Mean {
             low: self.low,
             high: self.high,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::counts::{Fixed, Shape};
+
+    /// y = 2x + c of random x and c: the interval of ȳ/x̄ is that of a jackknife.
+    #[test]
+    fn ratio_of_paired_means() {
+        let number = |k: u64| (k as f64 * 0.618_033_988_75).fract();
+        let pairs: Vec<[f64; 2]> = (0..200)
+            .map(|k| {
+                [
+                    2.0 + number(k),
+                    4.0 + 2.0 * number(k) + 0.3 * number(7 * k + 3),
+                ]
+            })
+            .collect();
+        let sum = |of: fn(&[f64; 2]) -> f64| pairs.iter().map(of).sum::<f64>();
+        let lengths = [
+            sum(|it| it[0]),
+            sum(|it| it[0] * it[0]),
+            sum(|it| it[1]),
+            sum(|it| it[1] * it[1]),
+        ];
+        let shape = Shape {
+            most: vec![],
+            lengths: 4,
+            values: vec![],
+        };
+        let mut sums = shape.empty().sums;
+        sums.lengths = lengths.map(Fixed::new).to_vec();
+        let [x, y] = [0, 1].map(|pair| Mean::new(&sums, pair, 200, 0.95));
+        let product = sum(|it| it[0] * it[1]) / 200.0;
+        let ratio = y.ratio(x, product, 200, 0.95);
+        let left_out = pairs
+            .iter()
+            .map(|it| (lengths[2] - it[1]) / (lengths[0] - it[0]));
+        let squares: f64 = left_out.map(|one| (one - ratio.value).powi(2)).sum();
+        let half = two_sided_quantile(0.95) * sqrt(squares * 199.0 / 200.0);
+        let found = ratio.high - ratio.value;
+        assert!((found / half - 1.0).abs() < 0.02, "{found} {half}");
     }
 }

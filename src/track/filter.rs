@@ -63,6 +63,8 @@ pub enum Update {
 #[derive(Clone, Debug)]
 pub struct TripFilter {
     noise: Noise,
+    /// S_a now, in that of the noise.
+    shaken: f64,
     estimate: Estimate<[f64; 4], [f64; 16]>,
 }
 
@@ -73,11 +75,17 @@ impl TripFilter {
         covariance[5 * BIAS] = bias.variance;
         Self {
             noise,
+            shaken: 1.0,
             estimate: Estimate {
                 mean: [0.0, 0.0, bias.mean, 0.0],
                 covariance,
             },
         }
+    }
+
+    /// From here on S_a is so many times that of the noise.
+    pub fn shake(&mut self, times: f64) {
+        self.shaken = times;
     }
 
     /// Moves on by `seconds` of this mean acceleration, m/s².
@@ -94,7 +102,7 @@ impl TripFilter {
         ];
         let input = [half * acceleration, t * acceleration, 0.0, 0.0];
         let variances = self.noise.of_step(t);
-        let variance = variances.acceleration;
+        let variance = self.shaken * variances.acceleration;
         let mut noise = [0.0; 16];
         noise[0] = half * half * variance;
         (noise[1], noise[4]) = (half * t * variance, half * t * variance);
@@ -110,7 +118,8 @@ impl TripFilter {
         match update {
             Update::None => {}
             Update::Uniform => {
-                self.estimate.update(&UNIFORM, 0.0, variances.uniform);
+                let variance = self.shaken * variances.uniform;
+                self.estimate.update(&UNIFORM, 0.0, variance);
             }
             Update::Standing => {
                 self.estimate.update(&STANDING, 0.0, variances.standing);

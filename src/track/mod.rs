@@ -51,7 +51,7 @@ mod warning;
 pub use course::{Course, Place};
 pub use filter::{TripFilter, Uncertain, Update};
 pub use integrals::{integrated, moments};
-pub use level::Level;
+pub use level::{Level, Scatter};
 pub use live::{LiveTrip, LiveTrips};
 pub use noise::{Densities, Deviations, Noise};
 pub use phases::{Method, Phases};

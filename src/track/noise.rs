@@ -76,11 +76,11 @@ impl Densities {
         (density * GRAVITY).powi(2) / 2.0
     }
 
-    /// Those of a sensor with this S_a.
-    pub(super) fn noisier(self, acceleration: f64) -> Self {
+    /// Those of a sensor with so many times the S_a.
+    pub(super) fn noisier(self, times: f64) -> Self {
         Self {
-            acceleration,
-            standing: self.standing * acceleration / self.acceleration,
+            acceleration: self.acceleration * times,
+            standing: self.standing * times,
             ..self
         }
     }

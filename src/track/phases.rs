@@ -104,6 +104,7 @@ impl Phases {
             // In a hole of a uniform motion the sensor would have read its bias.
             let is_hole = update == Update::Uniform && step.seconds > HOLE;
             let bias = is_hole.then(|| filter.bias().mean);
+            filter.shake(settings.shaken(update));
             filter.predict(bias.unwrap_or(step.acceleration), step.seconds);
             if closing.is_none() && self.after.contains(&step.time) {
                 closing = Some(filter.standing(step.seconds, 0.0));

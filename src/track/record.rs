@@ -53,10 +53,10 @@ pub enum Unknown {
 pub struct Track {
     /// The settings, with the noise of the record where it is the larger.
     pub settings: TrackSettings,
+    /// How many times S_a is larger than they said, at rest and in motion, if it is.
+    pub noisier: [Option<f64>; 2],
     /// The sensor as the record shows it.
     pub level: Level,
-    /// How much larger its S_a is, if it is.
-    pub noisier: Option<f64>,
     /// The sensor's steps, if they are coarser than its noise, m/s².
     pub step: Option<f64>,
     /// In order of time.
@@ -78,11 +78,16 @@ impl Track {
         let stretches = stretches(&sound);
         let seconds = stretches.iter().map(|it| it.end - it.start).sum();
         let surroundings = Surroundings::new(detection, stretches);
-        let level = Level::of(&sound, &surroundings.quiet(&detection.trips, &settings));
-        let noisier = settings.noisier(&level);
+        let rests = surroundings.rests(&settings);
+        let level = Level::of(
+            &sound,
+            &rests,
+            &surroundings.uniform(&detection.trips, &settings),
+        );
+        let (settings, noisier) = settings.noisier(&level);
         let mut track = Self {
-            settings: noisier.map_or(settings, |it| it.0),
-            noisier: noisier.map(|it| it.1),
+            settings,
+            noisier,
             step,
             level,
             trips: Vec::with_capacity(detection.trips.len()),

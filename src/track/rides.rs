@@ -52,27 +52,32 @@ impl Surroundings {
         })
     }
 
-    /// When nothing moves the sensor: all rest, and the uniform motions of these trips.
-    pub fn quiet(&self, trips: &[Trip], settings: &TrackSettings) -> Vec<Range<f64>> {
+    /// When nothing moves the sensor.
+    pub fn rests(&self, settings: &TrackSettings) -> Vec<Range<f64>> {
         let margin = settings.margin;
         let mut busy: Vec<&Range<f64>> = self.busy.iter().collect();
         busy.sort_by(|a, b| a.start.total_cmp(&b.start));
         let ends = self.stretches.first().zip(self.stretches.last());
         let (mut from, last) = ends.map_or((0.0, 0.0), |(first, last)| (first.start, last.end));
-        let mut quiet = Vec::new();
+        let mut rests = Vec::new();
         for it in busy {
-            quiet.push(from..it.start - margin);
+            rests.push(from..it.start - margin);
             from = from.max(it.end + margin);
         }
-        quiet.push(from..last);
+        rests.push(from..last);
+        rests.retain(|part| !part.is_empty());
+        rests
+    }
+
+    /// The uniform motions of trips.
+    pub fn uniform(&self, trips: &[Trip], settings: &TrackSettings) -> Vec<Range<f64>> {
         let phases = trips.iter().filter_map(|trip| self.phases(trip, settings));
-        quiet.extend(phases.flat_map(|phases| phases.uniform));
-        quiet.retain(|part| !part.is_empty());
-        quiet
+        let uniform = phases.flat_map(|phases| phases.uniform);
+        uniform.filter(|part| !part.is_empty()).collect()
     }
 
     fn rest_before(&self, start: f64, settings: &TrackSettings) -> Range<f64> {
-        let to = start - settings.margin;
+        let to = start - settings.foot;
         let first = self.stretch(start).start.max(to - settings.rest);
         let busy = self.busy.iter().filter(|busy| busy.start < to);
         let from = busy.map(|busy| busy.end).fold(first, f64::max);
@@ -80,7 +85,7 @@ impl Surroundings {
     }
 
     fn rest_after(&self, stop: f64, settings: &TrackSettings) -> Range<f64> {
-        let from = stop + settings.margin;
+        let from = stop + settings.foot;
         let last = self.stretch(stop).end.min(from + settings.settling);
         let busy = self.busy.iter().filter(|busy| busy.start >= stop);
         let to = busy.map(|busy| busy.start).fold(last, f64::min);

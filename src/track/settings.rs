@@ -1,5 +1,6 @@
 //! How trips are measured.
 
+use super::filter::Update;
 use super::level::Level;
 use super::noise::{Densities, Deviations, Noise};
 use serde::{Deserialize, Serialize};
@@ -10,6 +11,8 @@ use serde::{Deserialize, Serialize};
 pub struct TrackSettings {
     /// Of the sensor and the cage.
     pub noise: Noise,
+    /// S_a in uniform motion, in that at rest.
+    pub shaken: f64,
     /// γ_d: a standing cage's ξ_d stays below it.
     pub gate: f64,
     /// ε: the error of the speed at a stop as a share of the highest, since a sensor's gain differs up and down.
@@ -18,8 +21,10 @@ pub struct TrackSettings {
     pub least_distance: f64,
     /// The deviation of the bias that is taken for a start, m/s².
     pub bias_error: f64,
-    /// Left out at either end of a phase that a detection finds.
+    /// Left out at either end of a uniform motion that a detection finds.
     pub margin: f64,
+    /// Left out of the rests on either side of a trip: a start is seen sooner than the end of a change of speed.
+    pub foot: f64,
     /// How much rest before a trip is looked at.
     pub rest: f64,
     /// How long after a stop the distance is refined.
@@ -54,11 +59,13 @@ impl Default for TrackSettings {
     fn default() -> Self {
         Self {
             noise: Noise::Density(Densities::default()),
+            shaken: 1.0,
             gate: 10.8,
             gain_error: 0.0125,
             least_distance: 0.5,
             bias_error: 0.02,
             margin: 0.3,
+            foot: 0.2,
             rest: 2.0,
             settling: 1.0,
             uniform: UniformSettings::default(),
@@ -82,14 +89,30 @@ impl Default for UniformSettings {
 }
 
 impl TrackSettings {
-    /// Those for a sensor that is clearly noisier than they say, and how many times S_a is more.
-    pub(super) fn noisier(self, level: &Level) -> Option<(Self, f64)> {
+    /// Those for a record that is clearly noisier than they say, and how many times S_a is more at rest and in motion.
+    pub(super) fn noisier(self, level: &Level) -> (Self, [Option<f64>; 2]) {
         let Noise::Density(noise) = self.noise else {
-            return None;
+            return (self, [None; 2]);
         };
-        let ratio = level.excess(noise.acceleration)?;
-        let noise = Noise::Density(noise.noisier(level.density));
-        Some((Self { noise, ..self }, ratio))
+        let found = [level.rest, level.motion].map(|it| it.excess(noise.acceleration));
+        let [rest, motion] = found.map(|times| times.unwrap_or(1.0));
+        let settings = Self {
+            noise: Noise::Density(noise.noisier(rest)),
+            shaken: self.shaken * motion / rest,
+            ..self
+        };
+        (settings, found)
+    }
+
+    /// S_a in that at rest. What shakes a sensor in motion grows with the speed, whose mean square in a change from or to rest
+    /// is a third of the highest; people shake it at rest.
+    pub(super) fn shaken(&self, update: Update) -> f64 {
+        let least = self.shaken.min(1.0);
+        match update {
+            Update::Standing => 1.0,
+            Update::Uniform => self.shaken,
+            Update::None => least + (self.shaken - least) / 3.0,
+        }
     }
 
     /// The patent by its words: standard deviations of a sample, uniform motion seen from before alone, and neither a

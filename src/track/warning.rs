@@ -34,10 +34,10 @@ pub enum Warning {
     )]
     Coarse { step: f64 },
     #[error(
-        "the record is {0:.1} times as noisy as the settings say, so the deviations are widened (lay the sensor on the \
-         floor of the lift)"
+        "{when} the record is {times:.1} times as noisy as the settings say, so the deviations are widened (lay the sensor on \
+         the floor of the lift)"
     )]
-    Noisy(f64),
+    Noisy { when: &'static str, times: f64 },
 }
 
 impl Track {
@@ -46,8 +46,12 @@ impl Track {
         let is_filtered = (self.trips.iter()).any(|it| it.unknown == Some(Unknown::Filter));
         let has_distance = self.trips.iter().any(|it| it.distance.is_some());
         let coarse = self.step.map(|step| Warning::Coarse { step });
-        let noisy = self.noisier.map(|power| Warning::Noisy(power.sqrt()));
-        let of_record = [coarse, noisy].into_iter().flatten();
+        let noisy = ["at rest", "in motion"].into_iter().zip(self.noisier);
+        let noisy = noisy.filter_map(|(when, power)| {
+            let times = power?.sqrt();
+            Some(Warning::Noisy { when, times })
+        });
+        let of_record = coarse.into_iter().chain(noisy);
         let of_record = of_record.filter(|_| has_distance);
         let filter = is_filtered.then_some(Warning::Filter).into_iter();
         let of_trips = self.trips.iter().flat_map(Tracked::warnings);

@@ -14,7 +14,7 @@ pub(super) fn of(sums: &Sums, trials: u64, confidence: f64) -> Vec<Estimate> {
         let name = |outcome: &str| format!("{outcome}_{}", way.name());
         let [told, within] = [0, 1].map(|at| sums.counts[COUNTS * place + at]);
         let tally = |hits, trials| Tally { hits, trials };
-        let first = 1 + LENGTHS / 2 * place;
+        let first = way.lengths() / 2;
         let mean = |at: usize| Mean::new(sums, first + at, told, confidence);
         let rms = mean(1).root();
         estimates.extend([
@@ -27,19 +27,16 @@ pub(super) fn of(sums: &Sums, trials: u64, confidence: f64) -> Vec<Estimate> {
             share(&name("within"), tally(within, told), "trips", confidence),
         ]);
     }
-    let rms = |way: &str| {
-        let name = format!("rms_{way}");
-        estimates.iter().find(|it| it.outcome == name).cloned()
-    };
-    if let (Some(track), Some(drift)) = (rms("track"), rms("drift_removed")) {
-        // The ends of the interval as if the errors had nothing in common.
-        estimates.push(Estimate {
-            outcome: "over_drift_removed_track".to_owned(),
-            value: track.value / drift.value,
-            low: track.low / drift.high,
-            high: track.high / drift.low,
-            ..track
-        });
-    }
+    estimates.push(over_drift_removed(sums, trials, confidence));
     estimates
+}
+
+/// The RMS error of `track` over that of `drift_removed`, trip by trip.
+fn over_drift_removed(sums: &Sums, trials: u64, confidence: f64) -> Estimate {
+    let told = sums.counts[COUNTS * Way::Track as usize];
+    let square = |way: Way, cases| Mean::new(sums, way.lengths() / 2 + 1, cases, confidence);
+    let (track, drift) = (square(Way::Track, told), square(Way::DriftRemoved, trials));
+    let product = sums.lengths[Way::ALL.len() * LENGTHS + 2].value() / told.max(1) as f64;
+    let ratio = track.ratio(drift, product, told, confidence).root();
+    ratio.named("over_drift_removed_track", told, "trips")
 }

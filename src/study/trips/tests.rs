@@ -1,7 +1,7 @@
 //! The simulated trips against their truth, and the bound against its own law.
 
 use super::condition::{Condition, Numbers};
-use super::trial::{self, LENGTHS, Way};
+use super::trial::{self, Way};
 use super::*;
 use crate::study::parse;
 
@@ -53,10 +53,7 @@ fn the_bound_is_its_own_law() {
         };
         let mut sums = trial::shape().empty().sums;
         (0..TRIPS).for_each(|trial| sums.add(&trial::run(&point, 5, trial)));
-        let nees = |way: Way| {
-            let place = Way::ALL.iter().position(|it| *it == way).unwrap();
-            sums.lengths[2 + LENGTHS * place + 4].value()
-        };
+        let nees = |way: Way| sums.lengths[way.lengths() + 4].value();
         let moments = nees(Way::Moments);
         assert!((19.7..129.0).contains(&moments), "{condition}: {moments}");
         let rows = estimate::of(&sums, TRIPS, 0.95);

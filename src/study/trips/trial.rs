@@ -41,6 +41,11 @@ impl Way {
         Self::Moments,
     ];
 
+    /// Where its sums begin among the lengths.
+    pub fn lengths(self) -> usize {
+        2 + LENGTHS * self as usize
+    }
+
     pub fn name(self) -> &'static str {
         match self {
             Self::Track => "track",
@@ -54,7 +59,8 @@ impl Way {
 }
 
 /// For each way, whether it gives the trip a distance, and whether that is within 1.96 deviations; the sums and the sums
-/// of squares of the error, of its square and of the square over its variance. First the variance of the bound.
+/// of squares of the error, of its square and of the square over its variance. First the variance of the bound; last the
+/// product of the squares of `track` and `drift_removed`.
 pub(super) const COUNTS: usize = 2;
 pub(super) const LENGTHS: usize = 6;
 
@@ -62,7 +68,7 @@ pub(super) fn shape() -> Shape {
     let ways = Way::ALL.len();
     Shape {
         most: vec![Some(1); COUNTS * ways],
-        lengths: 2 + LENGTHS * ways,
+        lengths: 2 + LENGTHS * ways + 1,
         values: vec![1; ways],
     }
 }
@@ -122,6 +128,9 @@ pub(super) fn run(point: &Point, seed: u64, trial: u64) -> Sums {
             add(&mut sums, place, error, found.variance);
         }
     }
+    let square = |way: Way| sums.lengths[way.lengths() + 2].value();
+    let product = square(Way::Track) * square(Way::DriftRemoved);
+    *sums.lengths.last_mut().expect("there is one") = Fixed::new(product);
     sums
 }
 
@@ -131,8 +140,10 @@ fn add(sums: &mut Sums, place: usize, error: f64, variance: f64) {
     sums.counts[COUNTS * place + 1] = u64::from(square <= WITHIN * WITHIN * variance);
     let nees = square / variance;
     let lengths = [error, square, square, square * square, nees, nees * nees];
-    let first = 2 + LENGTHS * place;
-    for (length, value) in sums.lengths[first..].iter_mut().zip(lengths) {
+    for (length, value) in sums.lengths[Way::ALL[place].lengths()..]
+        .iter_mut()
+        .zip(lengths)
+    {
         *length = Fixed::new(value);
     }
     let mut values = Values::default();

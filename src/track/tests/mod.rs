@@ -17,19 +17,30 @@ fn typical() -> Drive {
     }
 }
 
-/// A trip between rests of 5 s at 200 Hz, as an MPU-6050 with a bias of 0.3 m/s² reads it, or without noise.
+const RATE: f64 = 200.0;
+
+/// An MPU-6050 at 200 Hz.
+fn sensor() -> Pickup {
+    Pickup::white((Densities::default().acceleration * RATE).sqrt())
+}
+
+/// A trip between rests of 5 s as it reads it, or without noise.
 fn simulated(distance: f64, trial: u64, is_noisy: bool) -> (Vec<Sample>, Journey) {
-    const RATE: f64 = 200.0;
+    let quiet = Pickup::white(1e-12);
+    read(distance, trial, if is_noisy { sensor() } else { quiet })
+}
+
+/// The same by any sensor with a bias of 0.3 m/s².
+fn read(distance: f64, trial: u64, sensor: Pickup) -> (Vec<Sample>, Journey) {
     let trip = Trip {
         distance,
         drive: typical(),
         ending: Ending::Commanded,
     };
     let ride = Ride::new(RATE, vec![5.0, 5.0], vec![trip]).unwrap();
-    let deviation = (Densities::default().acceleration * RATE).sqrt();
     let pickup = Pickup {
         bias: 0.3,
-        ..Pickup::white(if is_noisy { deviation } else { 1e-12 })
+        ..sensor
     };
     let record = ride.simulate(&pickup, 2014, trial).record;
     let samples = (0..).zip(record).map(|(place, acceleration)| Sample {

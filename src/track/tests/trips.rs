@@ -1,8 +1,10 @@
 //! Many simulated trips: the error, and whether the deviation can be trusted.
 
-use super::{phases, simulated};
+use super::{phases, read, sensor, simulated};
 use crate::detection::Detection;
+use crate::lift::Pickup;
 use crate::monitor::Settings;
+use crate::recording::Sample;
 use crate::track::{LiveTrips, Track, TrackSettings, Travelled, Uncertain, Unknown};
 use rayon::prelude::*;
 
@@ -54,26 +56,30 @@ fn deviations_can_be_trusted() {
     }
 }
 
-/// As `liftsim track` does it: the RMS is below 1.25 of the bound. Of 150 errors it is more than 1.32 times its
-/// expectation in one of a million records.
+/// As `liftsim track` does it.
+fn tracked(samples: &[Sample]) -> Travelled {
+    let design = Settings::default().at(200.0).unwrap();
+    let detection = Detection::of(&design, samples, None, None);
+    let track = Track::of(samples, None, &detection, TrackSettings::default());
+    let [trip] = track.trips[..] else {
+        panic!("{:?}", track.trips);
+    };
+    Travelled {
+        distance: Uncertain {
+            mean: trip.distance.unwrap(),
+            variance: trip.deviation.unwrap().powi(2),
+        },
+        ..Travelled::default()
+    }
+}
+
+/// The RMS is below 1.25 of the bound. Of 150 errors it is more than 1.32 times its expectation in one of a million
+/// records.
 #[test]
 fn detected_trips_are_near_the_bound() {
     for (distance, bound) in [(3.0, 0.0062), (15.0, 0.0262)] {
         let errors = errors(distance, |trial| {
-            let (samples, _) = simulated(distance, trial, true);
-            let design = Settings::default().at(200.0).unwrap();
-            let detection = Detection::of(&design, &samples, None, None);
-            let track = Track::of(&samples, None, &detection, TrackSettings::default());
-            let [trip] = track.trips[..] else {
-                panic!("trial {trial}: {:?}", track.trips);
-            };
-            Travelled {
-                distance: Uncertain {
-                    mean: trip.distance.unwrap(),
-                    variance: trip.deviation.unwrap().powi(2),
-                },
-                ..Travelled::default()
-            }
+            tracked(&simulated(distance, trial, true).0)
         });
         let squares: f64 = errors.iter().map(|(error, _)| error * error).sum();
         let rms = (squares / TRIPS as f64).sqrt();
@@ -83,6 +89,19 @@ fn detected_trips_are_near_the_bound() {
         );
         check_trust(&errors);
     }
+}
+
+/// A motion that shakes the sensor by four times its noise at full speed is known by its uniform part.
+#[test]
+fn deviations_of_shaken_trips_can_be_trusted() {
+    check_trust(&errors(15.0, |trial| {
+        let vibration = 4.0;
+        let shaken = Pickup {
+            vibration,
+            ..sensor()
+        };
+        tracked(&read(15.0, trial, shaken).0)
+    }));
 }
 
 /// The patent by its words, told the bias to 1 cm/s²: without looking ahead the foot of every change is taken for uniform
