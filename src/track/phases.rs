@@ -54,10 +54,22 @@ impl Phases {
         changes
     }
 
+    /// Its changes of speed, where the acceleration of a trip without uniform motion is one and its braking another.
+    fn split(&self) -> Vec<Range<f64>> {
+        let top = f64::midpoint(self.uniform[0].start, self.uniform[0].end);
+        let cut = |part: Range<f64>| {
+            let inside = part.start < top && top < part.end;
+            let at = if inside { top } else { part.end };
+            [part.start..at, at..part.end]
+        };
+        let parts = self.changes().into_iter().flat_map(cut);
+        parts.filter(|part| !part.is_empty()).collect()
+    }
+
     /// The deviation of the distance, m, where the sensor has steps so coarse, m/s², that each change of speed is read
     /// wrong by a part of one all the time.
     pub(super) fn error_of_steps(&self, step: f64) -> f64 {
-        let changes = self.changes();
+        let changes = self.split();
         let length = |part: &Range<f64>| part.end - part.start;
         let moment = |part: &Range<f64>| f64::midpoint(part.start, part.end) * length(part);
         let seconds: f64 = changes.iter().map(length).sum();

@@ -65,7 +65,7 @@ impl Default for TrackSettings {
             least_distance: 0.5,
             bias_error: 0.02,
             margin: 0.3,
-            foot: 0.2,
+            foot: 0.15,
             rest: 2.0,
             settling: 1.0,
             uniform: UniformSettings::default(),

@@ -1,7 +1,7 @@
 //! The moment formula.
 
 use super::{phases, simulated};
-use crate::track::{Densities, Method, Steps, TrackSettings, Uncertain, moments};
+use crate::track::{Densities, Method, Phases, Steps, TrackSettings, Uncertain, moments};
 use nalgebra::{DMatrix, DVector};
 
 /// Var d = (2/3) S_a [(T_c/2 + T_a)³ − (T_c/2)³] of a symmetric trip with changes of T_a and uniform motion of T_c. Steps of
@@ -116,4 +116,19 @@ fn methods_without_noise() {
     ];
     let variances = order.map(|method| distance(method).variance);
     assert!(variances.is_sorted(), "{variances:?}");
+}
+
+/// A step wrong by e all through the acceleration, and by another through the braking, whose mean is taken for bias: of a trip
+/// of T seconds without uniform motion d = (e₁ − e₂) T²/8.
+#[test]
+fn coarse_steps_of_a_trip_without_uniform_motion() {
+    let phases = Phases {
+        before: 0.0..2.0,
+        uniform: [4.3..3.7, 6.0..6.0],
+        after: 6.0..7.0,
+    };
+    let error = 0.18 / 12f64.sqrt();
+    let expected = error * 2f64.sqrt() * 4.0 * 4.0 / 8.0;
+    let found = phases.error_of_steps(0.18);
+    assert!((found - expected).abs() < 1e-12, "{found} {expected}");
 }
