@@ -11,14 +11,14 @@
 //! Beside it are [other ways](Method): the moment formula, which is the bound, integration with the drift removed, and plain
 //! integration.
 //!
-//! On simulated trips of 3 to 27 m (MPU-6050, 1.6 m/s) the first has an RMS error of 1.08 to 1.21 times the bound, and of 1.29
-//! to 1.52 with levelling (`configs/trip_error.toml`). The second is as good without levelling; a creep of 0.08 m/s it may
+//! On simulated trips of 3 to 27 m (MPU-6050, 1.6 m/s) the first has an RMS error of 1.04 to 1.14 times the bound, and of 1.24
+//! to 1.39 with levelling (`configs/trip_error.toml`). The second is as good without levelling; a creep of 0.08 m/s it may
 //! take for a stop, since a gain's error leaves as much.
 //!
 //! # What the deviation holds
-//! The noise of the sensor, of its bias, and where a trip does not close, something else that the record shows. It does not
-//! hold the sensor's gain: a gain of 1.01 makes every distance of every trip longer by 1 %. Where motion shakes the sensor at
-//! four times its noise, 70 to 88 of 100 distances lie within 1.96 deviations.
+//! The noise of the sensor and of its bias, that of the motion as far as a uniform motion shows it, steps coarser than the noise,
+//! and where a trip does not close, something else that the record shows. It does not hold the sensor's gain: a gain of 1.01
+//! makes every distance of every trip longer by 1 %.
 //!
 //! # Where [^1] is read one way among several
 //! - It gives no numbers. Noise is given as densities, so that one set serves every rate.
