@@ -25,7 +25,7 @@ use std::process::ExitCode;
 /// The alarm `jam` says that a motion ended in a violent pulse, without the braking of a commanded stop;
 /// `slack`, with --expected-moving, that the drum pays out rope and the cage is not known to move, with
 /// "certain":false where it is not known to stand either. `sensor` says that it is stuck, saturated, silent, noisy or
-/// moved, or that its clock was set back.
+/// moved, that its clock was set back, or that it is slow: it sends far fewer samples than before.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     liftsim detect ride.csv --save-state lift.json\n  \

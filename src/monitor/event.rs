@@ -133,6 +133,8 @@ pub enum Fault {
     Noisy,
     /// Its level has jumped: it was moved.
     Moved,
+    /// Its samples have become far rarer than they were.
+    Slow,
 }
 
 /// Why a state is unknown.

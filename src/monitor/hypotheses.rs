@@ -4,8 +4,8 @@ use super::hypothesis::Hypothesis;
 use super::prices::{Known, PENDING};
 use crate::explain::{Pulse, Swing, Turned};
 
-/// The most hypotheses kept, and how much dearer than the cheapest they may be.
-const MOST: usize = 16;
+/// The most hypotheses kept, of old ones and of renewed ones, and how much dearer than the cheapest they may be.
+const MOST: [usize; 2] = [16, 4];
 const HOPELESS: f64 = 14.0;
 
 /// The pulses before, each with the hypotheses before it: as many as a disturbance may have.
@@ -38,7 +38,9 @@ impl Hypotheses {
         Self {
             now: now.to_vec(),
             pulses: Vec::with_capacity(MOST_PULSES),
-            before: (0..MOST_PULSES).map(|_| Vec::with_capacity(MOST)).collect(),
+            before: (0..MOST_PULSES)
+                .map(|_| Vec::with_capacity(MOST[0] + MOST[1] + 1))
+                .collect(),
             made: Vec::with_capacity(1024),
         }
     }
@@ -81,6 +83,16 @@ impl Hypotheses {
             }
         }
         prune(&mut self.made, &mut self.now);
+        self.renew(pulse.to);
+    }
+
+    /// Where none is at rest, one more is: that all before was misread. Else a motion that never was would never end.
+    fn renew(&mut self, now: f64) {
+        if let Some(first) = self.now.first().copied()
+            && !self.now.iter().any(Hypothesis::is_rest)
+        {
+            self.now.push(Hypothesis::renewed(now, first.cost));
+        }
     }
 
     /// Makes all dearer.
@@ -124,7 +136,7 @@ impl Hypotheses {
             if hypothesis.is_rest() {
                 take(hypothesis, aged + ignored, false);
                 if let Some(started) = hypothesis.started(known, pulse) {
-                    take(&started, started.cost, true);
+                    take(&started, started.aged(known, now), true);
                 }
             } else {
                 let changed = hypothesis.changing(known, pulse) - hypothesis.cost;
@@ -228,12 +240,15 @@ fn prune(hypotheses: &mut Vec<Hypothesis>, kept: &mut Vec<Hypothesis>) {
     hypotheses.sort_unstable_by(|a, b| a.cost.total_cmp(&b.cost));
     kept.clear();
     let least = hypotheses.first().map_or(0.0, |first| first.cost);
+    let mut left = MOST;
     for hypothesis in hypotheses.iter() {
-        if kept.len() == MOST || hypothesis.cost > least + HOPELESS {
+        if hypothesis.cost > least + HOPELESS {
             break;
         }
-        if !kept.iter().any(|other| other.is_like(hypothesis)) {
+        let left = &mut left[usize::from(hypothesis.is_renewed)];
+        if *left > 0 && !kept.iter().any(|other| other.is_like(hypothesis)) {
             kept.push(*hypothesis);
+            *left -= 1;
         }
     }
     hypotheses.clear();

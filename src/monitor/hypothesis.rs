@@ -28,6 +28,10 @@ pub(super) struct Hypothesis {
     pub is_across: bool,
     /// By how much better it must be excluded because it goes back to a motion that was not seen to begin, nats.
     guess: f64,
+    /// Whether it holds that all before was misread.
+    pub is_renewed: bool,
+    /// How often its motion has sped up again.
+    again: u8,
     /// The speed from which the lift has sped up again before, m/s; infinite where that may have been another start.
     habit: Option<f64>,
     /// Whether the rest began with a shock.
@@ -47,6 +51,8 @@ impl Hypothesis {
             is_soft: false,
             is_across: false,
             guess: 0.0,
+            is_renewed: false,
+            again: 0,
             habit: None,
             is_jam: false,
             ignored: 0.0,
@@ -59,6 +65,15 @@ impl Hypothesis {
             cage: Cage::Open,
             guess: prices::GUESS,
             ..Self::rest(since, cost)
+        }
+    }
+
+    /// A rest, if all that was believed at this cost is wrong.
+    pub fn renewed(since: f64, cost: f64) -> Self {
+        Self {
+            is_renewed: true,
+            ignored: prices::RENEWAL,
+            ..Self::rest(since, cost + prices::RENEWAL)
         }
     }
 
@@ -124,6 +139,7 @@ impl Hypothesis {
         let cost = progress.cost
             + known.slow(progress.top)
             + prices::violent_start(pulse)
+            + known.endless(pulse)
             + prices::soft(is_soft);
         Some(self.then(Self {
             cage: Cage::Moves(progress),
@@ -180,13 +196,14 @@ impl Hypothesis {
                 let is_soft = pulses.iter().any(|it| known.is_soft(it));
                 let soft = if self.is_soft && !is_soft && Self::is_stage(&progress, total, pulses) {
                     prices::NOT_SOFT
-                } else if self.is_soft && self.habit.is_some() {
+                } else if self.is_soft && self.has_habit() {
                     0.0
                 } else {
                     prices::unlike(self.is_soft, is_soft)
                 };
+                let endless: f64 = pulses.iter().map(|it| known.endless(it)).sum();
                 let before = Progress {
-                    cost: self.cost + soft + self.again(&progress, total),
+                    cost: self.cost + soft + endless + self.again(&progress, total),
                     ..progress
                 };
                 let changed = before.changed(&self.prior(known), pulses);
@@ -254,6 +271,7 @@ impl Hypothesis {
             onwards.cost += (error + prices::chance(tolerance)).min(0.0);
         }
         Self {
+            again: self.again.saturating_add(u8::from(is_stage)),
             habit: if !is_stage {
                 self.habit
             } else if is_doubled {
@@ -276,21 +294,27 @@ impl Hypothesis {
     fn then(&self, next: Self) -> Self {
         Self {
             habit: self.habit,
+            is_renewed: self.is_renewed,
             ..next
         }
+    }
+
+    /// Whether it may speed up again by habit.
+    fn has_habit(&self) -> bool {
+        self.habit.is_some() && self.again < prices::MOST_AGAIN
     }
 
     /// What is known of the lift, with its habit.
     fn prior(&self, known: &Known) -> Prior {
         Prior {
-            in_stages: self.habit.is_some(),
+            in_stages: self.has_habit(),
             ..known.prior
         }
     }
 
     /// What a change of speed costs where the cage levelled.
     fn again(&self, progress: &Progress, change: f64) -> f64 {
-        if self.habit.is_some() {
+        if self.has_habit() {
             0.0
         } else {
             prices::again(progress, change)
@@ -299,7 +323,7 @@ impl Hypothesis {
 
     /// The cost of a motion while a pulse changes its speed.
     pub fn changing(&self, known: &Known, pulse: &Turned) -> f64 {
-        let soft = prices::soft(known.is_soft(pulse) && !self.is_soft);
+        let soft = prices::soft(known.is_soft(pulse) && !self.is_soft) + known.endless(pulse);
         let Cage::Moves(progress) = self.cage else {
             return self.cost + prices::CHANGING + soft;
         };

@@ -155,7 +155,7 @@ impl Monitor {
         Self {
             blocks: Blocks::new(design.samples.decimation(), design.block),
             live: Live::new(known, design.block, begins, level),
-            sensor: Sensor::default(),
+            sensor: Sensor::new(1.0 / design.rate),
             is_noisy: false,
             motion_shows: knowledge.motion_shows && knowledge.reference.is_some(),
             said: Statement::unknown(0.0, Doubt::Beginning),

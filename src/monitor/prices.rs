@@ -86,6 +86,17 @@ pub const GUESS: f64 = 2.0;
 /// And back to one that may have begun in a hole.
 pub const GUESS_IN_HOLE: f64 = 3.0;
 
+/// A lift that speeds up again by habit does so so often in a motion.
+pub const MOST_AGAIN: u8 = 2;
+
+/// That everything so far was misread.
+pub const RENEWAL: f64 = 10.0;
+
+/// A change of speed that is not soft hardly lasts longer, s; what each second more costs, and all of them.
+const LONGEST_CHANGE: f64 = 12.0;
+const ENDLESS_SECOND: f64 = 0.5;
+const MOST_ENDLESS: f64 = 8.0;
+
 /// A disturbance that may still be going on.
 pub const PENDING: f64 = 1.5;
 
@@ -115,6 +126,16 @@ impl Known {
     pub fn is_soft(&self, pulse: &Turned) -> bool {
         let seconds = pulse.to - pulse.from;
         seconds > SOFT.0 && pulse.change.abs() < SOFT.1 * self.soft * seconds
+    }
+
+    /// A change of speed that goes on and on: the sensor may have been turned.
+    pub fn endless(&self, pulse: &Turned) -> f64 {
+        let seconds = pulse.to - pulse.from;
+        if self.is_soft(pulse) {
+            0.0
+        } else {
+            (ENDLESS_SECOND * (seconds - LONGEST_CHANGE).max(0.0)).min(MOST_ENDLESS)
+        }
     }
 
     /// A motion with this top speed, m/s.

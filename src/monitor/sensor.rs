@@ -13,9 +13,16 @@ const SATURATED: (u32, f64) = (3, 12.0);
 /// Times further back than this are those of a clock that was set back, s.
 pub const SET_BACK: f64 = 1.0;
 
+/// Samples are too rare to be read as before where the time between them is longer by this, and no longer where by this;
+/// it is a running mean over so many samples, of which none counts for more than the last.
+const SLOW: (f64, f64, f64, f64) = (6.0, 5.0, 10.0, 20.0);
+
 /// What the samples have shown.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Sensor {
+    /// The time between samples as it should be, s, and the mean of it as it is, in that.
+    period: f64,
+    slowness: f64,
     last: Option<Sample>,
     /// Since when the value is repeated, s, and how often.
     since: f64,
@@ -40,6 +47,21 @@ pub(super) struct Health {
 }
 
 impl Sensor {
+    /// One that sends a sample every so many seconds.
+    pub fn new(period: f64) -> Self {
+        Self {
+            period,
+            slowness: 1.0,
+            last: None,
+            since: 0.0,
+            repeats: 0,
+            longest: 0.0,
+            changes: 0,
+            middle: 0.0,
+            fault: None,
+        }
+    }
+
     /// Whether a time is earlier than one before: by a lot, so that the clock was set back.
     pub fn is_set_back(&self, time: f64) -> bool {
         self.last.is_some_and(|last| time < last.time - SET_BACK)
@@ -51,6 +73,10 @@ impl Sensor {
         let is_repeated = self
             .last
             .is_some_and(|last| last.acceleration == sample.acceleration);
+        if let Some(last) = self.last {
+            let times = ((sample.time - last.time) / self.period).clamp(0.0, SLOW.3);
+            self.slowness += (times - self.slowness) / SLOW.2;
+        }
         if !is_repeated {
             if let Some(last) = self.last {
                 if self.fault.is_none() {
@@ -72,7 +98,10 @@ impl Sensor {
             begins: self
                 .fault
                 .filter(|_| self.fault != was)
-                .map(|fault| (fault, self.since)),
+                .map(|fault| match fault {
+                    Fault::Slow => (fault, sample.time),
+                    _ => (fault, self.since),
+                }),
             ends: was.is_some() && self.fault.is_none(),
         }
     }
@@ -85,7 +114,15 @@ impl Sensor {
         }
         let is_stuck =
             self.changes >= 10 && self.repeats >= 8 && lasts > STUCK.max(LONGER * self.longest);
-        is_stuck.then_some(Fault::Stuck)
+        if is_stuck {
+            return Some(Fault::Stuck);
+        }
+        let most = if self.fault == Some(Fault::Slow) {
+            SLOW.1
+        } else {
+            SLOW.0
+        };
+        (self.slowness > most).then_some(Fault::Slow)
     }
 
     /// Forgets the time, not the scatter.

@@ -146,7 +146,8 @@ impl Track {
         let it = &mut self.excursion;
         let is_up = fast > 0.0;
         if !it.is_pulse {
-            if is_up != it.is_up || fast.abs() < ONSET * least.0 {
+            let is_new = it.seconds == 0.0;
+            if is_new || is_up != it.is_up || fast.abs() < ONSET * least.0 {
                 *it = Excursion {
                     from: block.from,
                     to: block.from,

@@ -43,6 +43,76 @@ fn faults_of_the_sensor_are_told() {
     assert_eq!(told(rest().with(30.0, 0.0, 200.0)).0, [Fault::Noisy]);
 }
 
+/// A phone whose screen goes off sends a tenth of its samples: what is read at another rate than it was is not believed.
+#[test]
+fn rare_samples_are_not_read_as_before() {
+    let record = Record::quiet().rest(10.0).trip(1.0).rest(6.0).trip(-1.0);
+    let mut monitor = standing();
+    let mut events = Vec::new();
+    for (i, acceleration) in record.samples.iter().enumerate() {
+        if i > 500 && i % 10 != 0 {
+            continue;
+        }
+        let sample = Sample {
+            time: i as f64 / RATE,
+            acceleration: *acceleration,
+        };
+        events.extend_from_slice(monitor.step(sample, None));
+    }
+    assert_eq!(faults(&events), [Fault::Slow]);
+    assert_eq!(known(&events), [REST], "{events:?}");
+    assert_eq!(monitor.state(), State::Unknown);
+}
+
+/// A phone that is turned reads another level for good. That is no motion for long, and after the next trips it is known.
+#[test]
+fn a_turned_sensor_does_not_move_for_ever() {
+    for level in [0.15, 0.2, 0.3, 0.4, 0.5, -0.3, -0.4] {
+        let trip = |record: Record, sign: f64| {
+            record
+                .with(2.0, level + 0.5 * sign, 1.0)
+                .with(8.0, level, 2.0)
+                .with(2.0, level - 0.5 * sign, 1.0)
+                .with(10.0, level, 1.0)
+        };
+        let turned = Record::quiet().rest(25.0).with(50.0, level, 1.0);
+        let mut monitor = standing();
+        turned.watch(&mut monitor);
+        assert!(!monitor.state().moves(), "{level}: {:?}", monitor.state());
+        let mut monitor = standing();
+        trip(trip(turned, 1.0), -1.0).watch(&mut monitor);
+        assert_eq!(monitor.state(), REST, "{level}");
+    }
+}
+
+/// A phone that is lifted, held and put down on another level may cost a trip or two, not all that follow.
+#[test]
+fn handling_is_got_over() {
+    for level in [0.02, -0.02, 0.04] {
+        let ride = |record: Record, sign: f64| {
+            record
+                .with(2.0, level + 0.5 * sign, 1.0)
+                .with(8.0, level, 1.0)
+                .with(2.0, level - 0.5 * sign, 1.0)
+                .with(10.0, level, 1.0)
+        };
+        let held = Record::quiet()
+            .rest(10.0)
+            .with(0.8, 1.5, 1.0)
+            .with(0.8, -1.5, 1.0)
+            .with(5.0, -0.3, 6.0)
+            .with(0.8, -1.5, 1.0)
+            .with(0.8, 1.5, 1.0)
+            .with(8.0, level, 1.0);
+        let record = [1.0, 1.0, -1.0, 1.0, -1.0, -1.0]
+            .into_iter()
+            .fold(held, ride);
+        let mut monitor = standing();
+        record.watch(&mut monitor);
+        assert_eq!(monitor.state(), REST, "{level}");
+    }
+}
+
 /// One stamp far ahead, and the way back: two holes, and the next trips are seen.
 #[test]
 fn a_clock_that_is_set_back_costs_a_gap() {
