@@ -118,6 +118,17 @@ pub enum Warning {
         remedy: &'static str,
     },
     #[error(
+        "ride {ride}: its speed changes for {seconds:.0} s from {from:.1} s on, longer than that of most lifts, as if the \
+         sensor had been turned (if it was, leave the ride out with {flag} {time:.1})"
+    )]
+    Long {
+        ride: usize,
+        from: f64,
+        seconds: f64,
+        flag: &'static str,
+        time: f64,
+    },
+    #[error(
         "the record does not look as if it began {0}, as --begins says (leave out --begins to see what it says itself)"
     )]
     Contradicted(&'static str),
@@ -229,6 +240,7 @@ impl Detection {
             least: self.design.settings.monitor.least_speed,
             remedy: self.remedy_for_slow(),
         });
+        let long = self.trips.iter().flat_map(Trip::long_changes);
         let more = self.undecided.len().saturating_sub(MOST_SAID);
         let undecided = self
             .undecided
@@ -259,11 +271,38 @@ impl Detection {
         .into_iter()
         .flatten()
         .chain(slow)
+        .chain(long)
         .chain(undecided)
         .chain((more > 0).then_some(Warning::MoreUndecided(more)))
         .collect()
     }
 }
+
+impl Trip {
+    /// Warnings about its changes of speed that last as if the sensor had been turned.
+    fn long_changes(&self) -> impl Iterator<Item = Warning> {
+        let changes = [
+            (self.start, self.inertial),
+            (self.braking, self.levelling.or(self.stop)),
+        ];
+        let changes = changes.into_iter().filter_map(|(from, to)| from.zip(to));
+        changes.filter_map(|(from, to)| {
+            let seconds = to - from;
+            let is_long = seconds > LONG.0 && self.speed > LONG.1 * seconds;
+            let (flag, time) = self.stop.map_or(("--to", from), |stop| ("--from", stop));
+            is_long.then_some(Warning::Long {
+                ride: self.ride,
+                from,
+                seconds,
+                flag,
+                time,
+            })
+        })
+    }
+}
+
+/// A change of speed is long from so many seconds on, where it is no softer than this, m/s².
+const LONG: (f64, f64) = (9.0, 0.1);
 
 /// The slowest motion of a slow lift, m/s: `--lift slow`.
 pub const SLOW: f64 = 0.06;

@@ -29,7 +29,7 @@ const YOUNG_SHIFT: f64 = 8.0;
 
 /// The most tracks, and how much dearer than the cheapest one may be.
 const MOST_TRACKS: usize = 4;
-const HOPELESS: f64 = 16.0;
+const HOPELESS: f64 = 12.0;
 
 /// The noise that is assumed with a level, m/s², until there is more.
 const FIRST_NOISE: Noises = Noises {

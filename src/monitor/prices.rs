@@ -93,7 +93,7 @@ pub const MOST_AGAIN: u8 = 2;
 pub const RENEWAL: f64 = 10.0;
 
 /// A change of speed that is not soft hardly lasts longer, s; what each second more costs, and all of them.
-const LONGEST_CHANGE: f64 = 12.0;
+const LONGEST_CHANGE: f64 = 15.0;
 const ENDLESS_SECOND: f64 = 0.5;
 const MOST_ENDLESS: f64 = 8.0;
 
@@ -179,7 +179,7 @@ pub fn brisk(pulse: &Turned) -> f64 {
 
 /// A lasting change of the level by so much, m/s².
 pub fn shift(by: f64) -> f64 {
-    SHIFT + STRONG_SHIFT.1 * (by.abs() - STRONG_SHIFT.0).clamp(0.0, 0.5)
+    SHIFT + STRONG_SHIFT.1 * (by.abs() - STRONG_SHIFT.0).clamp(0.0, 0.3)
 }
 
 /// The most that a closing speed costs, m/s.

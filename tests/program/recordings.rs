@@ -456,6 +456,28 @@ fn warnings() {
     let (code, _, err) = detect(path, &["counts.csv", "--unit", "m/s^2"]);
     assert_eq!(code, 0);
     assert!(err.contains("give the unit with --unit"), "{err}");
+    // The sensor is turned after a ride, for good; what the warning says helps.
+    let turned = |i: u32| {
+        let time = f64::from(i) / 100.0;
+        let noise = f64::from(i.wrapping_mul(2_654_435_761) >> 16) / 65536.0 - 0.5;
+        let ride = match time {
+            10.0..12.0 | 80.0..82.0 => 0.6,
+            18.0..20.0 | 90.0..92.0 => -0.6,
+            _ => 0.0,
+        };
+        let level = if time > 24.0 { 10.11 } else { 9.81 };
+        format!("{time:.2},{:.4}\n", ride + level + 0.04 * noise)
+    };
+    let turned: String = (0..10_000).map(turned).collect();
+    fs::write(path.join("turned.csv"), turned).unwrap();
+    let (code, _, err) = detect(path, &["turned.csv"]);
+    assert_eq!(code, 0);
+    let remedy =
+        "as if the sensor had been turned (if it was, leave the ride out with --from 24.0)";
+    assert!(err.contains(remedy), "{err}");
+    let (code, out, err) = detect(path, &["turned.csv", "--from", "24.0"]);
+    assert_eq!((code, &err[..]), (0, ""));
+    assert!(out.contains("   1  up         80.0"), "{out}");
     // Somebody walks with the sensor.
     let step = |i: i32| 5.0 * (12.0 * f64::from(i) / 100.0).sin();
     let row = |i: i32| format!("{:.2},{:.4}\n", f64::from(i) / 100.0, step(i));
