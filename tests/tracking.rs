@@ -40,7 +40,7 @@ fn opened(path: &Path) -> Recording {
 fn tracked(recording: &Recording, settings: TrackSettings) -> Track {
     let design = Settings::default().at(recording.rate()).unwrap();
     let detection = Detection::of(&design, recording.samples(), None, None);
-    let step = recording.facts().coarse_step();
+    let step = recording.facts().coarse_step;
     Track::of(recording.samples(), step, &detection, settings)
 }
 

@@ -139,7 +139,7 @@ impl TrackCommand {
 
 fn track(rides: &Rides) -> Track {
     let recording = &rides.recording;
-    let step = recording.facts().coarse_step();
+    let step = recording.facts().coarse_step;
     Track::of(
         recording.samples(),
         step,

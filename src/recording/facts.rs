@@ -38,6 +38,8 @@ pub struct Facts {
     pub quantum: Option<f64>,
     /// The share of samples that equal the one before.
     pub repeats: f64,
+    /// The sensor's step along the vertical, m/s², where it is so coarse that many readings repeat the one before.
+    pub coarse_step: Option<f64>,
     /// The share of samples at a limit of the sensor, if there clearly is one.
     pub saturated: Option<f64>,
     /// m/s².
@@ -114,6 +116,7 @@ impl Facts {
             longest_gap,
             quantum: steps.quantum,
             repeats: repeats as f64 / count,
+            coarse_step: coarse(steps.quantum, repeats as f64 / count),
             saturated: (at_limits > 0).then(|| at_limits as f64 / count),
             mean,
             deviation,
@@ -129,15 +132,15 @@ impl Facts {
         GAP / self.rate
     }
 
-    /// The sensor's step, m/s², where it is so coarse that most samples repeat the one before.
-    pub fn coarse_step(&self) -> Option<f64> {
-        self.quantum.filter(|_| self.repeats > 0.5)
-    }
-
     /// s.
     pub fn duration(&self) -> f64 {
         self.end - self.start
     }
+}
+
+/// A step, where so many readings repeat the one before: half of them do where noise much finer than a step lies between two.
+pub(super) fn coarse(step: Option<f64>, repeats: f64) -> Option<f64> {
+    step.filter(|_| repeats > 0.4)
 }
 
 /// The mean and the standard deviation, by Welford's recursion.

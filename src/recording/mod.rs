@@ -145,6 +145,7 @@ impl Recording {
         let is_reversed = assumed.is_reversed;
         let mut vertical = vertical::find(&columns, &windows, reading.axis, is_reversed)?;
         let along = vertical::project(&columns, &windows, unit, &vertical);
+        let coarse_step = vertical::coarse_step(&columns, unit, &vertical);
         columns.axes.clear();
         let sign = if reading.invert { -1.0 } else { 1.0 };
         if reading.invert {
@@ -161,9 +162,11 @@ impl Recording {
         columns.times = Vec::new();
         let whole_rows = samples.len() as u64;
         let repeats = spread::spread(&mut samples);
+        let facts = Facts::of(&samples, windows.has_gravity(), reading.rate)?;
         let facts = Facts {
             clock_offset: columns.parser.clock.offset(),
-            ..Facts::of(&samples, windows.has_gravity(), reading.rate)?
+            coarse_step: coarse_step.or(facts.coarse_step),
+            ..facts
         };
         columns.check_clock(facts.rate)?;
         let mut warnings = warning::of_rows(&columns, repeats, whole_rows);

@@ -10,7 +10,9 @@
 
 use super::axis::{AXES, Axis};
 use super::error::RecordingProblem;
+use super::facts::coarse;
 use super::layout::no_gravity;
+use super::steps::{LOOKED_AT, Steps};
 use super::table::Columns;
 use super::unit::Unit;
 use super::windows::{GRAVITATION, Vector, Windows, angle, dot, largest, length, mix, unit};
@@ -205,6 +207,27 @@ pub(super) fn project(
         dot([0, 1, 2].map(|axis| unit.convert(axes[axis][row])), up)
     })
     .collect()
+}
+
+/// The step along the vertical, m/s², of three axes of which some are coarse: what each adds is known to its own step.
+pub(super) fn coarse_step(columns: &Columns, unit: Unit, vertical: &Vertical) -> Option<f64> {
+    if vertical.column.is_some() {
+        return None;
+    }
+    let squares = columns
+        .axes
+        .iter()
+        .zip(vertical.up)
+        .filter_map(|(axis, up)| {
+            let repeats = axis.windows(2).filter(|pair| pair[0] == pair[1]).count();
+            let first = axis.iter().filter(|reading| !reading.is_nan());
+            let first = first.take(LOOKED_AT).map(|reading| unit.convert(*reading));
+            let step = Steps::of(first.collect()).quantum;
+            let step = coarse(step, repeats as f64 / axis.len() as f64)?;
+            Some((step * up).powi(2))
+        });
+    let variance: f64 = squares.sum();
+    (variance > 0.0).then(|| variance.sqrt())
 }
 
 /// The local directions of gravity, at their times; empty if none differs from the median.

@@ -1,6 +1,7 @@
 //! Which way is up, by gravity, by the ride, or as the user says.
 
 use super::*;
+use std::f64::consts::PI;
 
 /// Gravity shows which way is up, for either sign of the sensor's axis.
 #[test]
@@ -70,6 +71,29 @@ fn tilted_axes_are_projected() {
     let recording = open(&format!("time,x,y,z\n{rows}"));
     let is_tilted = |warning: &Warning| matches!(warning, Warning::Tilted(angle) if *angle > 30.0);
     assert!(recording.warnings().iter().any(is_tilted));
+}
+
+/// Steps of 18 mg, tilted: what is projected lies on no grid, but each axis does, and adds its part of a step.
+#[test]
+fn coarse_axes_are_known_in_any_pose() {
+    const STEP: f64 = 0.1765;
+    let up = [0.6, 0.0, 0.8];
+    let row = |i: u32| {
+        let pulse = |from: u32| 0.6 * (PI * f64::from(i - from) / 200.0).sin();
+        let ride = match i {
+            500..700 => pulse(500),
+            1100..1300 => -pulse(1100),
+            _ => 0.0,
+        };
+        let noise = f64::from(i.wrapping_mul(2_654_435_761) >> 16) / 65536.0;
+        let reads = up.map(|up| ((9.7 + ride + 0.03 * noise) * up / STEP).round() * STEP);
+        let [x, y, z] = reads;
+        format!("{},{x},{y},{z}\n", 0.01 * f64::from(i))
+    };
+    let rows: String = (0..2000).map(row).collect();
+    let recording = open(&format!("time,x,y,z\n{rows}"));
+    let step = recording.facts().coarse_step.unwrap();
+    assert!((step / STEP - 1.0).abs() < 0.01, "{step}");
 }
 
 /// A pulse along y, shaking along x that averages out, and handling at the end that moves all axes.

@@ -101,7 +101,7 @@ pub(super) fn run(point: &Point, seed: u64, trial: u64) -> Sums {
     let samples = &recorded.samples;
     let detection = Detection::of(&design, samples, None, None);
     let facts = Facts::of(samples, false, None).expect("noise has more than one value");
-    let step = facts.coarse_step();
+    let step = facts.coarse_step;
     let track = Track::of(samples, step, &detection, settings);
     let bound = recorded.bound();
     let mut sums = shape().empty().sums;

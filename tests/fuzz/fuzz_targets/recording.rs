@@ -50,7 +50,7 @@ fn detect(recording: &Recording, choice: u8) {
 }
 
 fn measure(recording: &Recording, found: &Detection) {
-    let step = recording.facts().coarse_step();
+    let step = recording.facts().coarse_step;
     let track = Track::of(recording.samples(), step, found, TrackSettings::default());
     for warning in track.warnings() {
         assert!(!warning.to_string().is_empty());
