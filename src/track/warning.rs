@@ -34,10 +34,10 @@ pub enum Warning {
     )]
     Coarse { step: f64 },
     #[error(
-        "{when} the record is {times:.1} times as noisy as the settings say, so the deviations are widened (lay the sensor on \
-         the floor of the lift)"
+        "at rest the record is {0:.1} times as noisy as the settings say, so the deviations are widened (lay the sensor on the \
+         floor of the lift)"
     )]
-    Noisy { when: &'static str, times: f64 },
+    Noisy(f64),
 }
 
 impl Track {
@@ -46,11 +46,9 @@ impl Track {
         let is_filtered = (self.trips.iter()).any(|it| it.unknown == Some(Unknown::Filter));
         let has_distance = self.trips.iter().any(|it| it.distance.is_some());
         let coarse = self.step.map(|step| Warning::Coarse { step });
-        let noisy = ["at rest", "in motion"].into_iter().zip(self.noisier);
-        let noisy = noisy.filter_map(|(when, power)| {
-            let times = power?.sqrt();
-            Some(Warning::Noisy { when, times })
-        });
+        // In motion every lift is noisier than the sensor.
+        let [at_rest, _] = self.noisier;
+        let noisy = at_rest.map(|power| Warning::Noisy(power.sqrt()));
         let of_record = coarse.into_iter().chain(noisy);
         let of_record = of_record.filter(|_| has_distance);
         let filter = is_filtered.then_some(Warning::Filter).into_iter();
