@@ -53,8 +53,8 @@ pub enum Unknown {
 pub struct Track {
     /// The settings, with the noise of the record where it is the larger.
     pub settings: TrackSettings,
-    /// How many times S_a is larger than they said, at rest and in motion, if it is.
-    pub noisier: [Option<f64>; 2],
+    /// How many times S_a is larger at rest than they said, if it is.
+    pub noisier: Option<f64>,
     /// The sensor as the record shows it.
     pub level: Level,
     /// The sensor's steps, if they are coarser than its noise, m/s².

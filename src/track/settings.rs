@@ -89,13 +89,13 @@ impl Default for UniformSettings {
 }
 
 impl TrackSettings {
-    /// Those for a record that is clearly noisier than they say, and how many times S_a is more at rest and in motion.
-    pub(super) fn noisier(self, level: &Level) -> (Self, [Option<f64>; 2]) {
+    /// Those for a record that is clearly noisier than they say, and how many times S_a is more at rest.
+    pub(super) fn noisier(self, level: &Level) -> (Self, Option<f64>) {
         let Noise::Density(noise) = self.noise else {
-            return (self, [None; 2]);
+            return (self, None);
         };
-        let found = [level.rest, level.motion].map(|it| it.excess(noise.acceleration));
-        let [rest, motion] = found.map(|times| times.unwrap_or(1.0));
+        let [found, motion] = [level.rest, level.motion].map(|it| it.excess(noise.acceleration));
+        let [rest, motion] = [found, motion].map(|times| times.unwrap_or(1.0));
         let settings = Self {
             noise: Noise::Density(noise.noisier(rest)),
             shaken: self.shaken * motion / rest,

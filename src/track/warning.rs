@@ -47,8 +47,7 @@ impl Track {
         let has_distance = self.trips.iter().any(|it| it.distance.is_some());
         let coarse = self.step.map(|step| Warning::Coarse { step });
         // In motion every lift is noisier than the sensor.
-        let [at_rest, _] = self.noisier;
-        let noisy = at_rest.map(|power| Warning::Noisy(power.sqrt()));
+        let noisy = self.noisier.map(|power| Warning::Noisy(power.sqrt()));
         let of_record = coarse.into_iter().chain(noisy);
         let of_record = of_record.filter(|_| has_distance);
         let filter = is_filtered.then_some(Warning::Filter).into_iter();

@@ -58,6 +58,14 @@ impl Record {
             .with(2.0, -sign * 0.5, 1.0)
     }
 
+    /// The same on a level of the sensor, with the noise of its motion, and a rest of 10 s.
+    fn trip_on(self, level: f64, sign: f64, noise: f64) -> Self {
+        self.with(2.0, level + sign * 0.5, 1.0)
+            .with(8.0, level, noise)
+            .with(2.0, level - sign * 0.5, 1.0)
+            .with(10.0, level, 1.0)
+    }
+
     fn now(&self) -> f64 {
         self.samples.len() as f64 / RATE
     }

@@ -68,19 +68,13 @@ fn rare_samples_are_not_read_as_before() {
 #[test]
 fn a_turned_sensor_does_not_move_for_ever() {
     for level in [0.15, 0.2, 0.3, 0.4, 0.5, -0.3, -0.4] {
-        let trip = |record: Record, sign: f64| {
-            record
-                .with(2.0, level + 0.5 * sign, 1.0)
-                .with(8.0, level, 2.0)
-                .with(2.0, level - 0.5 * sign, 1.0)
-                .with(10.0, level, 1.0)
-        };
         let turned = Record::quiet().rest(25.0).with(50.0, level, 1.0);
         let mut monitor = standing();
         turned.watch(&mut monitor);
         assert!(!monitor.state().moves(), "{level}: {:?}", monitor.state());
         let mut monitor = standing();
-        trip(trip(turned, 1.0), -1.0).watch(&mut monitor);
+        let trips = turned.trip_on(level, 1.0, 2.0).trip_on(level, -1.0, 2.0);
+        trips.watch(&mut monitor);
         assert_eq!(monitor.state(), REST, "{level}");
     }
 }
@@ -89,13 +83,6 @@ fn a_turned_sensor_does_not_move_for_ever() {
 #[test]
 fn handling_is_got_over() {
     for level in [0.02, -0.02, 0.04] {
-        let ride = |record: Record, sign: f64| {
-            record
-                .with(2.0, level + 0.5 * sign, 1.0)
-                .with(8.0, level, 1.0)
-                .with(2.0, level - 0.5 * sign, 1.0)
-                .with(10.0, level, 1.0)
-        };
         let held = Record::quiet()
             .rest(10.0)
             .with(0.8, 1.5, 1.0)
@@ -106,7 +93,7 @@ fn handling_is_got_over() {
             .with(8.0, level, 1.0);
         let record = [1.0, 1.0, -1.0, 1.0, -1.0, -1.0]
             .into_iter()
-            .fold(held, ride);
+            .fold(held, |record, sign| record.trip_on(level, sign, 1.0));
         let mut monitor = standing();
         record.watch(&mut monitor);
         assert_eq!(monitor.state(), REST, "{level}");
