@@ -151,7 +151,8 @@ impl Cage {
     fn disturb(&mut self, draws: &mut Draws) {
         let class = self.class;
         let times = match class {
-            Class::LevelShift | Class::LevelStep | Class::Tilt => 1,
+            Class::LevelShift | Class::LevelStep | Class::Tilt | Class::Turned => 1,
+            Class::Held => draws.whole([1, 2]),
             Class::Shocks | Class::Jumps | Class::Boarding => draws.whole([1, 3]),
             Class::Relevelling => return self.relevel(draws),
             _ => 0,
@@ -159,9 +160,10 @@ impl Cage {
         for _ in 0..times {
             // The monitor may learn rest from the first seconds.
             let from = match class {
-                Class::Jumps | Class::Boarding => {
+                Class::Jumps | Class::Boarding | Class::Turned | Class::Held => {
                     let (from, to) = self.rests[draws.whole([0, self.rests.len() - 1])];
-                    draws.within([from, (to - 1.0).max(from)]).max(6.0)
+                    let before = if class == Class::Held { 11.0 } else { 1.0 };
+                    draws.within([from, (to - before).max(from)]).max(6.0)
                 }
                 Class::Tilt => {
                     let trip = self.journeys[draws.whole([0, self.journeys.len() - 1])];

@@ -62,6 +62,12 @@ pub enum Class {
     Gaps,
     /// The sensor tilts by 2 to 6 degrees in motion.
     Tilt,
+    /// The sensor is turned at rest: its level changes by 0.1 to 0.5 m/s² for good.
+    Turned,
+    /// At rest somebody picks the sensor up, holds it for 3 to 8 s and puts it down.
+    Held,
+    /// The level settles by 0.05 to 0.25 m/s², with a time constant of 5 to 40 s.
+    WarmUp,
     /// The drum turns for 4 to 15 s while the cage stands: after a disturbance, or after a jam.
     Drum,
 }
@@ -183,6 +189,11 @@ impl Ranges {
                 speed: [0.4, 1.2],
                 acceleration: [0.04, 0.08],
                 braking: [1.0, 1.0],
+                ..ordinary
+            },
+            Class::Turned | Class::Held => Self {
+                trips: [3, 6],
+                rest: [14.0, 20.0],
                 ..ordinary
             },
             Class::BackToBack => Self {

@@ -37,6 +37,11 @@ pub(super) fn disturbance(class: Class, from: f64, draws: &mut Draws) -> Vec<Pul
                 seconds: draws.within([0.2, 0.5]),
             },
         ],
+        Class::Turned => vec![Shape::Level {
+            offset: draws.sign() * draws.within([0.1, 0.5]),
+            seconds: f64::INFINITY,
+        }],
+        Class::Held => return holding(from, draws),
         Class::Jumps => return jump(from, 0.3, draws.decades([0.05, 1.0])).into(),
         _ => Vec::new(),
     };
@@ -65,6 +70,31 @@ pub(super) fn jump(from: f64, flight: f64, share: f64) -> [Pulse; 3] {
         pulse(from + PUSH, flying),
         pulse(from + PUSH + flight, half_sine(LANDING)),
     ]
+}
+
+/// Somebody picks the sensor up, holds it askew with a tremor, and puts it down a little otherwise than it lay.
+fn holding(from: f64, draws: &mut Draws) -> Vec<Pulse> {
+    const TREMOR: f64 = 0.7;
+    let (seconds, offset) = (draws.within([3.0, 8.0]), -draws.within([0.1, 0.5]));
+    let until = from + seconds;
+    let mut pulses = Vec::new();
+    let mut add = |from, shape| pulses.push(Pulse { from, shape });
+    add(from, Shape::Level { offset, seconds });
+    // It is lifted and lowered again by about half a metre.
+    for from in [from, until - 1.0] {
+        let seconds = draws.within([0.5, 1.0]);
+        let peak = draws.sign() * draws.within([2.0, 4.0]);
+        add(from, Shape::Sine { peak, seconds });
+    }
+    for period in 0..(seconds / TREMOR) as usize {
+        let peak = draws.within([0.05, 0.15]);
+        let seconds = TREMOR;
+        add(from + TREMOR * period as f64, Shape::Sine { peak, seconds });
+    }
+    let offset = draws.within([-0.05, 0.05]);
+    let seconds = f64::INFINITY;
+    add(until, Shape::Level { offset, seconds });
+    pulses
 }
 
 /// Somebody handles the sensor: tilts and swings.

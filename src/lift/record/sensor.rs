@@ -23,6 +23,8 @@ pub(super) struct Mounted {
     quantum: f64,
     /// How fast the level rises, m/s², by the start of each 15 s; empty for none.
     pub slopes: Vec<f64>,
+    /// By how much its level settles, m/s², and with which time constant, s.
+    warm_up: (f64, f64),
     /// Time constant of its high pass, s.
     pub tau: Option<f64>,
     /// It repeats its value from then on, s.
@@ -54,6 +56,7 @@ impl Mounted {
             bias: if draws.holds(0.5) { GRAVITY } else { 0.0 } + draws.within([-0.3, 0.3]),
             quantum: draws.decades(ranges.quantum),
             slopes: Vec::new(),
+            warm_up: (0.0, 1.0),
             tau: None,
             frozen: f64::INFINITY,
             holes: Vec::new(),
@@ -61,6 +64,10 @@ impl Mounted {
         };
         match class {
             Class::Drift => sensor.slopes = slopes(until, draws),
+            Class::WarmUp => {
+                let settles = draws.sign() * draws.within([0.05, 0.25]);
+                sensor.warm_up = (settles, draws.within([5.0, 40.0]));
+            }
             Class::HighPass => sensor.tau = Some(draws.decades([0.5, 16.0])),
             Class::Frozen => sensor.frozen = draws.within([6.0, until]),
             Class::Holes => sensor.holes = holes(3, [0.3, 5.0], [0.0, until], draws),
@@ -132,10 +139,12 @@ impl Mounted {
 
     fn drift(&self, record: &mut [f64]) {
         let mut level = 0.0;
+        let (settles, tau) = self.warm_up;
         for (i, a) in record.iter_mut().enumerate() {
-            let slope = self.slopes.get((i as f64 / self.rate / STRETCH) as usize);
+            let time = i as f64 / self.rate;
+            let slope = self.slopes.get((time / STRETCH) as usize);
             level += slope.unwrap_or(&0.0) / self.rate;
-            *a += level;
+            *a += level + settles * exp(-time / tau);
         }
     }
 }

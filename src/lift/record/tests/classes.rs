@@ -209,6 +209,44 @@ fn people_and_hands() {
     }
 }
 
+/// A sensor is turned and held at rest, and reads another level afterwards; one that warms up settles.
+#[test]
+fn levels_of_sensors() {
+    let levels = |cage: &Cage| -> Vec<(f64, f64, f64)> {
+        let of = |pulse: &Pulse| match pulse.shape {
+            Shape::Level { offset, seconds } => Some((pulse.from, offset, seconds)),
+            _ => None,
+        };
+        cage.disturbances.iter().filter_map(of).collect()
+    };
+    for (cage, _) in plans(Class::Turned) {
+        let [(from, offset, seconds)] = levels(&cage)[..] else {
+            panic!("{:?}", cage.disturbances)
+        };
+        assert!((0.1..=0.5).contains(&offset.abs()) && seconds.is_infinite());
+        assert_eq!(cage.speed_at(from), 0.0);
+    }
+    for (cage, _) in plans(Class::Held) {
+        for pair in levels(&cage).chunks(2) {
+            let [(from, held, seconds), (until, left, _)] = pair else {
+                panic!("{pair:?}")
+            };
+            assert!((-0.5..=-0.1).contains(held) && left.abs() <= 0.05);
+            assert!((3.0..=8.0).contains(seconds) && (until - from - seconds).abs() < 1e-9);
+        }
+    }
+    for of in records(Class::WarmUp) {
+        let mean = |from: f64, to: f64| {
+            let within = |time: &f64| (from..to).contains(time);
+            let both = of.times.iter().zip(&of.acceleration);
+            let some: Vec<f64> = both.filter(|it| within(it.0)).map(|it| *it.1).collect();
+            some.iter().sum::<f64>() / some.len() as f64
+        };
+        let last = of.times[of.times.len() - 1];
+        assert!((mean(0.0, 1.0) - mean(last - 2.0, last)).abs() > 0.03);
+    }
+}
+
 /// The drum turns while the cage stands, in each of the three ways.
 #[test]
 fn slack_is_paid_out() {

@@ -7,7 +7,7 @@ use super::sensor::high_pass;
 use super::*;
 use crate::lift::pulse::{Pulse, Shape};
 
-const ALL: [Class; 27] = [
+const ALL: [Class; 30] = [
     Class::Ordinary,
     Class::ShortRests,
     Class::Cut,
@@ -34,6 +34,9 @@ const ALL: [Class; 27] = [
     Class::BackToBack,
     Class::Gaps,
     Class::Tilt,
+    Class::Turned,
+    Class::Held,
+    Class::WarmUp,
     Class::Drum,
 ];
 
