@@ -4,7 +4,7 @@
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
 use super::decisions::Decisions;
-use crate::explain::{self, Cause, Doubt, Explanation, Faults};
+use crate::explain::{self, Cause, Doubt, Explanation};
 use crate::monitor::{Decision, Direction};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -79,6 +79,8 @@ pub enum Why {
     NoRide,
     /// The sensor repeats one value.
     Frozen,
+    /// Somebody has the sensor in hand.
+    InHand,
 }
 
 /// A trip in a few words.
@@ -183,7 +185,7 @@ pub(super) fn undecided(
     explanation: &Explanation,
     events: &[Event],
     least_speed: f64,
-    faults: &Faults,
+    unknown: &[Undecided],
 ) -> Vec<Undecided> {
     let doubts = explanation
         .doubts
@@ -193,9 +195,8 @@ pub(super) fn undecided(
     let pushes = events.iter();
     let pushes = pushes.filter(|it| it.what == What::Push && it.speed.abs() >= least_speed);
     let pushes = pushes.map(|event| Undecided::unknown(event.from, event.to, Why::NoRide));
-    let frozen = faults.frozen.iter();
-    let frozen = frozen.map(|&(from, to)| Undecided::unknown(from, to, Why::Frozen));
-    let mut undecided: Vec<Undecided> = doubts.chain(pushes).chain(frozen).collect();
+    let unknown = unknown.iter().cloned();
+    let mut undecided: Vec<Undecided> = doubts.chain(pushes).chain(unknown).collect();
     undecided.sort_by(|a, b| a.from.total_cmp(&b.from));
     merged(undecided)
 }
@@ -236,6 +237,7 @@ impl Undecided {
         match self.why {
             Why::NoRide => return " (record the whole ride, with rest before and after it)",
             Why::Frozen => return ": the sensor repeats one value (record again)",
+            Why::InHand => return ": somebody has the sensor in hand (let it lie)",
             Why::Filter => {
                 return ", because a phone that filters out slow acceleration would show one ride as these two \
                         (record the acceleration with gravity)";
@@ -250,7 +252,8 @@ impl Undecided {
         }
     }
 
-    fn unknown(from: f64, to: f64, why: Why) -> Self {
+    /// Where nothing can be known of the cage.
+    pub(super) fn unknown(from: f64, to: f64, why: Why) -> Self {
         Self {
             from,
             to,

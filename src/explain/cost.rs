@@ -52,6 +52,12 @@ const MOST_IN_HOLE: f64 = 3.0 * IN_HOLE;
 /// A pulse that an end of a stretch cuts off is over just there.
 const CUT_OFF: f64 = 1.75;
 
+/// Somebody has the sensor in hand, between rides.
+pub const IN_HAND: f64 = 1.5;
+
+/// A pulse that an end of a stretch cuts off is no acceleration: the sensor was turned there, or warms up.
+pub const TURNED: f64 = 5.0;
+
 /// What is seen of the change is too slow for a trip.
 pub const SLOW_PART: f64 = 2.0;
 

@@ -435,6 +435,7 @@ mod tests {
                 is_violent: false,
                 is_swing: false,
                 shift: 0.0,
+                is_level: false,
             };
             let pulses: Vec<Pulse> = changes.into_iter().enumerate().map(pulse).collect();
             let middle = pulses.len() / 2;

@@ -16,6 +16,7 @@
 mod blocks;
 pub(crate) mod cost;
 mod course;
+mod hand;
 mod hops;
 mod lattice;
 mod level;
@@ -32,8 +33,11 @@ mod tests;
 mod trips;
 
 pub use blocks::{Block, Blocks, Cut, STRONGEST};
+pub use cost::IN_HAND;
 pub use cost::Prior;
 pub use course::Place;
+pub use hand::in_hand;
+pub(crate) use hand::{is_of_hand, lies_still};
 pub use lattice::{Lattice, Part};
 pub use level::Level;
 pub(crate) use progress::{Progress, Swing, Turned};
@@ -78,6 +82,8 @@ pub struct Explanation {
     pub filter: SensorFilter,
     /// The cheapest explanation.
     pub reading: Reading,
+    /// What it costs, nats.
+    pub cost: f64,
     /// Where another is nearly as cheap.
     pub doubts: Vec<Doubt>,
     /// What would be trips if they were faster.
@@ -286,6 +292,7 @@ impl Explained {
             begins_otherwise: self.begins_otherwise(),
             doubts,
             slow,
+            cost: self.cost(),
             reading: self.reading(),
             record: self.record,
             filter,

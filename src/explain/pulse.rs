@@ -31,6 +31,11 @@ const LEFT: f64 = 0.6;
 const BACK: f64 = 0.25;
 const FARTHEST_SLOW_SWING: f64 = 2.0;
 
+/// A level changes within this time, s, by this share of what is in between; no lift starts so weakly, m/s².
+const AT_ONCE: f64 = 0.1;
+const MOST_OF: f64 = 0.7;
+const WEAK: f64 = 0.12;
+
 /// The smallest change of speed, m/s, and in deviations of what noise adds up to.
 const LEAST_CHANGE: f64 = 0.015;
 const LEAST_DEVIATIONS: f64 = 5.0;
@@ -61,6 +66,8 @@ pub struct Pulse {
     pub is_swing: bool,
     /// What the level shifts by during it, m/s²; 0 for what the record shows above its level.
     pub shift: f64,
+    /// Whether an end of a stretch cuts it off and it looks like another level: abrupt, or weak.
+    pub is_level: bool,
 }
 
 impl Pulse {
@@ -75,6 +82,7 @@ impl Pulse {
             is_violent: false,
             is_swing: false,
             shift: 0.0,
+            is_level: false,
         }
     }
 
@@ -299,8 +307,10 @@ impl Record {
             .clone()
             .map(|block| self.off(block).abs())
             .fold(0.0, f64::max);
+        let change = self.change(blocks.clone());
         Pulse {
-            change: self.change(blocks.clone()),
+            change,
+            is_level: self.is_level(&blocks, change / seconds),
             deviation: (limits.walk.powi(2) * seconds + (level_error * seconds).powi(2)).sqrt(),
             blocks,
             from,
@@ -309,6 +319,27 @@ impl Record {
             is_swing: false,
             shift: 0.0,
         }
+    }
+
+    /// Whether blocks of this mean, m/s², that reach from an end of a stretch, or to it, may be at another level: a
+    /// lift's acceleration is hardly so weak, and does not come or go within a tenth of a second.
+    fn is_level(&self, blocks: &Range<usize>, mean: f64) -> bool {
+        let ends = &self.cut.ends;
+        let begins = blocks.start == 0 || ends.contains(&blocks.start);
+        if begins == ends.contains(&blocks.end) {
+            return false;
+        }
+        let (width, reach) = (self.cut.blocks_in(AT_ONCE), self.cut.blocks_in(2.0 * FOOT));
+        let edge = if begins { blocks.end } else { blocks.start };
+        let part = |from: usize| {
+            let off = (from..from + width).map(|block| self.off(block));
+            off.sum::<f64>() / width as f64
+        };
+        let first = edge.saturating_sub(reach);
+        let last = (edge + reach).min(self.cut.blocks.len());
+        let last = last.saturating_sub(2 * width);
+        let mut jumps = (first..last).map(|from| (part(from + width) - part(from)).abs());
+        mean.abs() < WEAK || jumps.any(|jump| jump > MOST_OF * mean.abs())
     }
 
     /// A shock and the short pulses that touch it are one: what counts is the speed they leave.

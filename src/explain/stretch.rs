@@ -40,6 +40,9 @@ impl<'a> Stretch<'a> {
             let is_handled = turned.is_shock() || pulse.shift != 0.0;
             let is_at_end = pulse.from <= begin || pulse.to >= end;
             turned.ignored += cost::cut_off(is_at_end && !is_handled);
+            if pulse.is_level {
+                turned.ignored = turned.ignored.min(cost::TURNED);
+            }
             turned
         });
         Self::of(prior, turned.collect(), (begin, end), false)

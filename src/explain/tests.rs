@@ -73,6 +73,69 @@ fn a_level_that_shifts_makes_no_ride() {
     }
 }
 
+/// A phone is turned just after the record begins, or before it ends: with the rest before it, or after, that is as good
+/// as a braking, or a start, of which the record shows a part. A braking of a lift is none.
+#[test]
+fn a_turn_near_an_end_is_no_ride() {
+    for size in [0.15, -0.15, 0.3, -0.3, 0.5] {
+        for (from, to) in [(0.0, 3.0), (0.0, 8.0), (52.0, 60.0), (56.0, 60.0)] {
+            let found = explained(&record(60.0, |time| size * within(time, from, to)), None);
+            let others = found.reading.trips.iter().filter(|trip| !is_the_ride(trip));
+            let is_told = others.count() == 0 || !found.doubts.is_empty();
+            assert!(is_told, "{size} {from} {to}: {:?}", found.reading.trips);
+        }
+    }
+    // The record begins 0.5 s into a braking.
+    let braking = |time: f64| -pulse(time + 0.5);
+    let found = explained(&record(60.0, braking), None);
+    assert_eq!(found.reading.trips.len(), 2, "{:?}", found.reading.trips);
+    assert_eq!(found.reading.trips[0].start, None);
+}
+
+/// Somebody lifts the sensor, holds it and puts it down. A jump, a ride and an emergency stop are none of that, nor are
+/// the hands at both ends of a record.
+#[test]
+fn hands_are_told_from_lifts() {
+    let swing = |time: f64, from: f64| {
+        let phase = (time - from) / 0.8;
+        2.5 * (TAU * phase).sin() * within(phase, 0.0, 1.0)
+    };
+    let in_hand = |other: &dyn Fn(f64) -> f64| {
+        let samples = record(60.0, other);
+        in_hand(&Cut::new(&samples, 2, 0.04))
+    };
+    for (size, to) in [(-0.2, 11.0), (-0.4, 13.0), (0.1, 12.0)] {
+        let tremor = |time: f64| 0.1 * (TAU * 1.3 * time).sin();
+        let held = |time: f64| (size + tremor(time)) * within(time, 6.0, to);
+        let spans = in_hand(&|time| held(time) + swing(time, 6.0) + swing(time, to - 0.8));
+        // It may lie still in the hand for some seconds.
+        let (Some(first), Some(last)) = (spans.first(), spans.last()) else {
+            panic!("{size} {to}")
+        };
+        assert!(
+            (first.0 - 6.0).abs() < 0.2 && (last.1 - to).abs() < 0.5,
+            "{spans:?}"
+        );
+    }
+    let jump = |time: f64| {
+        let flight = -4.0 * within(time, 10.0, 10.3);
+        flight + 2.4 * within(time, 9.75, 10.0) + 4.0 * within(time, 10.3, 10.45)
+    };
+    let stop = |time: f64| {
+        let bounce = (TAU * 3.0 * (time - 50.4)).cos() * (-(time - 50.4)).exp();
+        pulse(time - 42.0) - 2.5 * within(time, 50.0, 50.4) + bounce * within(time, 50.4, 53.0)
+    };
+    let ends = |time: f64| swing(time, 1.0) - 0.3 * within(time, 1.4, 4.0) + swing(time, 58.0);
+    for other in [
+        &|_: f64| 0.0_f64,
+        &jump as &dyn Fn(f64) -> f64,
+        &stop,
+        &ends,
+    ] {
+        assert_eq!(in_hand(other), []);
+    }
+}
+
 /// A cage creeps to its landing at 0.09 m/s. In a calm record the pulse that ends it can hardly be anything else; among
 /// footsteps it can.
 #[test]

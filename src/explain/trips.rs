@@ -298,6 +298,7 @@ mod tests {
                     is_violent: false,
                     is_swing: false,
                     shift: 0.0,
+                    is_level: false,
                 }
             });
             pulses.collect()

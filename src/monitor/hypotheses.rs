@@ -2,7 +2,7 @@
 
 use super::hypothesis::Hypothesis;
 use super::prices::{Known, PENDING};
-use crate::explain::{Pulse, Swing, Turned};
+use crate::explain::{Pulse, Swing, Turned, is_of_hand};
 
 /// The most hypotheses kept, of old ones and of renewed ones, and how much dearer than the cheapest they may be.
 const MOST: [usize; 2] = [16, 4];
@@ -32,6 +32,9 @@ const SHOCK: f64 = 0.5;
 
 /// Pulses in one direction no farther apart than this, s, are parts of one.
 const BESIDE: f64 = 0.5;
+
+/// What goes on at most so long after a swing, s, may be the hand that made it.
+const IN_HAND: f64 = 1.0;
 
 impl Hypotheses {
     pub fn new(now: &[Hypothesis]) -> Self {
@@ -84,6 +87,16 @@ impl Hypotheses {
         }
         prune(&mut self.made, &mut self.now);
         self.renew(pulse.to);
+    }
+
+    /// Whether two brisk pulses against each other, as no lift makes them, came just before a time.
+    pub fn is_after_swing(&self, from: f64) -> bool {
+        let is_swing = |pair: &[Turned]| {
+            let is_after = from - pair[1].to < IN_HAND && pair[1].from - pair[0].to < APART;
+            let is_of_hand = |it: &Turned| is_of_hand(it.to - it.from, it.change);
+            is_after && pair[0].change * pair[1].change < 0.0 && pair.iter().all(is_of_hand)
+        };
+        self.pulses.windows(2).any(is_swing)
     }
 
     /// Where none is at rest, one more is: that all before was misread. Else a motion that never was would never end.

@@ -10,16 +10,15 @@ use super::hypothesis::{Cage, Hypothesis};
 use super::noise::{Noise, Noises};
 use super::prices::Known;
 use super::track::{SETTLED, Smooth, Track};
-use crate::explain::Block;
+use crate::explain::{Block, lies_still};
 use std::collections::VecDeque;
 
 /// Over which the record is smoothed, s.
 const FAST: f64 = 0.3;
 const SLOW: f64 = 1.5;
 
-/// A plateau is three parts of this length that agree, s, within a distance, m/s², and in deviations.
+/// A plateau is three parts of this length that agree, s.
 const PART: f64 = 1.0;
-const AGREE: (f64, f64) = (0.012, 4.0);
 
 /// Until a record is so old, every level is tried from its beginning, s.
 const YOUNG: f64 = 20.0;
@@ -235,9 +234,7 @@ impl Live {
         let means = [mean(0), mean(1), mean(2)];
         let middle = means.iter().sum::<f64>() / 3.0;
         let noise = self.white().fast * (self.fast.count as f64 / self.parts as f64).sqrt();
-        let agree = AGREE.0.max(AGREE.1 * noise);
-        let is_level = means.iter().all(|mean| (mean - middle).abs() < agree);
-        is_level.then_some(middle)
+        lies_still(means, noise).then_some(middle)
     }
 
     fn try_plateau(&mut self) {
@@ -255,7 +252,7 @@ impl Live {
             let white = self.white();
             let mut track = Track::new(level, white, &self.begins);
             if !self.tracks.is_empty() {
-                track.hypotheses.raise(YOUNG_SHIFT);
+                track.hypotheses.raise(self.latest.least + YOUNG_SHIFT);
             }
             for (place, smooth) in self.smooth.iter().enumerate() {
                 let settled = place
@@ -330,15 +327,32 @@ impl Live {
         for track in &mut self.tracks {
             track.cross(now, seconds < BRIEF);
         }
-        if self.tracks.is_empty() {
-            self.begins = vec![Hypothesis::rest(now, 0.0), Hypothesis::open(now, 0.0)];
-        }
+        self.begins = vec![Hypothesis::rest(now, 0.0), Hypothesis::open(now, 0.0)];
         self.strain += IN_HOLE;
         self.blocks.clear();
         self.smooth.clear();
         self.count = 0;
         self.fast.sum = 0.0;
         self.slow.sum = 0.0;
+    }
+
+    /// Whether a hand may hold the sensor.
+    pub fn is_in_hand(&self) -> bool {
+        self.tracks.first().is_some_and(Track::is_in_hand)
+    }
+
+    /// Goes on with the level on which the last three seconds agree, if they do, whatever was before.
+    pub fn put_down(&mut self, now: f64) -> bool {
+        let Some(level) = self.plateau() else {
+            return false;
+        };
+        self.cross(now, f64::INFINITY);
+        let mut track = Track::new(level, self.white(), &[]);
+        for held in self.tracks.drain(..) {
+            track.hypotheses.join(held.hypotheses.now.into_iter());
+        }
+        self.tracks.push(track);
+        true
     }
 
     /// What is the case now.

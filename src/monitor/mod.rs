@@ -99,6 +99,8 @@ pub struct Monitor {
     sensor: Sensor,
     /// Whether the noise hides a start.
     is_noisy: bool,
+    /// Whether a hand may hold the sensor.
+    is_in_hand: bool,
     /// Whether motions of this cage look different from rest.
     motion_shows: bool,
     said: Statement,
@@ -157,6 +159,7 @@ impl Monitor {
             live: Live::new(known, design.block, begins, level),
             sensor: Sensor::new(1.0 / design.rate),
             is_noisy: false,
+            is_in_hand: false,
             motion_shows: knowledge.motion_shows && knowledge.reference.is_some(),
             said: Statement::unknown(0.0, Doubt::Beginning),
             level: None,
@@ -281,9 +284,10 @@ impl Monitor {
         let is_calm = self.motion_shows.then(|| self.decisions.is_calm());
         let belief = self.live.belief(is_calm);
         let now = block.to;
-        let was_noisy = self.is_noisy;
+        let was_blind = self.is_noisy || self.is_in_hand;
         self.judge_noise(&belief, now);
-        let statement = if self.is_noisy || was_noisy {
+        self.judge_hand(now);
+        let statement = if was_blind || self.is_noisy || self.is_in_hand {
             Statement::unknown(now, Doubt::Sensor)
         } else {
             self.confirmed(Statement::of(&belief, now), now)
@@ -359,6 +363,22 @@ impl Monitor {
         if was && !self.is_noisy {
             // Nothing that was seen in the noise counts.
             self.forget(now, f64::INFINITY);
+        }
+    }
+
+    /// What was seen of a sensor in somebody's hand does not count.
+    fn judge_hand(&mut self, now: f64) {
+        let was = self.is_in_hand;
+        self.is_in_hand = if was {
+            !self.live.put_down(now)
+        } else {
+            self.live.is_in_hand()
+        };
+        if self.is_in_hand && !was {
+            self.report(Fault::Moved, now, now);
+        }
+        if was && !self.is_in_hand {
+            self.decisions.forget();
         }
     }
 

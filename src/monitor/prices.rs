@@ -128,14 +128,15 @@ impl Known {
         seconds > SOFT.0 && pulse.change.abs() < SOFT.1 * self.soft * seconds
     }
 
-    /// A change of speed that goes on and on: the sensor may have been turned.
+    /// A change of speed that goes on and on, or to a speed of no lift: the sensor may have been turned.
     pub fn endless(&self, pulse: &Turned) -> f64 {
         let seconds = pulse.to - pulse.from;
-        if self.is_soft(pulse) {
+        let endless = if self.is_soft(pulse) {
             0.0
         } else {
             (ENDLESS_SECOND * (seconds - LONGEST_CHANGE).max(0.0)).min(MOST_ENDLESS)
-        }
+        };
+        endless + fast(pulse.change.abs())
     }
 
     /// A motion with this top speed, m/s.

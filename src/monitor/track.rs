@@ -50,6 +50,9 @@ const LONGEST_SHOCK: f64 = 0.8;
 /// What a shock adds to the uncertainty of a change of speed, for each m/s² of it, s.
 const SHOCK_ERROR: f64 = 0.03;
 
+/// What lasts longer after a swing is no part of it, s.
+const HELD: f64 = 1.0;
+
 /// Uncertainty of the level, m/s².
 const LEVEL_ERROR: f64 = 0.004;
 
@@ -271,6 +274,12 @@ impl Track {
         let doubts = self.is_in_pulse_since(time) && !self.excursion.is_doubted;
         self.excursion.is_doubted |= doubts;
         doubts
+    }
+
+    /// Whether a hand may hold the sensor: after a swing it has not come back to the level for so long, s.
+    pub fn is_in_hand(&self) -> bool {
+        let it = &self.excursion;
+        it.is_pulse && it.seconds > HELD && self.hypotheses.is_after_swing(it.from)
     }
 
     /// Loses its pulse to a hole in the record.

@@ -100,6 +100,50 @@ fn handling_is_got_over() {
     }
 }
 
+/// Somebody picks the sensor up and puts it down just before a ride: until it lies still, nothing is known, nor is the
+/// cruise after that taken for rest.
+#[test]
+fn a_sensor_in_hand_tells_nothing() {
+    for level in [-0.15, -0.3, -0.45] {
+        let before = Record::quiet().rest(10.0);
+        let held = before
+            .with(0.4, 2.0, 1.0)
+            .with(0.4, -2.0, 1.0)
+            .with(4.0, level, 1.0)
+            .with(0.4, 2.0, 1.0)
+            .with(0.4, -2.0, 1.0)
+            .with(1.0, 0.02, 1.0)
+            .trip_on(0.02, 1.0, 1.0);
+        let mut monitor = standing();
+        let events = held.watch(&mut monitor);
+        assert!(faults(&events).contains(&Fault::Moved), "{events:?}");
+        // It cruises from 18.6 to 26.6 s.
+        let is_rest = |event: &&Event| states(&[**event]) == [REST];
+        let wrong = events
+            .iter()
+            .filter(|it| (11.5..27.0).contains(&it.reported))
+            .find(is_rest);
+        assert_eq!(wrong, None, "{level}");
+    }
+}
+
+/// The sensor is turned in a hole while the cage moves: that it stood when the record began says nothing after it.
+#[test]
+fn a_level_after_a_hole_is_tried_from_the_hole_on() {
+    let after = [(6.0, 0.2), (2.0, -0.3), (12.0, 0.2)];
+    let mut monitor = standing();
+    let started = Record::quiet().rest(10.0).with(2.0, 0.5, 1.0);
+    started.watch(&mut monitor);
+    let mut time = started.now() + 6.0;
+    for (seconds, acceleration) in after {
+        for _ in 0..(seconds * RATE) as usize {
+            monitor.step(Sample { time, acceleration }, None);
+            time += 1.0 / RATE;
+        }
+    }
+    assert!(!monitor.state().moves(), "{:?}", monitor.state());
+}
+
 /// One stamp far ahead, and the way back: two holes, and the next trips are seen.
 #[test]
 fn a_clock_that_is_set_back_costs_a_gap() {

@@ -1,0 +1,135 @@
+//! A sensor in somebody's hand. Who lifts it, or puts it down, swings it as no lift does, and it does not read then what
+//! it read before. What it reads until it lies still again says nothing of the cage.
+
+use super::blocks::{Block, Cut};
+use super::cost;
+use std::ops::Range;
+
+/// A hand needs no longer than this for each way of a swing, s, and moves the sensor faster than this, m/s.
+const LONGEST: f64 = 0.9;
+const LEAST_SPEED: f64 = 0.3;
+
+/// A block so far from what was before may begin a swing, m/s².
+const LEAST: f64 = 0.3;
+
+/// One way of a swing ends where it falls to this share of its peak, and the other begins within this time, s.
+const FOOT: f64 = 0.35;
+const PAUSE: f64 = 0.15;
+
+/// A swing may go on for so long, s; the level before and after is the mean of a second.
+const GOES_ON: f64 = 0.5;
+const SECOND: f64 = 1.0;
+
+/// A sensor lies still where the means of three seconds are so near to their own mean: m/s², and in deviations.
+const STILL: (f64, f64) = (0.012, 4.0);
+
+/// It is in a hand if it reads so much else than before.
+const ELSE: (f64, f64) = (0.05, 6.0);
+
+/// Whether a change of speed by so much, m/s, in so many seconds is one of a hand, where one the other way touches it.
+pub(crate) fn is_of_hand(seconds: f64, change: f64) -> bool {
+    seconds < LONGEST && change.abs() > LEAST_SPEED
+}
+
+/// Whether a sensor with these means of three seconds lies still; the deviation of each is that of its white noise.
+pub(crate) fn lies_still(means: [f64; 3], deviation: f64) -> bool {
+    let middle = means.iter().sum::<f64>() / 3.0;
+    let near = STILL.0.max(STILL.1 * deviation);
+    means.iter().all(|mean| (mean - middle).abs() < near)
+}
+
+/// From when to when somebody has the sensor in hand, s.
+pub fn in_hand(cut: &Cut) -> Vec<(f64, f64)> {
+    let mut spans = Vec::new();
+    let deviation = cut.scatter() / (cut.blocks_in(SECOND) as f64).sqrt();
+    let mut from = 0;
+    for &end in &cut.ends {
+        let stretch = Stretch {
+            blocks: &cut.blocks[from..end],
+            second: cut.blocks_in(SECOND),
+            deviation,
+        };
+        let times = (cut.blocks_in(PAUSE), cut.blocks_in(GOES_ON));
+        stretch.spans(times, &mut spans);
+        from = end;
+    }
+    spans
+}
+
+/// Blocks without a hole.
+struct Stretch<'a> {
+    blocks: &'a [Block],
+    /// The blocks of a second.
+    second: usize,
+    /// The deviation of their mean.
+    deviation: f64,
+}
+
+impl Stretch<'_> {
+    fn spans(&self, (pause, goes_on): (usize, usize), spans: &mut Vec<(f64, f64)>) {
+        let (second, length) = (self.second, self.blocks.len());
+        let mut sum: f64 = self.blocks.iter().take(second).map(|it| it.mean).sum();
+        // Whoever begins a recording has it in hand too.
+        let begun = |block: &Block| block.from - self.blocks[0].from >= cost::HANDLED;
+        let mut still = self.blocks.iter().position(begun).unwrap_or(length);
+        for first in second..length {
+            let base = sum / second as f64;
+            sum += self.blocks[first].mean - self.blocks[first - second].mean;
+            if first < still || (self.blocks[first].mean - base).abs() < LEAST {
+                continue;
+            }
+            let Some(after) = self.swing(first, base, pause) else {
+                continue;
+            };
+            let later = after + goes_on..(after + goes_on + second).min(length);
+            let near = ELSE.0.max(ELSE.1 * self.deviation);
+            if later.len() > second / 2 && (self.mean(later) - base).abs() < near {
+                // It is no part of what later swings are measured from.
+                still = after + second;
+                continue;
+            }
+            let Some(lies) = (after..length).find(|at| self.lies_still_from(*at)) else {
+                // Whoever ends a recording has it in hand.
+                return;
+            };
+            still = lies;
+            spans.push((self.blocks[first].from, self.blocks[still - 1].to));
+        }
+    }
+
+    /// The block after two lobes about a base, one way and the other, if a hand made both.
+    fn swing(&self, first: usize, base: f64, pause: usize) -> Option<usize> {
+        let is_up = self.blocks[first].mean > base;
+        let middle = self.lobe(first, base)?;
+        let turns = |block: &Block| (block.mean > base) != is_up;
+        let turn = self.blocks[middle..].iter().take(pause).position(turns)?;
+        self.lobe(middle + turn, base)
+    }
+
+    fn lobe(&self, first: usize, base: f64) -> Option<usize> {
+        let off = |block: &Block| block.mean - base;
+        let here = &self.blocks[first..];
+        let sign = off(here.first()?).signum();
+        let mut peak = 0.0;
+        // What it reads afterwards may be on the same side.
+        let goes_on = |block: &&Block| {
+            peak = f64::max(peak, sign * off(block));
+            sign * off(block) > FOOT * peak
+        };
+        let lobe = &here[..here.iter().take_while(goes_on).count()];
+        let seconds: f64 = lobe.iter().map(|it| it.seconds).sum();
+        let change: f64 = lobe.iter().map(|it| off(it) * it.seconds).sum();
+        is_of_hand(seconds, change).then_some(first + lobe.len())
+    }
+
+    fn mean(&self, blocks: Range<usize>) -> f64 {
+        let length = blocks.len() as f64;
+        self.blocks[blocks].iter().map(|it| it.mean).sum::<f64>() / length
+    }
+
+    fn lies_still_from(&self, at: usize) -> bool {
+        let second = |number: usize| at + number * self.second..at + (number + 1) * self.second;
+        second(2).end <= self.blocks.len()
+            && lies_still([0, 1, 2].map(|it| self.mean(second(it))), self.deviation)
+    }
+}
