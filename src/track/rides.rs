@@ -69,10 +69,10 @@ impl Surroundings {
         rests
     }
 
-    /// The uniform motions of trips.
+    /// The uniform motions of trips, without creep, which shakes the sensor less.
     pub fn uniform(&self, trips: &[Trip], settings: &TrackSettings) -> Vec<Range<f64>> {
         let phases = trips.iter().filter_map(|trip| self.phases(trip, settings));
-        let uniform = phases.flat_map(|phases| phases.uniform);
+        let uniform = phases.map(|phases| phases.uniform[0].clone());
         uniform.filter(|part| !part.is_empty()).collect()
     }
 

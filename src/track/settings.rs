@@ -95,7 +95,13 @@ impl TrackSettings {
             return (self, None);
         };
         let [found, motion] = [level.rest, level.motion].map(|it| it.excess(noise.acceleration));
-        let [rest, motion] = [found, motion].map(|times| times.unwrap_or(1.0));
+        let rest = found.unwrap_or(1.0);
+        // What shakes a resting sensor goes on in motion, where that does not clearly show the contrary.
+        let motion = motion.unwrap_or(if level.motion.lacks(rest * noise.acceleration) {
+            1.0
+        } else {
+            rest
+        });
         let settings = Self {
             noise: Noise::Density(noise.noisier(rest)),
             shaken: self.shaken * motion / rest,

@@ -10,8 +10,9 @@ pub(super) const CAR: usize = 0;
 pub(super) const BEFORE: usize = 1;
 /// The place of the lowest floor.
 const FLOORS: usize = 2;
-/// A stop beyond the shaft costs so many thresholds.
-const BEYOND: f64 = 3.0;
+/// A stop beyond the shaft costs so many thresholds more than a missed trip: more than that alone, which a stop at a
+/// floor that the car cannot have reached shows, less than a missed trip and a stop off every floor.
+const BEYOND: f64 = 0.5;
 /// So many stops off every floor are remembered.
 const REMEMBERED: usize = 16;
 
@@ -195,16 +196,17 @@ impl Hypothesis {
         let car = self.car();
         let [lowest, highest] = self.ends();
         let reach = lowest - settings.overtravel..=highest + settings.overtravel;
-        let times = if reach.contains(&car.mean) {
-            1.0
+        let cost = if reach.contains(&car.mean) {
+            settings.threshold
         } else {
-            BEYOND
+            settings.missed.unwrap_or_default().max(settings.threshold)
+                + BEYOND * settings.threshold
         };
         let again = self.unexplained.iter().map(|of| {
             let apart = car.mean - of.mean;
             apart * apart / (car.variance + of.variance) / scale
         });
-        again.fold(times * settings.threshold, f64::min)
+        again.fold(cost, f64::min)
     }
 
     fn ends(&self) -> [f64; 2] {

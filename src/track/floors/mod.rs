@@ -18,7 +18,7 @@
 //! | a hypothesis says | costs |
 //! |---|---|
 //! | the car stopped at floor i | ξ(i)/κ − 2 ln of how much more often than others this floor is visited |
-//! | it stopped off every floor | γ_s; three times as much beyond the shaft, where no car can go; ξ/κ of a place where it did so before |
+//! | it stopped off every floor | γ_s; far beyond the shaft γ_s/2 more than a missed trip; ξ/κ of a place where it did so before |
 //! | a trip was missed, the car is at floor i | [`Settings::missed`] |
 //!
 //! Of those that end alike the cheapest is kept, as Viterbi does, and the chance that a trip was missed adds up over

@@ -55,7 +55,37 @@ fn an_alarm_is_confirmed_by_the_next_stop() {
     );
 }
 
-/// The same alarm, but the trip was wrong and not the stop: it is withdrawn, whether the next trip is long or short,
+/// The car runs past either end of the shaft, how far does not matter, and goes on from there: it is alarmed, and every
+/// later stop is at its floor.
+#[test]
+fn a_car_beyond_the_shaft_is_not_lost() {
+    let heights = [0.0, 4.2, 7.4, 10.6, 13.8, 17.0];
+    for off in [0.3, 0.6, 0.95, 1.05, 1.2, 1.5, 2.0, 2.7] {
+        for (fault, end, next) in [(Fault::Overrun, 17.0 + off, 2), (Fault::Pit, -off, 3)] {
+            let mut floors = Floors::given(MENDED, &heights, 0.001, Start::Floor(1)).unwrap();
+            let mut at = heights[1];
+            let mut go = |to: f64| {
+                let distance = to - at;
+                at = to;
+                floors.step(distance, variance(distance))
+            };
+            for floor in [2, 4, 3] {
+                assert_eq!(go(heights[floor]).floor, Some(floor));
+            }
+            let stop = go(end);
+            let judged = stop.judgement.unwrap();
+            assert!((stop.position - end).abs() < 0.1, "{off}: {stop:?}");
+            assert_eq!((judged.fault, stop.floor), (Some(fault), None), "{off}");
+            for floor in [next, 4, 1, 5, 0] {
+                let stop = go(heights[floor]);
+                assert_eq!(stop.floor, Some(floor), "{fault:?} {off}: {stop:?}");
+                assert!(stop.probability > 0.9, "{fault:?} {off}: {stop:?}");
+            }
+        }
+    }
+}
+
+/// An alarm, but the trip was wrong and not the stop: it is withdrawn, whether the next trip is long or short,
 /// and the printed rule alarms again.
 #[test]
 fn an_alarm_is_withdrawn_by_the_next_stop() {
