@@ -20,6 +20,7 @@ pub struct FloorArguments {
         long,
         value_name = "HEIGHT,HEIGHT,…",
         value_delimiter = ',',
+        value_parser = height,
         allow_hyphen_values = true
     )]
     floors: Option<Vec<f64>>,
@@ -36,6 +37,11 @@ pub struct FloorArguments {
 pub struct Building {
     pub floors: Floors,
     map: Option<Output>,
+}
+
+fn height(text: &str) -> Result<f64, String> {
+    let height = text.trim().parse();
+    height.map_err(|_| "must be metres, as in 0,3.2,6.4".to_owned())
 }
 
 impl FloorArguments {

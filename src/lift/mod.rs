@@ -132,7 +132,10 @@ pub enum RideError {
         reason: TripError,
     },
     /// No samples, or too many.
-    #[error("a ride must have 1 to {most} samples, got {samples} ({seconds} s at {rate} Hz)")]
+    #[error(
+        "a ride must have 1 to {most} samples, got {samples:.0} ({seconds:.1} s at {rate} Hz; \
+             choose another rate, or fewer trips)"
+    )]
     Length {
         /// The most samples allowed.
         most: usize,

@@ -401,8 +401,16 @@ fn buildings_are_refused_at_their_place() {
             "b.toml:3:8: sensor.step: must be 1e-9 to 1e9 times the noise, got 0.000000001 (0 is none)",
         ),
         (
-            "[building]\njourneys = [0, 1]\ndwell = [0, 0]\nfaults = [{ journey = 1, kind = { mis_levelling = -4.2 } }]",
-            "b.toml:2:12: building: journey 1: distance must be finite and not zero, got 0",
+            "[building]\nfloors = [0, 0.9]\njourneys = [0, 1]\nfaults = [{ journey = 1, kind = { mis_levelling = -0.9 } }]",
+            "b.toml:3:12: building: journey 1: distance must be finite and not zero, got 0",
+        ),
+        (
+            "[building]\nfaults = [{ journey = 1, kind = { mis_levelling = -4.2 } }]",
+            "building.faults[0].kind.mis_levelling: must lie in [-1, 1] m, got -4.2",
+        ),
+        (
+            "[building]\nfaults = [{ journey = 1, kind = { emergency_stop = 0.05 } }]",
+            "building.faults[0].kind.emergency_stop: must lie in [0.5, 50] m/s², got 0.05",
         ),
         (
             "rate = 0\n[building]",

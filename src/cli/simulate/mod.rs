@@ -188,7 +188,12 @@ impl Simulate {
                 .iter()
                 .any(|key| flags.names().contains(&&key[..]));
             if is_flag {
-                Failure::Input(anyhow!("--{}", conflict.error))
+                // The flag of a key has hyphens.
+                let names = conflict.keys.iter();
+                let text = names.fold(conflict.error.to_string(), |text, key| {
+                    text.replace(key.as_str(), &key.replace('_', "-"))
+                });
+                Failure::Input(anyhow!("--{text}"))
             } else {
                 Failure::input(source.conflict(&tree, conflict, &tree.span))
             }

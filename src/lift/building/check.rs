@@ -1,10 +1,15 @@
 //! Whether a building makes sense, before its lift moves.
 
-use super::{Building, Journeys};
+use super::{Building, FaultKind, Journeys};
 use crate::rule::{OutOfRange, Rule};
 
 /// A building with more journeys than this is a mistake.
 const MOST_JOURNEYS: usize = 100_000;
+
+/// No car stops farther out of level than this, m, nor farther beyond its shaft; and no brake is weaker or stronger, m/s².
+const LEVEL: f64 = 1.0;
+const BEYOND: f64 = 20.0;
+const EMERGENCY: (f64, f64) = (0.5, 50.0);
 
 impl Building {
     pub(super) fn check(&self) -> Result<(), OutOfRange> {
@@ -69,6 +74,18 @@ impl Building {
                 let refused = OutOfRange::new(key, "have one fault only", number);
                 return Err(refused.explained(" (leave one)"));
             }
+            let (rule, value) = match fault.kind {
+                FaultKind::MisLevelling(offset) => (Rule::Within(-LEVEL, LEVEL, "m"), offset),
+                FaultKind::Pit(way) | FaultKind::Overrun(way) => {
+                    (Rule::Within(0.0, BEYOND, "m"), way.get())
+                }
+                FaultKind::EmergencyStop(brake) => {
+                    (Rule::Within(EMERGENCY.0, EMERGENCY.1, "m/s²"), brake.get())
+                }
+                FaultKind::BetweenFloors(_) => continue,
+            };
+            let key = format!("building.faults[{place}].kind.{}", fault.kind.name());
+            rule.check(&key, &value)?;
         }
         Ok(())
     }

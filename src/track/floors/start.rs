@@ -229,7 +229,7 @@ impl Map {
             }
         }
         for &xi in &self.recent {
-            Rule::Within(0.0, f64::MAX, "").check("recent", &xi)?;
+            Rule::Within(0.0, 1e12, "").check("recent", &xi)?;
         }
         for first in self.commissioned.iter().flatten() {
             Rule::Within(-2e4, 2e4, "m").check("commissioned", &first.mean)?;
