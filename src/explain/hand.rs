@@ -23,6 +23,9 @@ const SECOND: f64 = 1.0;
 /// A sensor lies still where the means of three seconds are so near to their own mean: m/s², and in deviations.
 const STILL: (f64, f64) = (0.012, 4.0);
 
+/// Blocks may be shorter than they should be: no more than those of so many seconds are looked at.
+const MOST_SECONDS: usize = 10;
+
 /// It is in a hand if it reads so much else than before.
 const ELSE: (f64, f64) = (0.05, 6.0);
 
@@ -110,14 +113,16 @@ impl Stretch<'_> {
         let off = |block: &Block| block.mean - base;
         let here = &self.blocks[first..];
         let sign = off(here.first()?).signum();
-        let mut peak = 0.0;
-        // What it reads afterwards may be on the same side.
+        let (mut peak, mut seconds) = (0.0, 0.0);
+        // What it reads afterwards may be on the same side; what lasts too long is not read to its end.
         let goes_on = |block: &&Block| {
             peak = f64::max(peak, sign * off(block));
-            sign * off(block) > FOOT * peak
+            let goes_on = seconds < LONGEST && sign * off(block) > FOOT * peak;
+            seconds += if goes_on { block.seconds } else { 0.0 };
+            goes_on
         };
-        let lobe = &here[..here.iter().take_while(goes_on).count()];
-        let seconds: f64 = lobe.iter().map(|it| it.seconds).sum();
+        let most = here.iter().take(MOST_SECONDS * self.second);
+        let lobe = &here[..most.take_while(goes_on).count()];
         let change: f64 = lobe.iter().map(|it| off(it) * it.seconds).sum();
         is_of_hand(seconds, change).then_some(first + lobe.len())
     }
