@@ -148,7 +148,7 @@ pub fn undecided(stretches: &[Undecided]) -> String {
             Why::Close | Why::Filter => None,
             Why::NoRide => Some("a change of speed that fits no ride"),
             Why::Frozen => Some("the sensor repeats one value"),
-            Why::InHand => Some("somebody has the sensor in hand"),
+            Why::InHand => Some("the sensor may have been in somebody's hand"),
         };
         if let Some(why) = unknown {
             return format!("\nundecided, {:.1} to {:.1} s: {why}\n", it.from, it.to);

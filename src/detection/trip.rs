@@ -237,7 +237,7 @@ impl Undecided {
         match self.why {
             Why::NoRide => return " (record the whole ride, with rest before and after it)",
             Why::Frozen => return ": the sensor repeats one value (record again)",
-            Why::InHand => return ": somebody has the sensor in hand (let it lie)",
+            Why::InHand => return ": the sensor may have been in somebody's hand (let it lie)",
             Why::Filter => {
                 return ", because a phone that filters out slow acceleration would show one ride as these two \
                         (record the acceleration with gravity)";

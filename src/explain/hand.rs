@@ -95,7 +95,14 @@ impl Stretch<'_> {
                 // Whoever ends a recording has it in hand.
                 return;
             };
-            still = lies;
+            let again = self.mean(lies..(lies + 3 * second).min(length)) - base;
+            if again.abs() < near && !self.swings_again(after..lies, base, pause) {
+                // A jump, and then the lift went: the sensor lies where it lay.
+                still = after + second;
+                continue;
+            }
+            // A shorter one would be no hole.
+            still = lies.max(first + pause + goes_on).min(length);
             spans.push((self.blocks[first].from, self.blocks[still - 1].to));
         }
     }
@@ -107,6 +114,12 @@ impl Stretch<'_> {
         let turns = |block: &Block| (block.mean > base) != is_up;
         let turn = self.blocks[middle..].iter().take(pause).position(turns)?;
         self.lobe(middle + turn, base)
+    }
+
+    fn swings_again(&self, within: Range<usize>, base: f64, pause: usize) -> bool {
+        let is_off = |at: &usize| (self.blocks[*at].mean - base).abs() >= LEAST;
+        let mut places = within.filter(is_off);
+        places.any(|at| self.swing(at, base, pause).is_some())
     }
 
     fn lobe(&self, first: usize, base: f64) -> Option<usize> {

@@ -36,6 +36,9 @@ const AT_ONCE: f64 = 0.1;
 const MOST_OF: f64 = 0.7;
 const WEAK: f64 = 0.12;
 
+/// A change of the level is so many deviations of its noise.
+const NOISES: f64 = 4.0;
+
 /// The smallest change of speed, m/s, and in deviations of what noise adds up to.
 const LEAST_CHANGE: f64 = 0.015;
 const LEAST_DEVIATIONS: f64 = 5.0;
@@ -110,6 +113,8 @@ struct Limits {
     violent: f64,
     /// What noise adds to the speed in a second, m/s.
     walk: f64,
+    /// The deviation of a block if the noise were white, m/s².
+    noise: f64,
 }
 
 impl Record {
@@ -205,6 +210,7 @@ impl Record {
         let limits = Limits {
             violent,
             walk: self.walk(),
+            noise: self.cut.scatter(),
         };
         let mut pulses: Vec<Pulse> = Vec::new();
         let mut from = 0;
@@ -245,6 +251,7 @@ impl Record {
                 change: shift.size * pulse.seconds(),
                 is_violent: false,
                 shift: shift.size,
+                is_level: false,
                 ..pulse
             }
         });
@@ -310,7 +317,7 @@ impl Record {
         let change = self.change(blocks.clone());
         Pulse {
             change,
-            is_level: self.is_level(&blocks, change / seconds),
+            is_level: self.is_level(&blocks, change / seconds, limits.noise),
             deviation: (limits.walk.powi(2) * seconds + (level_error * seconds).powi(2)).sqrt(),
             blocks,
             from,
@@ -323,10 +330,12 @@ impl Record {
 
     /// Whether blocks of this mean, m/s², that reach from an end of a stretch, or to it, may be at another level: a
     /// lift's acceleration is hardly so weak, and does not come or go within a tenth of a second.
-    fn is_level(&self, blocks: &Range<usize>, mean: f64) -> bool {
+    fn is_level(&self, blocks: &Range<usize>, mean: f64, noise: f64) -> bool {
         let ends = &self.cut.ends;
-        let begins = blocks.start == 0 || ends.contains(&blocks.start);
-        if begins == ends.contains(&blocks.end) {
+        let place = ends.partition_point(|end| *end <= blocks.start);
+        let stretch = (if place > 0 { ends[place - 1] } else { 0 })..ends[place];
+        let begins = blocks.start == stretch.start;
+        if begins == (blocks.end == stretch.end) {
             return false;
         }
         let (width, reach) = (self.cut.blocks_in(AT_ONCE), self.cut.blocks_in(2.0 * FOOT));
@@ -335,11 +344,12 @@ impl Record {
             let off = (from..from + width).map(|block| self.off(block));
             off.sum::<f64>() / width as f64
         };
-        let first = edge.saturating_sub(reach);
-        let last = (edge + reach).min(self.cut.blocks.len());
+        let first = edge.saturating_sub(reach).max(stretch.start);
+        let last = (edge + reach).min(stretch.end);
         let last = last.saturating_sub(2 * width);
+        let least = (MOST_OF * mean.abs()).max(NOISES * noise * (2.0 / width as f64).sqrt());
         let mut jumps = (first..last).map(|from| (part(from + width) - part(from)).abs());
-        mean.abs() < WEAK || jumps.any(|jump| jump > MOST_OF * mean.abs())
+        mean.abs() < WEAK || jumps.any(|jump| jump > least)
     }
 
     /// A shock and the short pulses that touch it are one: what counts is the speed they leave.

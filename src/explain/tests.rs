@@ -125,10 +125,13 @@ fn hands_are_told_from_lifts() {
         let bounce = (TAU * 3.0 * (time - 50.4)).cos() * (-(time - 50.4)).exp();
         pulse(time - 42.0) - 2.5 * within(time, 50.0, 50.4) + bounce * within(time, 50.4, 53.0)
     };
+    // Somebody jumps, and the lift goes at once.
+    let leaves = |time: f64| jump(time - 8.3);
     let ends = |time: f64| swing(time, 1.0) - 0.3 * within(time, 1.4, 4.0) + swing(time, 58.0);
     for other in [
         &|_: f64| 0.0_f64,
         &jump as &dyn Fn(f64) -> f64,
+        &leaves,
         &stop,
         &ends,
     ] {

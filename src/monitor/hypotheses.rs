@@ -33,9 +33,6 @@ const SHOCK: f64 = 0.5;
 /// Pulses in one direction no farther apart than this, s, are parts of one.
 const BESIDE: f64 = 0.5;
 
-/// What goes on at most so long after a swing, s, may be the hand that made it.
-const IN_HAND: f64 = 1.0;
-
 impl Hypotheses {
     pub fn new(now: &[Hypothesis]) -> Self {
         Self {
@@ -89,14 +86,15 @@ impl Hypotheses {
         self.renew(pulse.to);
     }
 
-    /// Whether two brisk pulses against each other, as no lift makes them, came just before a time.
-    pub fn is_after_swing(&self, from: f64) -> bool {
-        let is_swing = |pair: &[Turned]| {
-            let is_after = from - pair[1].to < IN_HAND && pair[1].from - pair[0].to < APART;
-            let is_of_hand = |it: &Turned| is_of_hand(it.to - it.from, it.change);
-            is_after && pair[0].change * pair[1].change < 0.0 && pair.iter().all(is_of_hand)
-        };
-        self.pulses.windows(2).any(is_swing)
+    /// The swings that hands may have made among the latest pulses, each from its beginning to its end, s: two brisk
+    /// pulses against each other, as no lift makes them.
+    pub fn swings(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let is_of_hand = |it: &Turned| is_of_hand(it.to - it.from, it.change);
+        let swings = self.pulses.windows(2).filter(move |pair| {
+            let is_close = pair[1].from - pair[0].to < APART;
+            is_close && pair[0].change * pair[1].change < 0.0 && pair.iter().all(is_of_hand)
+        });
+        swings.map(|pair| (pair[0].from, pair[1].to))
     }
 
     /// Where none is at rest, one more is: that all before was misread. Else a motion that never was would never end.

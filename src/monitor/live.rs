@@ -110,7 +110,17 @@ pub(super) struct Live {
     least: f64,
     /// The level that was known before.
     level: Option<f64>,
+    hand: Option<Hand>,
     tracks: Vec<Track>,
+}
+
+/// A hand that may hold the sensor.
+#[derive(Clone, Copy, Debug)]
+struct Hand {
+    /// s
+    since: f64,
+    /// Whether it has swung the sensor again.
+    again: bool,
 }
 
 impl Mean {
@@ -153,6 +163,7 @@ impl Live {
             strain: 0.0,
             least: 0.0,
             level,
+            hand: None,
         }
     }
 
@@ -336,23 +347,42 @@ impl Live {
         self.slow.sum = 0.0;
     }
 
-    /// Whether a hand may hold the sensor.
-    pub fn is_in_hand(&self) -> bool {
-        self.tracks.first().is_some_and(Track::is_in_hand)
-    }
-
-    /// Goes on with the level on which the last three seconds agree, if they do, whatever was before.
-    pub fn put_down(&mut self, now: f64) -> bool {
-        let Some(level) = self.plateau() else {
+    /// Whether a hand may hold the sensor. It does until the sensor lies still for three seconds. If that is not where it lay,
+    /// or there was another swing, what was seen in between does not count.
+    pub fn is_in_hand(&mut self, now: f64) -> bool {
+        let Some(first) = self.tracks.first() else {
             return false;
         };
+        let Some(hand) = &mut self.hand else {
+            let since = first.in_hand_since();
+            self.hand = since.map(|since| Hand {
+                since,
+                again: false,
+            });
+            return since.is_some();
+        };
+        hand.again |= first.swings_after(hand.since);
+        let (since, again) = (hand.since, hand.again);
+        let seen = self.blocks.len().checked_sub(3 * self.parts);
+        let is_since = seen.is_some_and(|place| self.blocks[place].from >= since);
+        let Some(level) = self.plateau().filter(|_| is_since) else {
+            return true;
+        };
+        self.hand = None;
+        if again || (first.level - level).abs() > first.nearness() {
+            self.put_down(level, now);
+        }
+        false
+    }
+
+    /// Goes on with another level, as after a hole.
+    fn put_down(&mut self, level: f64, now: f64) {
         self.cross(now, f64::INFINITY);
         let mut track = Track::new(level, self.white(), &[]);
         for held in self.tracks.drain(..) {
             track.hypotheses.join(held.hypotheses.now.into_iter());
         }
         self.tracks.push(track);
-        true
     }
 
     /// What is the case now.

@@ -366,15 +366,12 @@ impl Monitor {
         }
     }
 
-    /// What was seen of a sensor in somebody's hand does not count.
+    /// While somebody has the sensor in hand nothing is known.
     fn judge_hand(&mut self, now: f64) {
         let was = self.is_in_hand;
-        self.is_in_hand = if was {
-            !self.live.put_down(now)
-        } else {
-            self.live.is_in_hand()
-        };
+        self.is_in_hand = self.live.is_in_hand(now);
         if self.is_in_hand && !was {
+            self.level = None;
             self.report(Fault::Moved, now, now);
         }
         if was && !self.is_in_hand {

@@ -50,8 +50,8 @@ const LONGEST_SHOCK: f64 = 0.8;
 /// What a shock adds to the uncertainty of a change of speed, for each m/s² of it, s.
 const SHOCK_ERROR: f64 = 0.03;
 
-/// What lasts longer after a swing is no part of it, s.
-const HELD: f64 = 1.0;
+/// What lasts longer after a swing is no part of it, s, and what begins no later may be due to the hand that made it.
+const HELD: (f64, f64) = (1.0, 1.0);
 
 /// Uncertainty of the level, m/s².
 const LEVEL_ERROR: f64 = 0.004;
@@ -276,10 +276,18 @@ impl Track {
         doubts
     }
 
-    /// Whether a hand may hold the sensor: after a swing it has not come back to the level for so long, s.
-    pub fn is_in_hand(&self) -> bool {
+    /// Since when a hand may hold the sensor, s: after a swing it has not come back to the level for some time.
+    pub fn in_hand_since(&self) -> Option<f64> {
         let it = &self.excursion;
-        it.is_pulse && it.seconds > HELD && self.hypotheses.is_after_swing(it.from)
+        let is_off = it.is_pulse && it.seconds > HELD.0;
+        let mut swings = self.hypotheses.swings();
+        let swing = swings.find(|swing| it.from - swing.1 < HELD.1);
+        swing.filter(|_| is_off).map(|swing| swing.1)
+    }
+
+    /// Whether a hand may have put the sensor down, or lifted it again, after a time, s.
+    pub fn swings_after(&self, time: f64) -> bool {
+        self.hypotheses.swings().any(|swing| swing.0 > time)
     }
 
     /// Loses its pulse to a hole in the record.

@@ -189,11 +189,10 @@ impl Simulate {
                 .any(|key| flags.names().contains(&&key[..]));
             if is_flag {
                 // The flag of a key has hyphens.
-                let names = conflict.keys.iter();
-                let text = names.fold(conflict.error.to_string(), |text, key| {
-                    text.replace(key.as_str(), &key.replace('_', "-"))
-                });
-                Failure::Input(anyhow!("--{text}"))
+                let text = conflict.error.to_string();
+                let end = text.find(':').unwrap_or(text.len());
+                let (name, problem) = text.split_at(end);
+                Failure::Input(anyhow!("--{}{problem}", name.replace('_', "-")))
             } else {
                 Failure::input(source.conflict(&tree, conflict, &tree.span))
             }

@@ -127,6 +127,23 @@ fn a_sensor_in_hand_tells_nothing() {
     }
 }
 
+/// Somebody jumps, and the lift leaves at once: the ride is told, and its stop.
+#[test]
+fn a_jump_before_a_ride_hides_no_ride() {
+    for pause in [0.3, 0.6, 0.9] {
+        let jump = Record::quiet()
+            .rest(12.0)
+            .with(0.26, 2.4, 1.0)
+            .with(0.3, -4.0, 1.0)
+            .with(0.14, 4.0, 1.0);
+        let record = jump.rest(pause).trip(1.0).rest(12.0);
+        let mut monitor = standing();
+        let events = record.watch(&mut monitor);
+        assert!(known(&events).contains(&INERTIAL), "{pause}: {events:?}");
+        assert_eq!(monitor.state(), REST, "{pause}");
+    }
+}
+
 /// The sensor is turned in a hole while the cage moves: that it stood when the record began says nothing after it.
 #[test]
 fn a_level_after_a_hole_is_tried_from_the_hole_on() {
