@@ -134,7 +134,7 @@ pub enum RideError {
     /// No samples, or too many.
     #[error(
         "a ride must have 1 to {most} samples, got {samples:.0} ({seconds:.1} s at {rate} Hz; \
-             choose another rate, or fewer trips)"
+             choose another rate, or other trips and rests)"
     )]
     Length {
         /// The most samples allowed.
