@@ -81,6 +81,11 @@ impl Stretch<'_> {
             if first < still || (self.blocks[first].mean - base).abs() < LEAST {
                 continue;
             }
+            // A lift's change of speed before it would shift what it is measured from.
+            let is_near = |it: &Block| (it.mean - base).abs() < LEAST;
+            if !self.blocks[first - second..first].iter().all(is_near) {
+                continue;
+            }
             let Some(after) = self.swing(first, base, pause) else {
                 continue;
             };
