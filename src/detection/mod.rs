@@ -21,7 +21,7 @@ pub use report::{DetectReport, Recorded, SLOW, Warning, cell};
 pub use trace::{Column, Trace};
 pub use trip::{Brief, End, Event, Trip, Undecided, What, Why};
 
-use crate::explain::{self, Cut, Explanation, Faults, Prior, SensorFilter};
+use crate::explain::{Explanation, Faults, Prior, SensorFilter};
 use crate::monitor::{Design, Knowledge, Reference};
 use crate::recording::Sample;
 use decisions::Decisions;
@@ -72,16 +72,14 @@ impl Detection {
             ..Prior::default()
         };
         let (sound, faults) = Faults::removed(samples);
-        let (explanation, in_hand) = explained(&sound, design, &prior);
+        let length = design.samples.decimation();
+        let explanation = Explanation::of_samples(&sound, length, design.block, &prior);
         let rests = Rests::of(&explanation);
         let has_state = reference.is_some();
         let reference = reference.or_else(|| rests.learn(&explanation, design));
         let decisions = Decisions::new(design, &explanation, reference.as_ref());
         let trips = trip::trips(&explanation, &decisions);
         let events = trip::events(&explanation);
-        let of = |why| move |&(from, to): &(f64, f64)| Undecided::unknown(from, to, why);
-        let frozen = faults.frozen.iter().map(of(Why::Frozen));
-        let unknown: Vec<Undecided> = frozen.chain(in_hand.iter().map(of(Why::InHand))).collect();
         let uniform = trips
             .iter()
             .filter_map(|trip| trip.inertial.zip(trip.braking));
@@ -100,43 +98,11 @@ impl Detection {
             ),
             design: design.clone(),
             trips,
-            undecided: trip::undecided(&explanation, &events, prior.least_speed, &unknown),
+            undecided: trip::undecided(&explanation, &events, prior.least_speed, &faults),
             events,
             glitches: faults.glitches,
             contradicted: begins_at_rest.filter(|_| explanation.begins_otherwise),
             has_state,
         }
     }
-}
-
-/// The cheapest explanation: of all samples, or without those that a sensor in somebody's hand may have read. And from
-/// when to when it had them, s.
-fn explained(samples: &[Sample], design: &Design, prior: &Prior) -> (Explanation, Vec<(f64, f64)>) {
-    let cut = |samples: &[Sample]| Cut::new(samples, design.samples.decimation(), design.block);
-    let all = cut(samples);
-    let in_hand = explain::in_hand(&all);
-    if in_hand.is_empty() {
-        return (Explanation::of(&all, prior), in_hand);
-    }
-    let others = cut(&without(samples, &in_hand));
-    let (all, others) = rayon::join(
-        || Explanation::of(&all, prior),
-        || Explanation::of(&others, prior),
-    );
-    if others.cost + explain::IN_HAND * (in_hand.len() as f64) < all.cost {
-        (others, in_hand)
-    } else {
-        (all, Vec::new())
-    }
-}
-
-/// The samples outside of these spans, which are in order of time.
-fn without(samples: &[Sample], spans: &[(f64, f64)]) -> Vec<Sample> {
-    let mut spans = spans.iter().peekable();
-    let mut is_outside = |time: f64| {
-        while spans.next_if(|span| span.1 < time).is_some() {}
-        spans.peek().is_none_or(|span| time < span.0)
-    };
-    let outside = samples.iter().filter(|sample| is_outside(sample.time));
-    outside.copied().collect()
 }

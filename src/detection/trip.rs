@@ -4,7 +4,7 @@
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
 use super::decisions::Decisions;
-use crate::explain::{self, Cause, Doubt, Explanation};
+use crate::explain::{self, Cause, Doubt, Explanation, Faults};
 use crate::monitor::{Decision, Direction};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -185,7 +185,7 @@ pub(super) fn undecided(
     explanation: &Explanation,
     events: &[Event],
     least_speed: f64,
-    unknown: &[Undecided],
+    faults: &Faults,
 ) -> Vec<Undecided> {
     let doubts = explanation
         .doubts
@@ -195,8 +195,16 @@ pub(super) fn undecided(
     let pushes = events.iter();
     let pushes = pushes.filter(|it| it.what == What::Push && it.speed.abs() >= least_speed);
     let pushes = pushes.map(|event| Undecided::unknown(event.from, event.to, Why::NoRide));
-    let unknown = unknown.iter().cloned();
-    let mut undecided: Vec<Undecided> = doubts.chain(pushes).chain(unknown).collect();
+    let all = |spans: &[(f64, f64)], why| -> Vec<Undecided> {
+        let one = |&(from, to): &(f64, f64)| Undecided::unknown(from, to, why);
+        spans.iter().map(one).collect()
+    };
+    let unread = [
+        all(&faults.frozen, Why::Frozen),
+        all(&explanation.in_hand, Why::InHand),
+    ];
+    let unread = unread.into_iter().flatten();
+    let mut undecided: Vec<Undecided> = doubts.chain(pushes).chain(unread).collect();
     undecided.sort_by(|a, b| a.from.total_cmp(&b.from));
     merged(undecided)
 }
@@ -252,8 +260,7 @@ impl Undecided {
         }
     }
 
-    /// Where nothing can be known of the cage.
-    pub(super) fn unknown(from: f64, to: f64, why: Why) -> Self {
+    fn unknown(from: f64, to: f64, why: Why) -> Self {
         Self {
             from,
             to,

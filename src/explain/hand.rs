@@ -3,6 +3,7 @@
 
 use super::blocks::{Block, Cut};
 use super::cost;
+use crate::recording::Sample;
 use std::ops::Range;
 
 /// A hand needs no longer than this for each way of a swing, s, and moves the sensor faster than this, m/s.
@@ -50,81 +51,100 @@ pub fn in_hand(cut: &Cut) -> Vec<(f64, f64)> {
         let stretch = Stretch {
             blocks: &cut.blocks[from..end],
             second: cut.blocks_in(SECOND),
+            pause: cut.blocks_in(PAUSE),
+            goes_on: cut.blocks_in(GOES_ON),
             deviation,
         };
-        let times = (cut.blocks_in(PAUSE), cut.blocks_in(GOES_ON));
-        stretch.spans(times, &mut spans);
+        stretch.spans(&mut spans);
         from = end;
     }
     spans
 }
 
+/// The samples outside of these spans, which are in order of time.
+pub fn without(samples: &[Sample], spans: &[(f64, f64)]) -> Vec<Sample> {
+    let mut spans = spans.iter().peekable();
+    let mut is_outside = |time: f64| {
+        while spans.next_if(|span| span.1 < time).is_some() {}
+        spans.peek().is_none_or(|span| time < span.0)
+    };
+    let outside = samples.iter().filter(|sample| is_outside(sample.time));
+    outside.copied().collect()
+}
+
 /// Blocks without a hole.
 struct Stretch<'a> {
     blocks: &'a [Block],
-    /// The blocks of a second.
+    /// The blocks of a second, of a pause and of what goes on after a swing.
     second: usize,
+    pause: usize,
+    goes_on: usize,
     /// The deviation of their mean.
     deviation: f64,
 }
 
 impl Stretch<'_> {
-    fn spans(&self, (pause, goes_on): (usize, usize), spans: &mut Vec<(f64, f64)>) {
+    fn spans(&self, spans: &mut Vec<(f64, f64)>) {
         let (second, length) = (self.second, self.blocks.len());
         let mut sum: f64 = self.blocks.iter().take(second).map(|it| it.mean).sum();
         // Whoever begins a recording has it in hand too.
         let begun = |block: &Block| block.from - self.blocks[0].from >= cost::HANDLED;
-        let mut still = self.blocks.iter().position(begun).unwrap_or(length);
+        let mut next = self.blocks.iter().position(begun).unwrap_or(length);
         for first in second..length {
             let base = sum / second as f64;
             sum += self.blocks[first].mean - self.blocks[first - second].mean;
-            if first < still || (self.blocks[first].mean - base).abs() < LEAST {
+            if first < next || !self.is_off(first, base) {
                 continue;
             }
             // A lift's change of speed before it would shift what it is measured from.
-            let is_near = |it: &Block| (it.mean - base).abs() < LEAST;
-            if !self.blocks[first - second..first].iter().all(is_near) {
+            if (first - second..first).any(|at| self.is_off(at, base)) {
                 continue;
             }
-            let Some(after) = self.swing(first, base, pause) else {
+            let Some(after) = self.swing(first, base) else {
                 continue;
             };
-            let later = after + goes_on..(after + goes_on + second).min(length);
-            let near = ELSE.0.max(ELSE.1 * self.deviation);
-            if later.len() > second / 2 && (self.mean(later) - base).abs() < near {
-                // It is no part of what later swings are measured from.
-                still = after + second;
-                continue;
-            }
             let Some(lies) = (after..length).find(|at| self.lies_still_from(*at)) else {
                 // Whoever ends a recording has it in hand.
                 return;
             };
-            let again = self.mean(lies..(lies + 3 * second).min(length)) - base;
-            if again.abs() < near && !self.swings_again(after..lies, base, pause) {
-                // A jump, and then the lift went: the sensor lies where it lay.
-                still = after + second;
+            if self.is_jump(after..lies, base) {
+                // It is no part of what later swings are measured from.
+                next = after + second;
                 continue;
             }
             // A shorter one would be no hole.
-            still = lies.max(first + pause + goes_on).min(length);
-            spans.push((self.blocks[first].from, self.blocks[still - 1].to));
+            next = lies.max(first + self.pause + self.goes_on).min(length);
+            spans.push((self.blocks[first].from, self.blocks[next - 1].to));
         }
     }
 
+    fn is_off(&self, block: usize, base: f64) -> bool {
+        (self.blocks[block].mean - base).abs() >= LEAST
+    }
+
+    /// Whether the sensor reads what it read soon after a swing, or, if the lift went meanwhile, once it lies still and was
+    /// not put down before.
+    fn is_jump(&self, until_still: Range<usize>, base: f64) -> bool {
+        let Range { start, end } = until_still;
+        let reads = |from: usize, seconds: usize| {
+            let blocks = from..(from + seconds * self.second).min(self.blocks.len());
+            let near = ELSE.0.max(ELSE.1 * self.deviation);
+            blocks.len() > self.second / 2 && (self.mean(blocks) - base).abs() < near
+        };
+        let swings = |at: usize| self.is_off(at, base) && self.swing(at, base).is_some();
+        reads(start + self.goes_on, 1) || reads(end, 3) && !{ until_still }.any(swings)
+    }
+
     /// The block after two lobes about a base, one way and the other, if a hand made both.
-    fn swing(&self, first: usize, base: f64, pause: usize) -> Option<usize> {
+    fn swing(&self, first: usize, base: f64) -> Option<usize> {
         let is_up = self.blocks[first].mean > base;
         let middle = self.lobe(first, base)?;
         let turns = |block: &Block| (block.mean > base) != is_up;
-        let turn = self.blocks[middle..].iter().take(pause).position(turns)?;
+        let turn = self.blocks[middle..]
+            .iter()
+            .take(self.pause)
+            .position(turns)?;
         self.lobe(middle + turn, base)
-    }
-
-    fn swings_again(&self, within: Range<usize>, base: f64, pause: usize) -> bool {
-        let is_off = |at: &usize| (self.blocks[*at].mean - base).abs() >= LEAST;
-        let mut places = within.filter(is_off);
-        places.any(|at| self.swing(at, base, pause).is_some())
     }
 
     fn lobe(&self, first: usize, base: f64) -> Option<usize> {

@@ -3,8 +3,9 @@
 //! Behind a filter whose time constant τ is short beside the pulses of a ride, its start to a speed v reads as a hop
 //! that is τ v long, and its stop as one back. Where that filter cannot be told from the record, nor can the ride.
 
-use super::pulse::{Pulse, Record};
+use super::pulse::Pulse;
 use super::reading::Trip;
+use super::record::Record;
 use super::restore::is_near_zero;
 use super::{Cause, Doubt};
 

@@ -24,28 +24,32 @@ mod path;
 mod progress;
 mod pulse;
 mod reading;
+mod record;
 mod restore;
 mod sound;
 mod steps;
 mod stretch;
+mod swing;
 #[cfg(test)]
 mod tests;
 mod trips;
 
 pub use blocks::{Block, Blocks, Cut, STRONGEST};
-pub use cost::IN_HAND;
 pub use cost::Prior;
 pub use course::Place;
-pub use hand::in_hand;
 pub(crate) use hand::{is_of_hand, lies_still};
 pub use lattice::{Lattice, Part};
 pub use level::Level;
-pub(crate) use progress::{Progress, Swing, Turned};
-pub use pulse::{Pulse, Record};
+pub(crate) use progress::{Progress, Turned};
+pub use pulse::Pulse;
 pub use reading::{Reading, Trip, is_near};
+pub use record::Record;
 pub use restore::HighPass;
 pub use sound::Faults;
+pub(crate) use swing::Swing;
 pub use trips::Motion;
+
+use crate::recording::Sample;
 
 /// A record is hardly ever at its level where more than this share of its windows is off it.
 const OFTEN: f64 = 0.25;
@@ -90,6 +94,8 @@ pub struct Explanation {
     pub slow: Vec<Trip>,
     /// Whether the record says that it begins otherwise than was said.
     pub begins_otherwise: bool,
+    /// From when to when it says nothing, since somebody may have had the sensor in hand, s.
+    pub in_hand: Vec<(f64, f64)>,
 }
 
 /// Two explanations that are close.
@@ -115,6 +121,23 @@ pub enum Cause {
 }
 
 impl Explanation {
+    /// Explains samples, cut into blocks of `length`, which take `seconds`: all of them, or, where that is cheaper, without
+    /// those that a sensor in somebody's hand may have read.
+    pub fn of_samples(samples: &[Sample], length: usize, seconds: f64, prior: &Prior) -> Self {
+        let cut = Cut::new(samples, length, seconds);
+        let in_hand = hand::in_hand(&cut);
+        if in_hand.is_empty() {
+            return Self::of(&cut, prior);
+        }
+        let lies = Cut::new(&hand::without(samples, &in_hand), length, seconds);
+        let (all, others) = rayon::join(|| Self::of(&cut, prior), || Self::of(&lies, prior));
+        if others.cost + cost::IN_HAND * (in_hand.len() as f64) < all.cost {
+            Self { in_hand, ..others }
+        } else {
+            all
+        }
+    }
+
     /// Explains a record.
     pub fn of(cut: &Cut, prior: &Prior) -> Self {
         let plain = Explained::plain(cut, prior);
@@ -290,6 +313,7 @@ impl Explained {
         doubts.append(&mut others);
         Explanation {
             begins_otherwise: self.begins_otherwise(),
+            in_hand: Vec::new(),
             doubts,
             slow,
             cost: self.cost(),

@@ -3,7 +3,7 @@
 //! It is what the motions of a record and the hypotheses of a monitor have in common.
 
 use super::cost::{self, Prior};
-use super::pulse::{FARTHEST_SWING, LONGEST_PAUSE, LONGEST_SWING, Pulse};
+use super::pulse::Pulse;
 
 /// The share of its top speed to which a motion that crept gains speed again.
 const RESTARTED: f64 = 0.3;
@@ -193,41 +193,5 @@ impl Progress {
         } else {
             0.0
         }
-    }
-}
-
-/// Pulses in a row that may be a disturbance: a jump, a swing of a rope, a push.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Swing {
-    /// The speed that they leave, m/s.
-    pub speed: f64,
-    way: f64,
-    /// End of the latest, s.
-    to: Option<f64>,
-}
-
-impl Swing {
-    /// Whether a pulse now could belong to one whose latest pulse ended then, s.
-    pub fn lasts_from(to: f64, now: f64) -> bool {
-        now - to <= LONGEST_PAUSE
-    }
-
-    /// Whether a pulse of so many seconds, as long as the latest, could still bring it to rest near enough.
-    pub fn may_return(&self, seconds: f64) -> bool {
-        (self.way + self.speed * seconds / 2.0).abs() <= FARTHEST_SWING
-    }
-
-    /// With another pulse, unless that is too late, too long or carries the sensor too far.
-    pub fn with(self, pulse: &Turned) -> Option<Self> {
-        let pause = self.to.map_or(0.0, |to| pulse.from - to);
-        let length = pulse.to - pulse.from;
-        let way = self.way + self.speed * pause + (self.speed + pulse.change / 2.0) * length;
-        let is_swing =
-            pause <= LONGEST_PAUSE && length <= LONGEST_SWING && way.abs() <= FARTHEST_SWING;
-        is_swing.then_some(Self {
-            speed: self.speed + pulse.change,
-            way,
-            to: Some(pulse.to),
-        })
     }
 }

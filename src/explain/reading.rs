@@ -1,7 +1,8 @@
 //! One explanation of a record as trips: when each starts, levels and stops.
 
 use super::lattice::Part;
-use super::pulse::{Pulse, Record};
+use super::pulse::Pulse;
+use super::record::Record;
 use super::trips::Motion;
 use std::ops::Range;
 

@@ -6,7 +6,7 @@
 
 use super::blocks::{Block, Cut, median};
 use super::cost::Prior;
-use super::pulse::Record;
+use super::record::Record;
 
 /// The time constants tried, s.
 const TIME_CONSTANTS: [f64; 15] = [

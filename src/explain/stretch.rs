@@ -4,8 +4,9 @@
 //! may end at a change that brings the speed back to zero. Reversed, braking is a start.
 
 use super::cost::{self, Prior};
-use super::progress::{Progress, Swing, Turned};
-use super::pulse::{LEAST_IN_SWING, LONGEST_SLOW_SWING, PAUSE_SHARE, Pulse, goes_back};
+use super::progress::{Progress, Turned};
+use super::pulse::Pulse;
+use super::swing::{LEAST_IN_SWING, LONGEST_SLOW_SWING, PAUSE_SHARE, Swing, goes_back};
 use std::ops::Range;
 
 /// The pulses of a stretch without holes.

@@ -102,7 +102,7 @@ fn hands_are_told_from_lifts() {
     };
     let in_hand = |other: &dyn Fn(f64) -> f64| {
         let samples = record(60.0, other);
-        in_hand(&Cut::new(&samples, 2, 0.04))
+        hand::in_hand(&Cut::new(&samples, 2, 0.04))
     };
     for (size, to) in [(-0.2, 11.0), (-0.4, 13.0), (0.1, 12.0)] {
         let tremor = |time: f64| 0.1 * (TAU * 1.3 * time).sin();

@@ -9,7 +9,7 @@
 use super::hypothesis::{Cage, Hypothesis};
 use super::noise::{Noise, Noises};
 use super::prices::Known;
-use super::track::{SETTLED, Smooth, Track};
+use super::track::{Hand, SETTLED, Smooth, Track};
 use crate::explain::{Block, lies_still};
 use std::collections::VecDeque;
 
@@ -110,17 +110,9 @@ pub(super) struct Live {
     least: f64,
     /// The level that was known before.
     level: Option<f64>,
+    /// Somebody who may have the sensor in hand.
     hand: Option<Hand>,
     tracks: Vec<Track>,
-}
-
-/// A hand that may hold the sensor.
-#[derive(Clone, Copy, Debug)]
-struct Hand {
-    /// s
-    since: f64,
-    /// Whether it has swung the sensor again.
-    again: bool,
 }
 
 impl Mean {
@@ -347,32 +339,31 @@ impl Live {
         self.slow.sum = 0.0;
     }
 
-    /// Whether a hand may hold the sensor. It does until the sensor lies still for three seconds. If that is not where it lay,
-    /// or there was another swing, what was seen in between does not count.
-    pub fn is_in_hand(&mut self, now: f64) -> bool {
+    pub fn is_in_hand(&self) -> bool {
+        self.hand.is_some()
+    }
+
+    /// Judges whether somebody has the sensor in hand. Who has keeps it until it lies still for three seconds. If that is not
+    /// where it lay, or there was another swing, what was seen in between does not count.
+    pub fn judge_hand(&mut self, now: f64) {
         let Some(first) = self.tracks.first() else {
-            return false;
+            return;
         };
         let Some(hand) = &mut self.hand else {
-            let since = first.in_hand_since();
-            self.hand = since.map(|since| Hand {
-                since,
-                again: false,
-            });
-            return since.is_some();
+            self.hand = first.hand();
+            return;
         };
-        hand.again |= first.swings_after(hand.since);
-        let (since, again) = (hand.since, hand.again);
+        hand.swings_again |= first.swings_after(hand.since);
+        let hand = *hand;
         let seen = self.blocks.len().checked_sub(3 * self.parts);
-        let is_since = seen.is_some_and(|place| self.blocks[place].from >= since);
+        let is_since = seen.is_some_and(|place| self.blocks[place].from >= hand.since);
         let Some(level) = self.plateau().filter(|_| is_since) else {
-            return true;
+            return;
         };
         self.hand = None;
-        if again || (first.level - level).abs() > first.nearness() {
+        if hand.swings_again || (first.level - level).abs() > first.nearness() {
             self.put_down(level, now);
         }
-        false
     }
 
     /// Goes on with another level, as after a hole.

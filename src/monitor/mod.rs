@@ -99,8 +99,6 @@ pub struct Monitor {
     sensor: Sensor,
     /// Whether the noise hides a start.
     is_noisy: bool,
-    /// Whether a hand may hold the sensor.
-    is_in_hand: bool,
     /// Whether motions of this cage look different from rest.
     motion_shows: bool,
     said: Statement,
@@ -159,7 +157,6 @@ impl Monitor {
             live: Live::new(known, design.block, begins, level),
             sensor: Sensor::new(1.0 / design.rate),
             is_noisy: false,
-            is_in_hand: false,
             motion_shows: knowledge.motion_shows && knowledge.reference.is_some(),
             said: Statement::unknown(0.0, Doubt::Beginning),
             level: None,
@@ -284,10 +281,10 @@ impl Monitor {
         let is_calm = self.motion_shows.then(|| self.decisions.is_calm());
         let belief = self.live.belief(is_calm);
         let now = block.to;
-        let was_blind = self.is_noisy || self.is_in_hand;
+        let was_blind = self.is_blind();
         self.judge_noise(&belief, now);
         self.judge_hand(now);
-        let statement = if was_blind || self.is_noisy || self.is_in_hand {
+        let statement = if was_blind || self.is_blind() {
             Statement::unknown(now, Doubt::Sensor)
         } else {
             self.confirmed(Statement::of(&belief, now), now)
@@ -366,16 +363,21 @@ impl Monitor {
         }
     }
 
-    /// While somebody has the sensor in hand nothing is known.
+    /// Whether nothing can be known for now.
+    fn is_blind(&self) -> bool {
+        self.is_noisy || self.live.is_in_hand()
+    }
+
     fn judge_hand(&mut self, now: f64) {
-        let was = self.is_in_hand;
-        self.is_in_hand = self.live.is_in_hand(now);
-        if self.is_in_hand && !was {
-            self.level = None;
-            self.report(Fault::Moved, now, now);
-        }
-        if was && !self.is_in_hand {
-            self.decisions.forget();
+        let was = self.live.is_in_hand();
+        self.live.judge_hand(now);
+        match (was, self.live.is_in_hand()) {
+            (false, true) => {
+                self.level = None;
+                self.report(Fault::Moved, now, now);
+            }
+            (true, false) => self.decisions.forget(),
+            _ => {}
         }
     }
 

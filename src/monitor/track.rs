@@ -50,8 +50,9 @@ const LONGEST_SHOCK: f64 = 0.8;
 /// What a shock adds to the uncertainty of a change of speed, for each m/s² of it, s.
 const SHOCK_ERROR: f64 = 0.03;
 
-/// What lasts longer after a swing is no part of it, s, and what begins no later may be due to the hand that made it.
-const HELD: (f64, f64) = (1.0, 1.0);
+/// What begins so soon after a swing, s, may be due to the hand that made it; what lasts longer than this is no part of it.
+const AFTER_SWING: f64 = 1.0;
+const OFF: f64 = 1.0;
 
 /// Uncertainty of the level, m/s².
 const LEVEL_ERROR: f64 = 0.004;
@@ -89,6 +90,15 @@ struct Excursion {
     foot: f64,
     /// Whether another level has been tried instead of it.
     is_doubted: bool,
+}
+
+/// Somebody who may have the sensor in hand.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hand {
+    /// s
+    pub since: f64,
+    /// Whether there was another swing.
+    pub swings_again: bool,
 }
 
 /// A level and what it implies.
@@ -276,13 +286,16 @@ impl Track {
         doubts
     }
 
-    /// Since when a hand may hold the sensor, s: after a swing it has not come back to the level for some time.
-    pub fn in_hand_since(&self) -> Option<f64> {
+    /// Somebody may have the sensor in hand: after a swing it has not come back to the level for some time.
+    pub fn hand(&self) -> Option<Hand> {
         let it = &self.excursion;
-        let is_off = it.is_pulse && it.seconds > HELD.0;
+        let is_off = it.is_pulse && it.seconds > OFF;
         let mut swings = self.hypotheses.swings();
-        let swing = swings.find(|swing| it.from - swing.1 < HELD.1);
-        swing.filter(|_| is_off).map(|swing| swing.1)
+        let swing = swings.find(|swing| it.from - swing.1 < AFTER_SWING);
+        swing.filter(|_| is_off).map(|(_, since)| Hand {
+            since,
+            swings_again: false,
+        })
     }
 
     /// Whether a hand may have put the sensor down, or lifted it again, after a time, s.
