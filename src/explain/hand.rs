@@ -103,10 +103,9 @@ impl Stretch<'_> {
             let Some(after) = self.swing(first, base) else {
                 continue;
             };
-            let Some(lies) = (after..length).find(|at| self.lies_still_from(*at)) else {
-                // Whoever ends a recording has it in hand.
-                return;
-            };
+            // Whoever has it when the record ends, or breaks off, keeps it.
+            let lies = (after..length).find(|at| self.lies_still_from(*at));
+            let lies = lies.unwrap_or(length);
             if self.is_jump(after..lies, base) {
                 // It is no part of what later swings are measured from.
                 next = after + second;

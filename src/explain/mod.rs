@@ -42,6 +42,7 @@ pub use lattice::{Lattice, Part};
 pub use level::Level;
 pub(crate) use progress::{Progress, Turned};
 pub use pulse::Pulse;
+pub(crate) use pulse::{AT_ONCE, is_at_once};
 pub use reading::{Reading, Trip, is_near};
 pub use record::Record;
 pub use restore::HighPass;

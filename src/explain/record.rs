@@ -2,7 +2,7 @@
 
 use super::blocks::{Cut, median};
 use super::level::Level;
-use super::pulse::Pulse;
+use super::pulse::{AT_ONCE, Pulse, is_at_once};
 use super::swing::{self, LEAST_IN_SWING};
 use std::ops::Range;
 
@@ -15,13 +15,8 @@ const FOOT: f64 = 0.3;
 /// A pulse shorter than this that touches a shock is part of it, s.
 const SHORT: f64 = 1.0;
 
-/// A level changes within this time, s, by this share of what is in between; no lift starts so weakly, m/s².
-const AT_ONCE: f64 = 0.1;
-const MOST_OF: f64 = 0.7;
+/// No lift starts so weakly, m/s².
 const WEAK: f64 = 0.12;
-
-/// A change of the level is so many deviations of its noise.
-const NOISES: f64 = 4.0;
 
 /// The smallest change of speed, m/s, and in deviations of what noise adds up to.
 const LEAST_CHANGE: f64 = 0.015;
@@ -286,9 +281,9 @@ impl Record {
         let first = edge.saturating_sub(reach).max(stretch.start);
         let last = (edge + reach).min(stretch.end);
         let last = last.saturating_sub(2 * width);
-        let least = (MOST_OF * mean.abs()).max(NOISES * noise * (2.0 / width as f64).sqrt());
-        let mut jumps = (first..last).map(|from| (part(from + width) - part(from)).abs());
-        mean.abs() < WEAK || jumps.any(|jump| jump > least)
+        let noise = noise * (2.0 / width as f64).sqrt();
+        let mut jumps = (first..last).map(|from| part(from + width) - part(from));
+        mean.abs() < WEAK || jumps.any(|jump| is_at_once(jump, mean, noise))
     }
 
     /// A shock and the short pulses that touch it are one: what counts is the speed they leave.

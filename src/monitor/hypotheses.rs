@@ -111,8 +111,13 @@ impl Hypotheses {
         self.now.iter_mut().for_each(|it| it.cost += by);
     }
 
+    /// What they are if the level has changed by so much, m/s², at once or not.
+    pub fn shifted(&self, by: f64, at_once: bool) -> impl Iterator<Item = Hypothesis> + '_ {
+        self.now.iter().map(move |it| it.shifted(by, at_once))
+    }
+
     /// Adds those of another level.
-    pub fn join(&mut self, others: impl Iterator<Item = Hypothesis>) {
+    pub fn join(&mut self, others: impl IntoIterator<Item = Hypothesis>) {
         self.made.extend_from_slice(&self.now);
         self.made.extend(others);
         prune(&mut self.made, &mut self.now);

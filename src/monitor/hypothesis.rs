@@ -92,9 +92,9 @@ impl Hypothesis {
         }
     }
 
-    /// If the level has changed by so much since.
-    pub fn shifted(self, by: f64) -> Self {
-        let cost = prices::shift(by);
+    /// If the level has changed by so much since, at once or not.
+    pub fn shifted(self, by: f64, at_once: bool) -> Self {
+        let cost = prices::shift(by, at_once);
         Self {
             ignored: self.ignored + cost / 2.0,
             ..self.dearer(cost)

@@ -7,23 +7,13 @@
 //! evidence decides.
 
 use super::hypothesis::{Cage, Hypothesis};
-use super::noise::{Noise, Noises};
+use super::noise::Noises;
 use super::prices::Known;
-use super::track::{Hand, SETTLED, Smooth, Track};
-use crate::explain::{Block, lies_still};
-use std::collections::VecDeque;
+use super::recent::Recent;
+use super::track::{Hand, Track};
+use crate::explain::Block;
 
-/// Over which the record is smoothed, s.
-const FAST: f64 = 0.3;
-const SLOW: f64 = 1.5;
-
-/// A plateau is three parts of this length that agree, s.
-const PART: f64 = 1.0;
-
-/// Until a record is so old, every level is tried from its beginning, s.
-const YOUNG: f64 = 20.0;
-
-/// And what another level than the first costs then.
+/// What another level than the first costs where nothing is forgotten yet, and every level is tried from the beginning.
 const YOUNG_SHIFT: f64 = 8.0;
 
 /// The most tracks, and how much dearer than the cheapest one may be.
@@ -76,35 +66,17 @@ pub(super) struct Belief {
     pub noise: f64,
 }
 
-/// Running mean over the newest blocks.
-#[derive(Clone, Debug)]
-struct Mean {
-    count: usize,
-    sum: f64,
-}
-
 /// All tracks.
 #[derive(Clone, Debug)]
 pub(super) struct Live {
     known: Known,
     begins: Vec<Hypothesis>,
-    blocks: VecDeque<Block>,
-    /// Of the blocks, as many as there are.
-    smooth: VecDeque<Smooth>,
-    capacity: usize,
+    recent: Recent,
     /// What remains of the strain after a block.
     forgets: f64,
-    noise: Noise,
-    half: usize,
-    fast: Mean,
-    slow: Mean,
-    parts: usize,
-    lag: usize,
     has_begun: bool,
     /// What was the case when it was last asked.
     latest: Belief,
-    /// The number of blocks since the latest hole.
-    count: usize,
     /// What the cheapest explanation has lately cost beyond that of ordinary trips, and its cost before.
     strain: f64,
     least: f64,
@@ -115,41 +87,14 @@ pub(super) struct Live {
     tracks: Vec<Track>,
 }
 
-impl Mean {
-    fn new(count: usize) -> Self {
-        Self { count, sum: 0.0 }
-    }
-
-    fn step(&mut self, blocks: &VecDeque<Block>) -> f64 {
-        let length = blocks.len();
-        self.sum += blocks[length - 1].mean;
-        if length > self.count {
-            self.sum -= blocks[length - 1 - self.count].mean;
-        }
-        self.sum / self.count.min(length) as f64
-    }
-}
-
 impl Live {
     pub fn new(known: Known, block: f64, begins: Vec<Hypothesis>, level: Option<f64>) -> Self {
-        let blocks_in = |seconds: f64| ((seconds / block).round() as usize).max(1);
-        let half = blocks_in(FAST / 2.0);
-        let capacity = blocks_in(YOUNG) + 2 * half + 2;
         Self {
             known,
-            blocks: VecDeque::with_capacity(capacity + 1),
-            smooth: VecDeque::with_capacity(capacity + 1),
-            capacity,
+            recent: Recent::new(block),
             forgets: 1.0 - block / REMEMBERS,
-            noise: Noise::default(),
-            half,
-            fast: Mean::new(2 * half + 1),
-            slow: Mean::new(blocks_in(SLOW)),
-            parts: blocks_in(PART),
-            lag: blocks_in(SETTLED),
             has_begun: false,
             latest: Belief::default(),
-            count: 0,
             tracks: Vec::with_capacity(MOST_TRACKS + 1),
             begins,
             strain: 0.0,
@@ -175,133 +120,88 @@ impl Live {
             self.begins.iter_mut().for_each(|it| it.since = block.from);
             self.begin(self.begins.clone());
         }
-        self.count += 1;
-        self.blocks.push_back(block);
-        let fast = self.fast.step(&self.blocks);
-        let slow = self.slow.step(&self.blocks);
-        if self.blocks.len() > self.half {
-            let centre = self.blocks[self.blocks.len() - 1 - self.half];
-            let smooth = Smooth {
-                from: centre.from,
-                to: centre.to,
-                seconds: centre.seconds,
-                mean: centre.mean,
-                fast,
-                slow,
-            };
-            self.smooth.push_back(smooth);
-            self.measure_noise();
-            let white = self.white();
-            let settled = self.smooth.len().checked_sub(self.lag + 1);
-            let settled = settled.map(|place| self.smooth[place].mean);
+        if let Some(smooth) = self.recent.step(block) {
+            let white = self.recent.white();
             for track in &mut self.tracks {
-                track.step(&self.known, &smooth, white, settled);
+                track.step(&self.known, &smooth, white);
             }
         }
-        if self.blocks.len() > self.capacity {
-            self.blocks.pop_front();
-            self.smooth.pop_front();
-        }
-        if self.count >= 3 * self.parts && self.count.is_multiple_of((self.parts / 4).max(1)) {
+        if self.recent.is_due() {
             self.try_plateau();
             self.keep_plausible();
         }
     }
 
-    fn measure_noise(&mut self) {
-        let (newest, apart) = (self.smooth.len() - 1, self.fast.count);
-        if newest >= 2 * apart {
-            let fast = |back: usize| self.smooth[newest - back].fast;
-            (self.noise).step(fast(0) - 2.0 * fast(apart) + fast(2 * apart));
-        }
-    }
-
-    /// The noise as it is if it is white.
-    fn white(&self) -> Noises {
-        let fast = self.noise.deviation();
-        let slow = fast * (self.fast.count as f64 / self.slow.count as f64).sqrt();
-        Noises { fast, slow }
-    }
-
-    /// The level on which the last three seconds agree.
-    fn plateau(&self) -> Option<f64> {
-        let length = self.blocks.len();
-        let mean = |part: usize| {
-            let to = length - part * self.parts;
-            let blocks = self.blocks.range(to - self.parts..to);
-            blocks.map(|block| block.mean).sum::<f64>() / self.parts as f64
-        };
-        if length < 3 * self.parts {
-            return None;
-        }
-        let means = [mean(0), mean(1), mean(2)];
-        let middle = means.iter().sum::<f64>() / 3.0;
-        let noise = self.white().fast * (self.fast.count as f64 / self.parts as f64).sqrt();
-        lies_still(means, noise).then_some(middle)
-    }
-
     fn try_plateau(&mut self) {
-        let Some(level) = self.plateau() else {
+        let Some((level, since)) = self.recent.plateau() else {
             return;
         };
-        let length = self.blocks.len();
-        let since = self.blocks[length - 3 * self.parts].from;
         let distance = |track: &Track| (track.level - level).abs();
         let home = (0..self.tracks.len())
             .min_by(|a, b| distance(&self.tracks[*a]).total_cmp(&distance(&self.tracks[*b])))
             .filter(|home| distance(&self.tracks[*home]) < self.tracks[*home].nearness());
-        let is_young = self.count <= self.smooth.len() + self.half;
-        if home.is_none() && is_young && (self.tracks.is_empty() || self.all_doubt(since)) {
-            let white = self.white();
-            let mut track = Track::new(level, white, &self.begins);
+        let turned = self.turned(level, since);
+        let is_young = self.recent.is_whole();
+        let doubts = |track: &Track| track.is_in_pulse_since(since);
+        if turned.is_empty() && home.is_none() && is_young && self.tracks.iter().all(doubts) {
+            let mut track = Track::new(level, self.recent.white(), &self.begins);
             if !self.tracks.is_empty() {
                 track.hypotheses.raise(self.latest.least + YOUNG_SHIFT);
             }
-            for (place, smooth) in self.smooth.iter().enumerate() {
-                let settled = place
-                    .checked_sub(self.lag)
-                    .map(|place| self.smooth[place].mean);
-                track.step(&self.known, smooth, white, settled);
-            }
+            self.see(&mut track, f64::NEG_INFINITY);
             self.tracks.push(track);
             return;
         }
         let mut given: Option<(Vec<Hypothesis>, Noises)> = None;
         for index in 0..self.tracks.len() {
             let track = &mut self.tracks[index];
-            if Some(index) == home || !track.doubts(since) {
-                continue;
+            if Some(index) != home && track.doubts(since, level) {
+                let (all, _) = given.get_or_insert((Vec::new(), track.noise()));
+                all.extend(track.hypotheses.shifted(track.level - level, false));
             }
-            let by = track.level - level;
-            let (all, _) = given.get_or_insert((Vec::new(), track.noise()));
-            all.extend(track.hypotheses.now.iter().map(|it| it.shifted(by)));
         }
-        let Some((given, noise)) = given else {
-            return;
-        };
-        match home {
-            Some(home) => self.tracks[home].hypotheses.join(given.into_iter()),
-            None => {
+        match (home, given) {
+            (Some(home), Some((given, _))) => self.tracks[home].hypotheses.join(given),
+            (None, Some((given, noise))) => {
                 let mut track = Track::new(level, noise, &[]);
-                track.hypotheses.join(given.into_iter());
+                track.hypotheses.join(given);
                 self.tracks.push(track);
             }
+            _ => {}
         }
+        self.tracks.extend(turned);
     }
 
-    fn all_doubt(&self, since: f64) -> bool {
-        self.tracks
-            .iter()
-            .all(|track| track.is_in_pulse_since(since))
+    /// The tracks on a level to which the record came at once, in a pulse that has been going on since a time.
+    fn turned(&mut self, level: f64, time: f64) -> Vec<Track> {
+        let turned = self.tracks.iter_mut();
+        let turned = turned.flat_map(|track| track.turned(&self.known, level, time));
+        let is_known = |(_, since): &(Track, f64)| self.recent.goes_back_to(*since);
+        let turned: Vec<(Track, f64)> = turned.filter(is_known).collect();
+        let turned = turned.into_iter().map(|(mut track, since)| {
+            self.see(&mut track, since);
+            track
+        });
+        turned.collect()
+    }
+
+    /// Shows a track what has been seen since a time.
+    fn see(&self, track: &mut Track, since: f64) {
+        let white = self.recent.white();
+        for smooth in self.recent.since(since) {
+            track.step(&self.known, smooth, white);
+        }
     }
 
     /// Drops tracks that are hopeless, and merges those at one level.
     fn keep_plausible(&mut self) {
-        let now = self.blocks[self.blocks.len() - 1].to;
+        let Some(now) = self.recent.now() else {
+            return;
+        };
         let known = &self.known;
         let cost = |track: &Track| {
             let mut least = f64::INFINITY;
-            let pulse = track.pulse(known);
+            let pulse = track.current(known);
             let take = |_: &Hypothesis, cost: f64, _| least = least.min(cost);
             track.hypotheses.each(known, now, pulse.as_ref(), take);
             least
@@ -316,9 +216,7 @@ impl Live {
         for (cost, track) in ranked {
             let near = |other: &Track| (other.level - track.level).abs() < 0.5 * other.nearness();
             match self.tracks.iter().position(near) {
-                Some(other) => self.tracks[other]
-                    .hypotheses
-                    .join(track.hypotheses.now.into_iter()),
+                Some(other) => self.tracks[other].hypotheses.join(track.hypotheses.now),
                 None if cost > least + HOPELESS || self.tracks.len() == MOST_TRACKS => {}
                 None => self.tracks.push(track),
             }
@@ -332,11 +230,7 @@ impl Live {
         }
         self.begins = vec![Hypothesis::rest(now, 0.0), Hypothesis::open(now, 0.0)];
         self.strain += IN_HOLE;
-        self.blocks.clear();
-        self.smooth.clear();
-        self.count = 0;
-        self.fast.sum = 0.0;
-        self.slow.sum = 0.0;
+        self.recent.clear();
     }
 
     pub fn is_in_hand(&self) -> bool {
@@ -355,9 +249,8 @@ impl Live {
         };
         hand.swings_again |= first.swings_after(hand.since);
         let hand = *hand;
-        let seen = self.blocks.len().checked_sub(3 * self.parts);
-        let is_since = seen.is_some_and(|place| self.blocks[place].from >= hand.since);
-        let Some(level) = self.plateau().filter(|_| is_since) else {
+        let plateau = self.recent.plateau();
+        let Some((level, _)) = plateau.filter(|(_, since)| *since >= hand.since) else {
             return;
         };
         self.hand = None;
@@ -369,9 +262,9 @@ impl Live {
     /// Goes on with another level, as after a hole.
     fn put_down(&mut self, level: f64, now: f64) {
         self.cross(now, f64::INFINITY);
-        let mut track = Track::new(level, self.white(), &[]);
+        let mut track = Track::new(level, self.recent.white(), &[]);
         for held in self.tracks.drain(..) {
-            track.hypotheses.join(held.hypotheses.now.into_iter());
+            track.hypotheses.join(held.hypotheses.now);
         }
         self.tracks.push(track);
     }
@@ -379,8 +272,8 @@ impl Live {
     /// What is the case now.
     /// `is_calm` says whether the record looks like rest, if motions of the cage do not.
     pub fn belief(&mut self, is_calm: Option<bool>) -> Belief {
-        let is_settled = !self.blocks.is_empty() && self.tracks.iter().all(Track::is_settled);
-        if is_settled && !self.count.is_multiple_of(RESTS) {
+        let is_settled = self.recent.now().is_some() && self.tracks.iter().all(Track::is_settled);
+        if is_settled && !self.recent.count.is_multiple_of(RESTS) {
             return self.latest;
         }
         let mut belief = self.cheapest();
@@ -409,13 +302,12 @@ impl Live {
             threat: f64::INFINITY,
             ..Belief::default()
         };
-        let Some(last) = self.blocks.back() else {
+        let Some(now) = self.recent.now() else {
             return belief;
         };
-        let now = last.to;
         let mut levels = [0.0; 2];
         for track in &self.tracks {
-            let pulse = track.pulse(&self.known);
+            let pulse = track.current(&self.known);
             let take = |it: &Hypothesis, cost: f64, changes: bool| {
                 let is_rest = it.is_rest();
                 if !is_rest {
@@ -443,7 +335,7 @@ impl Live {
         }
         let least = |best: Option<(Hypothesis, f64)>| best.map_or(f64::INFINITY, |best| best.1);
         belief.least = least(belief.rest).min(least(belief.motion));
-        belief.noise = self.noise.deviation();
+        belief.noise = self.recent.noise();
         belief.is_shifted = levels[0] != levels[1];
         if let Some(first) = self.tracks.first() {
             belief.level = first.level;

@@ -27,6 +27,9 @@ const SHIFT: f64 = 5.0;
 const SHIFT_AND_BACK: f64 = 6.0;
 const STRONG_SHIFT: (f64, f64) = (0.1, 20.0);
 
+/// One that came at once, as when the sensor is turned.
+pub const AT_ONCE: f64 = 2.0;
+
 /// Which way a motion went that was not seen to begin.
 pub const EITHER_WAY: f64 = 0.4;
 
@@ -178,8 +181,11 @@ pub fn brisk(pulse: &Turned) -> f64 {
     BRISK.1 * (1.0 - (pulse.to - pulse.from) / BRISK.0).max(0.0)
 }
 
-/// A lasting change of the level by so much, m/s².
-pub fn shift(by: f64) -> f64 {
+/// A lasting change of the level by so much, m/s², that came at once or not.
+pub fn shift(by: f64, at_once: bool) -> f64 {
+    if at_once {
+        return AT_ONCE;
+    }
     SHIFT + STRONG_SHIFT.1 * (by.abs() - STRONG_SHIFT.0).clamp(0.0, 0.3)
 }
 

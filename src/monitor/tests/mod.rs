@@ -12,9 +12,14 @@ mod surroundings;
 
 const RATE: f64 = 100.0;
 
+/// A lift changes its acceleration in this time, s, and by no more than this, m/s²; what changes by more is a shock.
+const RAMP: f64 = 0.3;
+const MOST_RAMPED: f64 = 1.0;
+
 /// A record built piece by piece.
 struct Record {
     samples: Vec<f64>,
+    acceleration: f64,
     noise: Vec<f64>,
     sigma: f64,
 }
@@ -29,6 +34,7 @@ impl Record {
             .fill(&mut generator, &mut noise);
         Self {
             samples: Vec::new(),
+            acceleration: 0.0,
             noise,
             sigma,
         }
@@ -39,11 +45,21 @@ impl Record {
     }
 
     /// Adds `seconds` of this acceleration, with `noise` times the noise at rest.
-    fn with(mut self, seconds: f64, acceleration: f64, noise: f64) -> Self {
-        for _ in 0..(seconds * RATE).round() as usize {
+    fn with(self, seconds: f64, acceleration: f64, noise: f64) -> Self {
+        let by = acceleration - self.acceleration;
+        let ramp = if by.abs() > MOST_RAMPED { 0.0 } else { RAMP };
+        self.changing(seconds, by, ramp, noise)
+    }
+
+    /// Adds `seconds` of an acceleration that first changes by so much, in this time, s.
+    fn changing(mut self, seconds: f64, by: f64, ramp: f64, noise: f64) -> Self {
+        for sample in 1..=(seconds * RATE).round() as usize {
+            let share = (sample as f64 / RATE / ramp).min(1.0);
             let xi = self.noise[self.samples.len()];
+            let acceleration = self.acceleration + share * by;
             self.samples.push(acceleration + noise * self.sigma * xi);
         }
+        self.acceleration += by;
         self
     }
 
@@ -153,7 +169,7 @@ fn a_ride_is_followed_phase_by_phase() {
                 )
             })
             .collect();
-        for (event, time) in told[1..].iter().zip([8.0, 10.0, 18.0, 20.0]) {
+        for (event, time) in told[1..].iter().zip([8.0, 10.0 + RAMP, 18.0, 20.0 + RAMP]) {
             assert!((event.time - time).abs() <= 0.31, "{event:?}");
             assert!(
                 (0.0..2.0).contains(&(event.reported - event.time)),
@@ -216,7 +232,7 @@ fn told_that_it_moves_it_waits_for_the_stop() {
     let events = record.watch(&mut monitor);
     assert_eq!(known(&events).last(), Some(&REST), "{events:?}");
     let rest = events.iter().find(|event| states(&[**event]) == [REST]);
-    assert!(rest.is_some_and(|rest| (rest.time - 10.0).abs() < 0.3));
+    assert!(rest.is_some_and(|rest| (rest.time - 10.0 - RAMP / 2.0).abs() < 0.3));
 }
 
 #[test]
@@ -291,7 +307,7 @@ fn a_creeping_cage_has_not_stopped() {
         REST,
     ];
     assert_eq!(known(&events), expected, "{events:?}");
-    assert!((events[events.len() - 1].time - stop).abs() < 0.3);
+    assert!((events[events.len() - 1].time - stop - RAMP / 2.0).abs() < 0.3);
 }
 
 /// A cage that slows down half-way, or creeps out of its floors, on every trip: it is never at rest for a second while it
@@ -381,4 +397,39 @@ fn a_shift_of_the_level_is_told_as_doubt() {
         assert_eq!(known(&events), [REST], "{for_good}: {events:?}");
         assert_eq!(monitor.state(), State::Unknown, "{for_good}");
     }
+}
+
+/// A sensor that is turned at rest reads another level at once. That is no start, and a cage that leaves before the new level
+/// has shown itself is not at rest. Only when it is over, a start is told that comes at once.
+#[test]
+fn what_changes_at_once_may_be_the_level() {
+    let turns = [0.1, -0.3, 0.5].map(|by| [1.0, 2.0, 4.0, 30.0].map(|seconds| (by, seconds)));
+    for (by, seconds) in turns.into_iter().flatten() {
+        let turned = Record::quiet().rest(30.0).changing(seconds, by, 0.0, 1.0);
+        let start = turned.now();
+        let record = turned.trip_on(by, 1.0, 2.0).trip_on(by, -1.0, 2.0);
+        let events = record.watch(&mut standing());
+        for event in &events {
+            let Kind::Change { state, .. } = event.kind else {
+                continue;
+            };
+            let moves = state != REST && state != State::Unknown;
+            let is_rest = state == REST;
+            assert!(
+                !moves || event.reported > start,
+                "{by} {seconds}: {event:?}"
+            );
+            let ride = start + 1.0..start + 12.0;
+            assert!(
+                !is_rest || !ride.contains(&event.reported),
+                "{by} {seconds}: {event:?}"
+            );
+        }
+        let last = states(&events).last().copied();
+        let rests = last == Some(REST) || seconds < 30.0 && last == Some(State::Unknown);
+        assert!(rests, "{by} {seconds}: {events:?}");
+    }
+    let record = Record::quiet().rest(30.0).changing(2.0, 0.5, 0.0, 1.0);
+    let events = record.changing(8.0, -0.5, 0.0, 2.0).watch(&mut standing());
+    assert_eq!(known(&events), [REST, INERTIAL]);
 }
