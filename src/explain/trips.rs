@@ -198,7 +198,7 @@ impl<'a> Motions<'a> {
             if is_over || (here.is_empty() && waiting.iter().all(Vec::is_empty)) {
                 return changes;
             }
-            for motion in here {
+            for motion in here.drain(..) {
                 let mut wait = |until: usize, motion: Listed| {
                     let place = until - pulse - 1;
                     if waiting.len() <= place {
@@ -225,6 +225,7 @@ impl<'a> Motions<'a> {
                     wait(after, Listed { progress, latest });
                 }
             }
+            waiting.push_back(here);
         }
         if far == self.stretch.pulses.len() {
             for motion in waiting.front().into_iter().flatten() {
