@@ -54,8 +54,8 @@ pub(crate) const AT_ONCE: f64 = 0.1;
 const MOST_OF: f64 = 0.7;
 const NOISES: f64 = 4.0;
 
-/// Whether no lift changes its acceleration so much within that time, m/s², where the mean of the pulse is this; the change
-/// has a deviation from noise.
-pub(crate) fn is_at_once(change: f64, mean: f64, noise: f64) -> bool {
-    change.abs() > (MOST_OF * mean.abs()).max(NOISES * noise)
+/// Whether no lift changes its acceleration so much within that time, m/s², where the pulse comes to this; the change has a
+/// deviation from noise.
+pub(crate) fn is_at_once(change: f64, value: f64, noise: f64) -> bool {
+    change.abs() > (MOST_OF * value.abs()).max(NOISES * noise)
 }

@@ -204,8 +204,7 @@ impl Excursion {
 
     /// Whether it may be another level.
     pub fn begins_at_once(&self) -> bool {
-        let mean = self.part.change / self.part.seconds;
-        self.jump.before.seconds < 2.0 * FOOT && is_at_once(self.jump.by, mean, 0.0)
+        self.jump.before.seconds < 2.0 * FOOT && is_at_once(self.jump.by, self.most, 0.0)
     }
 
     /// It, or a part of it, as a pulse, if it is more than noise of this deviation over the longer time.
