@@ -133,4 +133,5 @@ pub mod study;
 pub mod suggest;
 pub mod track;
 pub mod values;
+pub mod vector;
 pub mod whiten;

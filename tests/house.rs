@@ -9,6 +9,7 @@ const FLOORS: &[&[&str]] = &[
     // Numbers, text and files without a domain.
     &[
         "rng", "simd", "stats", "kalman", "fields", "format", "files", "suggest", "counts",
+        "vector",
     ],
     // What a value must be.
     &["rule"],

@@ -15,7 +15,8 @@ use super::layout::no_gravity;
 use super::steps::{LOOKED_AT, Steps};
 use super::table::Columns;
 use super::unit::Unit;
-use super::windows::{GRAVITATION, Vector, Windows, angle, dot, largest, length, mix, unit};
+use super::windows::{GRAVITATION, Windows};
+use crate::vector::{Vector, angle, dot, largest, length, mix, unit};
 use std::fmt;
 
 /// The vertical direction, and how it was found.

@@ -2,6 +2,7 @@
 
 use super::table::Columns;
 use super::unit::Unit;
+use crate::vector::{Vector, dot, largest, length, mix, unit};
 use std::ops::{Range, RangeInclusive};
 
 /// Length of a window, s.
@@ -12,9 +13,6 @@ pub(super) const GRAVITATION: RangeInclusive<f64> = 8.5..=11.5;
 
 /// No lift accelerates so, m/s²: a shock, or handling.
 const SHOCK: f64 = 2.5;
-
-/// A vector by its parts along x, y and z, or along the columns there are.
-pub(super) type Vector = [f64; 3];
 
 /// The mean vectors of windows of half a second.
 #[derive(Debug, Default)]
@@ -125,36 +123,6 @@ impl Windows {
         let sign = up[largest(up)].signum();
         stands_out.then(|| up.map(|along| sign * along))
     }
-}
-
-pub(super) fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(super) fn length(v: Vector) -> f64 {
-    dot(v, v).sqrt()
-}
-
-/// The vector of length 1 in this direction, if it has one.
-pub(super) fn unit(v: Vector) -> Option<Vector> {
-    let length = length(v);
-    (length > 0.0 && length.is_finite()).then(|| v.map(|along| along / length))
-}
-
-/// Degrees between two vectors of length 1.
-pub(super) fn angle(a: Vector, b: Vector) -> f64 {
-    libm::acos(dot(a, b).clamp(-1.0, 1.0)).to_degrees()
-}
-
-/// The place of the largest part.
-pub(super) fn largest(v: Vector) -> usize {
-    let larger = |a: &usize, b: &usize| v[*a].abs().total_cmp(&v[*b].abs());
-    (0..3).max_by(larger).unwrap_or(0)
-}
-
-/// The sum of vectors, each times its number.
-pub(super) fn mix<const N: usize>(parts: [(f64, Vector); N]) -> Vector {
-    [0, 1, 2].map(|axis| parts.iter().map(|(share, v)| share * v[axis]).sum())
 }
 
 fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {

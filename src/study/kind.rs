@@ -7,7 +7,7 @@ use crate::figure::FigureError;
 use crate::gate::Scenario;
 use crate::plot::Plot;
 use crate::results::{Comparison, Quantity};
-use crate::run::{Group, Identity, StudyError, Table, Target, Trials};
+use crate::run::{Identity, StudyError, Table, Target, Trials};
 use schemars::SchemaGenerator;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -185,26 +185,6 @@ impl Counters {
             counters.keys.push(key);
         }
         counters
-    }
-}
-
-impl Counters {
-    /// A group for each target: the sums of these trials of its point.
-    pub fn apart<'a, T: Fn(u64) -> Sums + Sync + 'a>(
-        &self,
-        targets: &[usize],
-        trial_of: impl Fn(usize) -> T,
-    ) -> Vec<Group<'a>> {
-        let group = |&at: &usize| {
-            let trial = trial_of(self.points[at]);
-            let nothing = self.targets[at].shape.empty().sums;
-            Group::new(vec![at], move |trials| {
-                let mut sums = nothing.clone();
-                trials.for_each(|number| sums.add(&trial(number)));
-                vec![sums]
-            })
-        };
-        targets.iter().map(group).collect()
     }
 }
 

@@ -7,14 +7,17 @@
 
 mod any;
 pub(crate) mod autocorrelation;
+mod dots;
 mod estimate;
 pub mod floors;
+pub mod gravity;
 pub(crate) mod impulse_law;
 pub(crate) mod independence;
 mod kind;
 pub(crate) mod layout;
 mod loaded;
 pub(crate) mod operating_point;
+mod outcomes;
 pub mod records;
 pub mod reference;
 pub(crate) mod region;
@@ -46,9 +49,10 @@ pub const STUDIES: &[Entry] = &[
     Entry::of::<impulse_law::ImpulseLaw>(),
     Entry::of::<operating_point::OperatingPoint>(),
     Entry::of::<ride::Rides>(),
-    Entry::of::<records::Records>(),
-    Entry::of::<floors::Buildings>(),
-    Entry::of::<trips::Trips>(),
+    Entry::of::<outcomes::Of<records::Records>>(),
+    Entry::of::<outcomes::Of<floors::Buildings>>(),
+    Entry::of::<outcomes::Of<trips::Trips>>(),
+    Entry::of::<outcomes::Of<gravity::Windows>>(),
 ];
 
 /// An entry of the list of studies.

@@ -30,6 +30,7 @@
 mod course;
 mod filter;
 pub mod floors;
+pub mod gravity;
 mod integrals;
 mod landing;
 mod level;

@@ -35,22 +35,23 @@ mod watched;
 
 pub use row::Row;
 
-use crate::counts::{Counts, Sums};
+use crate::counts::{Shape, Sums};
 use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::lift::{Class, Record};
 use crate::plot::Plot;
 use crate::results::Quantity;
-use crate::run::{Group, Identity, StudyError, Target, Trials};
-use crate::study::kind::{Context, Counters, Study, counted};
+use crate::rule::OutOfRange;
+use crate::run::{Identity, StudyError};
+use crate::study::estimate::Estimate;
+use crate::study::kind::Context;
+use crate::study::outcomes::Outcomes;
 use detect::{Told, detect};
+use row::Columns;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::Value;
 use table::{Table, Watch};
 use watched::Watched;
-
-/// Records in a block. A record takes tens of milliseconds.
-const BLOCK: u64 = 4;
 
 /// Which of two numbers.
 type Pick = fn(f64, f64) -> f64;
@@ -60,15 +61,13 @@ const EXTREMES: [(&str, Pick); 2] = [("least", f64::min), ("most", f64::max)];
 
 /// Records of several classes.
 pub(super) struct Records {
-    context: Context,
     table: Table,
-    counters: Counters,
 }
 
 impl Records {
     /// One record of a class.
-    fn trial(&self, class: Class, trial: u64) -> Sums {
-        let record = Record::new(class, self.context.seed, trial);
+    fn trial(&self, class: Class, seed: u64, trial: u64) -> Sums {
+        let record = Record::new(class, seed, trial);
         let (table, tolerance) = (&self.table, self.table.tolerance.get());
         let Ok(design) = table.settings.at(record.rate) else {
             unreachable!("rates lie in 5 to 500 Hz, which every block fits")
@@ -84,65 +83,68 @@ impl Records {
     }
 }
 
-impl Study for Records {
+impl Outcomes for Records {
     const NAME: &'static str = "records";
-    const USES: &'static [&'static str] = &[];
-    const COUNTS_TRIALS: bool = true;
+    /// A record takes tens of milliseconds.
+    const BLOCK: u64 = 4;
+    type Point = Class;
     type Row = Row;
 
-    fn read(experiment: &Experiment, context: Context) -> Result<Self, StudyError> {
+    fn read(experiment: &Experiment) -> Result<Self, StudyError> {
         let table: Table = experiment.read()?;
         table.check().map_err(|error| experiment.refuse(error))?;
         let settings = table.settings.check();
         settings.map_err(|error| {
             experiment.refuse(error.called(|path| format!("records.settings.{path}")))
         })?;
-        let shape = table.watch.shape();
-        let mut records = Self {
-            context,
-            table,
-            counters: Counters::default(),
-        };
-        records.counters = Counters::new(&records, context.seed, &shape);
-        Ok(records)
+        Ok(Self { table })
     }
 
     fn schema(generator: &mut SchemaGenerator) -> Value {
         Table::json_schema(generator).to_value()
     }
 
-    fn identities(&self) -> Vec<Identity> {
-        let classes = self.table.class.iter();
-        classes.map(|class| self.table.identity(*class)).collect()
+    fn points(&self) -> &[Class] {
+        &self.table.class
     }
 
-    fn trials(&self) -> Option<Box<dyn Trials + '_>> {
-        Some(Box::new(self))
+    fn identity(&self, class: &Class) -> Identity {
+        self.table.identity(*class)
     }
 
-    /// All outcomes of each class in turn.
-    fn rows(&self, counts: &Counts) -> Vec<Row> {
-        let Self { context, table, .. } = self;
-        let shape = table.watch.shape();
-        let mut rows = Vec::new();
-        for (class, key) in table.class.iter().zip(&self.counters.keys) {
-            let (trials, sums) = counted(counts, key, &shape);
-            let estimates = table.watch.estimates(&sums, trials, context.confidence);
-            let estimates = estimates.into_iter();
-            rows.extend(estimates.map(|of| Row::new(*class, of, table, context)));
-        }
-        rows
+    fn shape(&self) -> Shape {
+        self.table.watch.shape()
     }
 
-    /// Each outcome by its name and that of its class; and its least and largest, where it could happen.
-    fn quantities(&self, rows: &[Row]) -> Result<Vec<Quantity>, StudyError> {
-        let quantity = |row: &Row| Quantity {
-            name: format!("{}_{}", row.outcome, row.class),
-            value: row.estimate,
-            low: row.low,
-            high: row.high,
+    fn trials(&self, classes: &[&Class], seed: u64, trial: u64) -> Vec<Sums> {
+        let each = classes.iter().map(|class| self.trial(**class, seed, trial));
+        each.collect()
+    }
+
+    fn check(&self, _: &Class, sums: &Sums, _: u64) -> Result<(), OutOfRange> {
+        self.table.watch.check(sums)
+    }
+
+    fn estimates(&self, _: &Class, sums: &Sums, records: u64, confidence: f64) -> Vec<Estimate> {
+        self.table.watch.estimates(sums, records, confidence)
+    }
+
+    fn row(&self, class: &Class, estimate: Estimate, context: &Context) -> Row {
+        let columns = Columns {
+            class: *class,
+            watch: self.table.watch.to_string(),
+            tolerance: self.table.tolerance.get(),
         };
-        let mut quantities: Vec<Quantity> = rows.iter().map(quantity).collect();
+        columns.row(estimate, context)
+    }
+
+    fn name(&self, row: &Row) -> String {
+        row.class.to_string()
+    }
+
+    /// The least and the largest of each outcome, where it could happen.
+    fn extremes(&self, rows: &[Row]) -> Vec<Quantity> {
+        let mut quantities = Vec::new();
         let outcomes = rows.iter().filter(|row| row.class == rows[0].class);
         for outcome in outcomes.map(|row| &row.outcome) {
             let mut of: Vec<&Row> = rows.iter().filter(|row| row.outcome == *outcome).collect();
@@ -169,38 +171,10 @@ impl Study for Records {
                 }
             }
         }
-        Ok(quantities)
+        quantities
     }
 
     fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
         Ok(picture::plot(rows, self.table.watch, seed))
-    }
-}
-
-impl Trials for &Records {
-    fn targets(&self) -> &[Target] {
-        &self.counters.targets
-    }
-
-    fn block(&self) -> u64 {
-        BLOCK
-    }
-
-    fn check(&self, counts: &Counts) -> Result<(), StudyError> {
-        for key in &self.counters.keys {
-            if let Some(counter) = counts.get(key) {
-                let checked = self.table.watch.check(&counter.sums);
-                checked.map_err(|error| format!("counter {key}: {error}"))?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Each class forms a group of its own.
-    fn groups(&self, targets: &[usize]) -> Vec<Group<'_>> {
-        self.counters.apart(targets, |at| {
-            let class = self.table.class[at];
-            move |number| self.trial(class, number)
-        })
     }
 }

@@ -5,6 +5,9 @@ use super::watched::Danger;
 use super::*;
 use crate::lift::Journey;
 use crate::monitor::Direction;
+use crate::run::Trials;
+use crate::study::kind::Study;
+use crate::study::outcomes::Of;
 use crate::study::parse;
 use crate::study::tests::{UP, read, rows};
 
@@ -127,7 +130,7 @@ const HEAD: &str = "question = \"?\"\nseed = 5\ntrials = 3\n[records]\n";
 fn outcomes_of_each_class() {
     for (watch, outcomes) in [("detect", 7), ("monitor", 13)] {
         let class = "class = [\"ordinary\", \"drum\"]\n";
-        let study: Records = read(&format!("{HEAD}watch = \"{watch}\"\n{class}"));
+        let study: Of<Records> = read(&format!("{HEAD}watch = \"{watch}\"\n{class}"));
         let rows = rows(&study, 3);
         assert_eq!(rows.len(), 2 * outcomes);
         for row in &rows {
@@ -151,8 +154,7 @@ fn outcomes_of_each_class() {
 fn refusals() {
     let refused = |table: &str| {
         let experiment = parse("test", &format!("{HEAD}{table}")).unwrap();
-        let context = Context::of(&experiment, true);
-        let refused = Records::read(&experiment, context).err();
+        let refused = Records::read(&experiment).err();
         refused.expect("it is refused").to_string()
     };
     let class = "watch = \"detect\"\nclass = ";

@@ -28,120 +28,90 @@ mod trial;
 
 pub use row::Row;
 
-use crate::counts::Counts;
+use crate::counts::{Shape, Sums};
 use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
-use crate::results::Quantity;
-use crate::rule::Rule;
-use crate::run::{Group, Identity, StudyError, Target, Trials};
-use crate::study::kind::{Context, Counters, Study, counted};
+use crate::rule::{OutOfRange, Rule};
+use crate::run::{Identity, StudyError};
+use crate::study::estimate::Estimate;
+use crate::study::kind::Context;
+use crate::study::outcomes::Outcomes;
+use row::Columns;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::Value;
 use table::{Point, Table};
 
-/// Trips in a block. One takes some milliseconds.
-const BLOCK: u64 = 16;
-
 /// Trips of several lengths under several conditions.
 pub(super) struct Trips {
-    context: Context,
     table: Table,
     points: Vec<Point>,
-    counters: Counters,
 }
 
-impl Study for Trips {
+impl Outcomes for Trips {
     const NAME: &'static str = "trips";
-    const USES: &'static [&'static str] = &[];
-    const COUNTS_TRIALS: bool = true;
+    /// One takes some milliseconds.
+    const BLOCK: u64 = 16;
+    type Point = Point;
     type Row = Row;
 
-    fn read(experiment: &Experiment, context: Context) -> Result<Self, StudyError> {
+    fn read(experiment: &Experiment) -> Result<Self, StudyError> {
         let table: Table = experiment.read()?;
         table.check().map_err(|error| experiment.refuse(error))?;
-        let mut trips = Self {
-            context,
-            points: table.points().collect(),
-            table,
-            counters: Counters::default(),
-        };
-        trips.counters = Counters::new(&trips, context.seed, &trial::shape());
-        Ok(trips)
+        let points = table.points().collect();
+        Ok(Self { table, points })
     }
 
     fn schema(generator: &mut SchemaGenerator) -> Value {
         Table::json_schema(generator).to_value()
     }
 
-    fn identities(&self) -> Vec<Identity> {
-        self.points.iter().map(Point::identity).collect()
+    fn points(&self) -> &[Point] {
+        &self.points
     }
 
-    fn trials(&self) -> Option<Box<dyn Trials + '_>> {
-        Some(Box::new(self))
+    fn identity(&self, point: &Point) -> Identity {
+        point.identity()
     }
 
-    /// All outcomes of each point in turn.
-    fn rows(&self, counts: &Counts) -> Vec<Row> {
-        let shape = trial::shape();
-        let mut rows = Vec::new();
-        for (point, key) in self.points.iter().zip(&self.counters.keys) {
-            let (trials, sums) = counted(counts, key, &shape);
-            let estimates = estimate::of(&sums, trials, self.context.confidence).into_iter();
-            rows.extend(estimates.map(|of| Row::new(*point, of, &self.context)));
-        }
-        rows
+    fn shape(&self) -> Shape {
+        trial::shape()
     }
 
-    /// Each outcome by its name and those of its condition and length.
-    fn quantities(&self, rows: &[Row]) -> Result<Vec<Quantity>, StudyError> {
-        let quantity = |row: &Row| {
-            let point = Point {
-                condition: row.condition,
-                distance: row.distance,
-            };
-            Quantity {
-                name: format!("{}_{}", row.outcome, point.name()),
-                value: row.estimate,
-                low: row.low,
-                high: row.high,
-            }
-        };
-        Ok(rows.iter().map(quantity).collect())
+    fn trials(&self, points: &[&Point], seed: u64, trial: u64) -> Vec<Sums> {
+        let each = points.iter().map(|point| trial::run(point, seed, trial));
+        each.collect()
     }
 
-    fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        Ok(picture::plot(rows, &self.table.condition, seed))
-    }
-}
-
-impl Trials for &Trips {
-    fn targets(&self) -> &[Target] {
-        &self.counters.targets
-    }
-
-    fn block(&self) -> u64 {
-        BLOCK
-    }
-
-    fn check(&self, counts: &Counts) -> Result<(), StudyError> {
-        for key in &self.counters.keys {
-            let counter = counts.get(key).into_iter();
-            for told in counter.flat_map(|it| it.sums.counts.chunks(trial::COUNTS)) {
-                let checked =
-                    Rule::Within(0.0, told[0] as f64, "").check("within", &(told[1] as f64));
-                checked.map_err(|error| format!("counter {key}: {error}"))?;
-            }
+    fn check(&self, _: &Point, sums: &Sums, _: u64) -> Result<(), OutOfRange> {
+        for told in sums.counts.chunks(trial::COUNTS) {
+            Rule::Within(0.0, told[0] as f64, "").check("within", &(told[1] as f64))?;
         }
         Ok(())
     }
 
-    /// Each point forms a group of its own.
-    fn groups(&self, targets: &[usize]) -> Vec<Group<'_>> {
-        self.counters.apart(targets, |at| {
-            let (point, seed) = (self.points[at], self.context.seed);
-            move |number| trial::run(&point, seed, number)
-        })
+    fn estimates(&self, _: &Point, sums: &Sums, trials: u64, confidence: f64) -> Vec<Estimate> {
+        estimate::of(sums, trials, confidence)
+    }
+
+    fn row(&self, point: &Point, estimate: Estimate, context: &Context) -> Row {
+        let Point {
+            condition,
+            distance,
+        } = *point;
+        let columns = Columns {
+            condition,
+            distance,
+        };
+        columns.row(estimate, context)
+    }
+
+    fn name(&self, row: &Row) -> String {
+        let distance = row.distance.to_string().replace('.', "_");
+        format!("{}_{distance}_m", row.condition)
+    }
+
+    fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
+        Ok(picture::plot(rows, &self.table.condition, seed))
     }
 }

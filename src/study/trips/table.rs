@@ -73,10 +73,4 @@ impl Point {
             ("distance", self.distance.to_string()),
         ])
     }
-
-    /// As a part of the name of a quantity: `typical_27_m`.
-    pub fn name(&self) -> String {
-        let distance = self.distance.to_string().replace('.', "_");
-        format!("{}_{distance}_m", self.condition)
-    }
 }

@@ -1,0 +1,9 @@
+//! The columns of `points.csv`.
+
+use super::condition::Condition;
+use crate::study::outcomes::outcome_row;
+
+outcome_row! {
+    condition: Condition,
+    ..
+}

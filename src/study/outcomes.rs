@@ -1,0 +1,288 @@
+//! Studies that count trials point by point and estimate several outcomes of each.
+//!
+//! A study says what its points are, what a trial is, and what follows from the sums of its trials. A row of its
+//! `points.csv` is one outcome of one point, with its interval; its quantities are the rows by name.
+
+use super::estimate::Estimate;
+use super::kind::{Context, Counters, Study, counted};
+use crate::counts::{Counts, Shape, Sums};
+use crate::experiment::Experiment;
+use crate::figure::FigureError;
+use crate::gate::Scenario;
+use crate::plot::Plot;
+use crate::results::Quantity;
+use crate::rule::OutOfRange;
+use crate::run::{Group, Identity, StudyError, Target, Trials};
+use schemars::SchemaGenerator;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// What such a study is.
+pub trait Outcomes: Send + Sync + Sized + 'static {
+    /// The name of its table.
+    const NAME: &'static str;
+    /// Trials in a block.
+    const BLOCK: u64;
+    type Point: Send + Sync;
+    type Row: OutcomeRow;
+
+    /// Reads its table.
+    ///
+    /// # Errors
+    /// If the table is invalid.
+    fn read(experiment: &Experiment) -> Result<Self, StudyError>;
+
+    /// The JSON Schema of its table.
+    fn schema(generator: &mut SchemaGenerator) -> Value;
+
+    /// In the order of the rows.
+    fn points(&self) -> &[Self::Point];
+
+    /// Every parameter of a point.
+    fn identity(&self, point: &Self::Point) -> Identity;
+
+    /// The shape of the sums of a trial.
+    fn shape(&self) -> Shape;
+
+    /// The sums of one trial of each of these points, which are of one [family](Self::family).
+    fn trials(&self, points: &[&Self::Point], seed: u64, trial: u64) -> Vec<Sums>;
+
+    /// What points have in common that are simulated together.
+    fn family(&self, point: &Self::Point) -> Identity {
+        self.identity(point)
+    }
+
+    /// Checks that so many trials of a point can give these sums.
+    ///
+    /// # Errors
+    /// If they cannot.
+    fn check(&self, point: &Self::Point, sums: &Sums, trials: u64) -> Result<(), OutOfRange>;
+
+    /// The outcomes of so many trials of a point.
+    fn estimates(
+        &self,
+        point: &Self::Point,
+        sums: &Sums,
+        trials: u64,
+        confidence: f64,
+    ) -> Vec<Estimate>;
+
+    /// An outcome of a point, as it is written.
+    fn row(&self, point: &Self::Point, estimate: Estimate, context: &Context) -> Self::Row;
+
+    /// The point of a row, as a part of the name of a quantity.
+    fn name(&self, row: &Self::Row) -> String;
+
+    /// Quantities beside the rows.
+    fn extremes(&self, _rows: &[Self::Row]) -> Vec<Quantity> {
+        Vec::new()
+    }
+
+    /// The false alarms that `check` tests, and the rate that each scenario promises.
+    fn false_alarms(&self, _rows: &[Self::Row]) -> Vec<Scenario> {
+        Vec::new()
+    }
+
+    /// Draws the rows.
+    ///
+    /// # Errors
+    /// If drawing fails.
+    fn plot(&self, rows: &[Self::Row], seed: u64) -> Result<Plot, FigureError>;
+}
+
+/// A row of such a study.
+pub trait OutcomeRow: Serialize + DeserializeOwned {
+    /// The name of the outcome.
+    fn outcome(&self) -> &str;
+    /// The estimate, and the ends of its interval.
+    fn value(&self) -> [f64; 3];
+}
+
+/// Such a study, with its counters.
+pub struct Of<T> {
+    study: T,
+    context: Context,
+    counters: Counters,
+}
+
+impl<T: Outcomes> Study for Of<T> {
+    const NAME: &'static str = T::NAME;
+    const USES: &'static [&'static str] = &[];
+    const COUNTS_TRIALS: bool = true;
+    type Row = T::Row;
+
+    fn read(experiment: &Experiment, context: Context) -> Result<Self, StudyError> {
+        let study = T::read(experiment)?;
+        let shape = study.shape();
+        let mut of = Self {
+            study,
+            context,
+            counters: Counters::default(),
+        };
+        of.counters = Counters::new(&of, context.seed, &shape);
+        Ok(of)
+    }
+
+    fn schema(generator: &mut SchemaGenerator) -> Value {
+        T::schema(generator)
+    }
+
+    fn identities(&self) -> Vec<Identity> {
+        let points = self.study.points().iter();
+        points.map(|point| self.study.identity(point)).collect()
+    }
+
+    fn trials(&self) -> Option<Box<dyn Trials + '_>> {
+        Some(Box::new(self))
+    }
+
+    /// All outcomes of each point in turn.
+    fn rows(&self, counts: &Counts) -> Vec<T::Row> {
+        let Self { study, context, .. } = self;
+        let shape = study.shape();
+        let points = study.points().iter().zip(&self.counters.keys);
+        let rows = points.flat_map(|(point, key)| {
+            let (trials, sums) = counted(counts, key, &shape);
+            let estimates = study.estimates(point, &sums, trials, context.confidence);
+            let rows = estimates.into_iter();
+            rows.map(|estimate| study.row(point, estimate.rounded(), context))
+        });
+        rows.collect()
+    }
+
+    fn quantities(&self, rows: &[T::Row]) -> Result<Vec<Quantity>, StudyError> {
+        let quantity = |row: &T::Row| {
+            let [value, low, high] = row.value();
+            Quantity {
+                name: format!("{}_{}", row.outcome(), self.study.name(row)),
+                value,
+                low,
+                high,
+            }
+        };
+        let mut quantities: Vec<Quantity> = rows.iter().map(quantity).collect();
+        quantities.extend(self.study.extremes(rows));
+        Ok(quantities)
+    }
+
+    fn false_alarms(&self, rows: &[T::Row]) -> Vec<Scenario> {
+        self.study.false_alarms(rows)
+    }
+
+    fn plot(&self, rows: &[T::Row], seed: u64) -> Result<Plot, FigureError> {
+        self.study.plot(rows, seed)
+    }
+}
+
+impl<T: Outcomes> Trials for &Of<T> {
+    fn targets(&self) -> &[Target] {
+        &self.counters.targets
+    }
+
+    fn block(&self) -> u64 {
+        T::BLOCK
+    }
+
+    fn check(&self, counts: &Counts) -> Result<(), StudyError> {
+        for (point, key) in self.study.points().iter().zip(&self.counters.keys) {
+            if let Some(counter) = counts.get(key) {
+                let checked = self.study.check(point, &counter.sums, counter.trials.len());
+                checked.map_err(|error| format!("counter {key}: {error}"))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Points of one family form a group.
+    fn groups(&self, targets: &[usize]) -> Vec<Group<'_>> {
+        let (study, seed) = (&self.study, self.context.seed);
+        let point = |target: usize| &study.points()[self.counters.points[target]];
+        let mut families: BTreeMap<Identity, Vec<usize>> = BTreeMap::new();
+        for target in targets {
+            let family = families.entry(study.family(point(*target)));
+            family.or_default().push(*target);
+        }
+        let group = |targets: Vec<usize>| {
+            let points: Vec<&T::Point> = targets.iter().map(|at| point(*at)).collect();
+            Group::new(targets, move |trials| {
+                let mut sums = vec![study.shape().empty().sums; points.len()];
+                for trial in trials {
+                    let more = study.trials(&points, seed, trial);
+                    let each = sums.iter_mut().zip(&more);
+                    each.for_each(|(sum, more)| sum.add(more));
+                }
+                sums
+            })
+        };
+        families.into_values().map(group).collect()
+    }
+}
+
+/// Declares the row of a study of outcomes: the columns of the point, `..` for those of the estimate, and more columns of the
+/// point.
+macro_rules! outcome_row {
+    ($($before:ident: $b:ty,)* .. $($after:ident: $a:ty,)*) => {
+        /// The columns of a point.
+        pub(super) struct Columns {
+            $(pub $before: $b,)*
+            $(pub $after: $a,)*
+        }
+
+        /// One row of `points.csv`: an outcome of a point.
+        #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+        #[allow(missing_docs, reason = "the columns are the config's own words")]
+        pub struct Row {
+            $(pub $before: $b,)*
+            pub outcome: String,
+            /// How often the event happened.
+            pub count: u64,
+            /// The number of cases, or the time, in which it could happen.
+            pub exposure: f64,
+            /// Unit of the exposure.
+            pub unit: String,
+            /// The rate of the event, the mean, or the quantile.
+            pub estimate: f64,
+            pub low: f64,
+            pub high: f64,
+            pub trials: u64,
+            pub confidence: f64,
+            $(pub $after: $a,)*
+        }
+
+        impl Columns {
+            /// With an outcome.
+            pub fn row(
+                self,
+                estimate: $crate::study::estimate::Estimate,
+                context: &$crate::study::kind::Context,
+            ) -> Row {
+                Row {
+                    $($before: self.$before,)*
+                    outcome: estimate.outcome,
+                    count: estimate.count,
+                    exposure: estimate.exposure,
+                    unit: estimate.unit.to_owned(),
+                    estimate: estimate.value,
+                    low: estimate.low,
+                    high: estimate.high,
+                    trials: context.trials,
+                    confidence: context.confidence,
+                    $($after: self.$after,)*
+                }
+            }
+        }
+
+        impl $crate::study::outcomes::OutcomeRow for Row {
+            fn outcome(&self) -> &str {
+                &self.outcome
+            }
+
+            fn value(&self) -> [f64; 3] {
+                [self.estimate, self.low, self.high]
+            }
+        }
+    };
+}
+pub(super) use outcome_row;

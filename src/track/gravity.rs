@@ -1,0 +1,321 @@
+//! Gravity at rest, from the three axes of an accelerometer in any pose, and what a reading is beside it.
+//!
+//! The way of [^1], eqs (1)–(4): readings whose length is an outlier are left out; what remains is taken by its geometric
+//! median, the point with the least sum of distances, found by Weiszfeld's iteration from their mean. As printed the
+//! iteration divides by zero where it meets a reading; Vardi and Zhang's step [^2] goes on from there, or ends there.
+//!
+//! Where the steps of the sensor are coarser than its noise, readings lie on a lattice, and their geometric median sticks to
+//! one of its points: there the mean is taken ([`Estimator::Calibration`]). Every estimator here is measured by
+//! `configs/gravity.toml`.
+//!
+//! A reading is then taken apart, eqs (7)–(10): the residual over gravity, its part along gravity, and what is left across
+//! it. Eq. (9) as printed is the product of that part and g, which is no acceleration; what is meant is its direction g/|g|.
+//!
+//! [^1]: The monitor with accelerometer and barometer, in Chinese (楊昱等, 太原理工大學學報).
+//! [^2]: Y. Vardi, C.-H. Zhang, "The multivariate L1-median and associated data depth", PNAS 97 (2000), eq. (2.6).
+
+use crate::vector::{Vector, dot, length, mix, unit};
+
+/// Readings are left out whose length is farther from the median length than this, in deviations of theirs, and in steps.
+const OUTLIER: f64 = 3.0;
+const STEPS: f64 = 2.0;
+
+/// The iteration ends with a step below this, m/s², or after so many.
+const STEP: f64 = 1e-8;
+const MOST_STEPS: usize = 1000;
+
+/// Every so many steps the nearest reading is tried.
+const TRIED: usize = 8;
+
+/// How gravity is found from readings at rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Estimator {
+    /// Their mean.
+    Mean,
+    /// The mean without outliers.
+    Trimmed,
+    /// Their geometric median.
+    Median,
+    /// As printed: the geometric median without outliers.
+    Printed,
+    /// As printed, but the mean without outliers where steps are coarser than the noise.
+    Calibration,
+}
+
+impl Estimator {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Mean,
+        Self::Trimmed,
+        Self::Median,
+        Self::Printed,
+        Self::Calibration,
+    ];
+
+    /// As a part of names.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mean => "mean",
+            Self::Trimmed => "trimmed",
+            Self::Median => "median",
+            Self::Printed => "printed",
+            Self::Calibration => "calibration",
+        }
+    }
+
+    /// Gravity from readings at rest, m/s², of a sensor with this step, m/s²; none without readings.
+    pub fn gravity(self, readings: &[Vector], step: f64) -> Option<Vector> {
+        if readings.is_empty() {
+            return None;
+        }
+        let sound = || without_outliers(readings, step);
+        Some(match self {
+            Self::Mean => mean(readings),
+            Self::Trimmed => mean(&sound()),
+            Self::Median => geometric_median(readings),
+            Self::Printed => geometric_median(&sound()),
+            Self::Calibration => {
+                let sound = sound();
+                if is_lattice(&sound, step) {
+                    mean(&sound)
+                } else {
+                    geometric_median(&sound)
+                }
+            }
+        })
+    }
+}
+
+/// A reading over gravity, taken apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parts {
+    /// Along gravity, m/s²: up positive, as the sensor reads gravity upwards.
+    pub vertical: f64,
+    /// Across it, m/s².
+    pub horizontal: Vector,
+}
+
+impl Parts {
+    /// Of a reading, where gravity is this; all of it is across if there is none.
+    pub fn of(reading: Vector, gravity: Vector) -> Self {
+        let residual = mix([(1.0, reading), (-1.0, gravity)]);
+        let Some(up) = unit(gravity) else {
+            return Self {
+                vertical: 0.0,
+                horizontal: residual,
+            };
+        };
+        let vertical = dot(residual, up);
+        Self {
+            vertical,
+            horizontal: mix([(1.0, residual), (-vertical, up)]),
+        }
+    }
+}
+
+/// The point with the least sum of distances from these, of which there is at least one.
+///
+/// Near a reading that is the median the iteration hardly moves, so every few steps the nearest is tried.
+pub fn geometric_median(points: &[Vector]) -> Vector {
+    let mut at = mean(points);
+    for step in 0..MOST_STEPS {
+        let pull = Pull::at(points, at);
+        if pull.is_balanced() {
+            return at;
+        }
+        if step % TRIED == 0 && Pull::at(points, pull.nearest).is_balanced() {
+            return pull.nearest;
+        }
+        let step = pull.step();
+        at = mix([(1.0, at), (1.0, step)]);
+        if length(step) < STEP {
+            break;
+        }
+    }
+    at
+}
+
+/// What draws a point to others.
+struct Pull {
+    /// The sum of the directions to them.
+    sum: Vector,
+    /// The sum of their inverse distances, s²/m.
+    weights: f64,
+    /// How many lie where it is.
+    here: f64,
+    nearest: Vector,
+}
+
+impl Pull {
+    fn at(points: &[Vector], at: Vector) -> Self {
+        let mut pull = Self {
+            sum: [0.0; 3],
+            weights: 0.0,
+            here: 0.0,
+            nearest: at,
+        };
+        let mut least = f64::INFINITY;
+        for point in points {
+            let to = mix([(1.0, *point), (-1.0, at)]);
+            let distance = length(to);
+            if distance == 0.0 {
+                pull.here += 1.0;
+                continue;
+            }
+            pull.weights += 1.0 / distance;
+            pull.sum = mix([(1.0, pull.sum), (1.0 / distance, to)]);
+            if distance < least {
+                (least, pull.nearest) = (distance, *point);
+            }
+        }
+        pull
+    }
+
+    /// Whether it is the median.
+    fn is_balanced(&self) -> bool {
+        length(self.sum) <= self.here
+    }
+
+    /// Weiszfeld's step, shortened by the readings that hold it.
+    fn step(&self) -> Vector {
+        let share = 1.0 - self.here / length(self.sum);
+        self.sum.map(|along| share / self.weights * along)
+    }
+}
+
+fn mean(points: &[Vector]) -> Vector {
+    let sum = points
+        .iter()
+        .fold([0.0; 3], |sum, it| mix([(1.0, sum), (1.0, *it)]));
+    sum.map(|along| along / points.len() as f64)
+}
+
+/// Those whose length is like that of the others: the deviation is that of the median distance from their median, so that
+/// the outliers themselves do not widen it.
+fn without_outliers(points: &[Vector], step: f64) -> Vec<Vector> {
+    let lengths: Vec<f64> = points.iter().map(|it| length(*it)).collect();
+    let middle = median(lengths.iter().copied());
+    let deviation = 1.4826 * median(lengths.iter().map(|it| (it - middle).abs()));
+    let most = (OUTLIER * deviation).max(STEPS * step);
+    let near = points.iter().zip(lengths);
+    let near = near.filter(|(_, length)| (length - middle).abs() <= most);
+    near.map(|(point, _)| *point).collect()
+}
+
+/// Whether the step is larger than the deviation of an axis.
+fn is_lattice(points: &[Vector], step: f64) -> bool {
+    let mean = mean(points);
+    let variance = |axis: usize| {
+        let squares = points.iter().map(|it| (it[axis] - mean[axis]).powi(2));
+        squares.sum::<f64>() / points.len() as f64
+    };
+    (0..3).any(|axis| step * step > variance(axis))
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    let middle = values.len() / 2;
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn sum_of_distances(points: &[Vector], at: Vector) -> f64 {
+        let distances = points
+            .iter()
+            .map(|it| length(mix([(1.0, *it), (-1.0, at)])));
+        distances.sum()
+    }
+
+    /// The least sum by trying 26 directions with ever smaller steps.
+    fn brute(points: &[Vector]) -> Vector {
+        let (mut at, mut step) = (mean(points), 4.0);
+        while step > 1e-9 {
+            let steps =
+                (0..27).map(|k| [k % 3, k / 3 % 3, k / 9].map(|it| step * (f64::from(it) - 1.0)));
+            let tried = steps.map(|by| mix([(1.0, at), (1.0, by)]));
+            let best = tried.min_by(|a, b| {
+                sum_of_distances(points, *a).total_cmp(&sum_of_distances(points, *b))
+            });
+            match best.filter(|it| sum_of_distances(points, *it) < sum_of_distances(points, at)) {
+                Some(better) => at = better,
+                None => step /= 2.0,
+            }
+        }
+        at
+    }
+
+    proptest! {
+        #[test]
+        fn it_is_the_least_sum_of_distances(
+            points in prop::collection::vec([-3.0..3.0f64, -3.0..3.0, -3.0..3.0], 4..30),
+        ) {
+            let (found, least) = (geometric_median(&points), brute(&points));
+            let off = length(mix([(1.0, found), (-1.0, least)]));
+            prop_assert!(off < 1e-6, "{:?} {:?}", found, least);
+        }
+
+        /// On a lattice it often is a reading, of which there are several.
+        #[test]
+        fn on_a_lattice_too(
+            points in prop::collection::vec([-2..3i32, -2..3, -2..3], 4..30),
+        ) {
+            let points: Vec<Vector> = points.iter().map(|it| it.map(f64::from)).collect();
+            let (found, least) = (geometric_median(&points), brute(&points));
+            let worse = sum_of_distances(&points, found) - sum_of_distances(&points, least);
+            prop_assert!(worse < 1e-6, "{:?} {:?}: {}", found, least, worse);
+        }
+
+        /// A reading is gravity and its parts, and the horizontal is across.
+        #[test]
+        fn parts_are_the_whole(
+            reading in [-20.0..20.0f64, -20.0..20.0, -20.0..20.0],
+            gravity in [-9.0..9.0f64, -9.0..9.0, 1.0..9.0],
+        ) {
+            let Parts { vertical, horizontal } = Parts::of(reading, gravity);
+            let up = unit(gravity).unwrap();
+            let whole = mix([(1.0, gravity), (vertical, up), (1.0, horizontal)]);
+            prop_assert!(length(mix([(1.0, whole), (-1.0, reading)])) < 1e-9);
+            prop_assert!(dot(horizontal, gravity).abs() < 1e-9);
+        }
+    }
+
+    /// The iteration begins at the mean, which here is a reading and not the median, and then is both.
+    #[test]
+    fn a_reading_at_the_start() {
+        let points = [
+            [0.0, 0.0, 0.0],
+            [4.0, 0.0, 0.0],
+            [-1.0, 1.0, 0.0],
+            [-3.0, -1.0, 0.0],
+        ];
+        let off = mix([(1.0, geometric_median(&points)), (-1.0, brute(&points))]);
+        assert!(length(off) < 1e-6);
+        let points = [[0.0; 3], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]];
+        assert_eq!(geometric_median(&points), [0.0; 3]);
+        assert_eq!(geometric_median(&[[1.0, 2.0, 3.0]; 5]), [1.0, 2.0, 3.0]);
+    }
+
+    #[test]
+    fn a_shock_is_left_out_and_a_lattice_is_averaged() {
+        let mut points: Vec<Vector> = (0..100)
+            .map(|k| [0.0, 0.01 * f64::from(k % 7), 9.8])
+            .collect();
+        points.push([0.0, 0.0, 30.0]);
+        let trimmed = Estimator::Trimmed.gravity(&points, 0.0).unwrap();
+        assert!((trimmed[2] - 9.8).abs() < 1e-9);
+        let coarse: Vec<Vector> = (0..100)
+            .map(|k| [0.0, 0.0, if k % 4 == 0 { 9.7 } else { 9.9 }])
+            .collect();
+        assert_eq!(
+            Estimator::Printed.gravity(&coarse, 0.2),
+            Some([0.0, 0.0, 9.9])
+        );
+        let mean = Estimator::Calibration.gravity(&coarse, 0.2).unwrap();
+        assert!((mean[2] - 9.85).abs() < 1e-9);
+        assert_eq!(Estimator::Mean.gravity(&[], 0.0), None);
+    }
+}
