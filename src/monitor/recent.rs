@@ -165,7 +165,7 @@ impl Recent {
         self.noise.deviation()
     }
 
-    /// Whether a quarter of a part has passed since there could be a plateau.
+    /// Whether to look for a plateau: at every quarter of a part, once there are three.
     pub fn is_due(&self) -> bool {
         self.count >= 3 * self.part && self.count.is_multiple_of((self.part / 4).max(1))
     }

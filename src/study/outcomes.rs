@@ -49,7 +49,7 @@ pub trait Outcomes: Send + Sync + Sized + 'static {
     /// The sums of one trial of each of these points, which are of one [family](Self::family).
     fn trials(&self, points: &[&Self::Point], seed: u64, trial: u64) -> Vec<Sums>;
 
-    /// What points have in common that are simulated together.
+    /// What points share that are simulated together; by default none does.
     fn family(&self, point: &Self::Point) -> Identity {
         self.identity(point)
     }
@@ -75,7 +75,7 @@ pub trait Outcomes: Send + Sync + Sized + 'static {
     /// The point of a row, as a part of the name of a quantity.
     fn name(&self, row: &Self::Row) -> String;
 
-    /// Quantities beside the rows.
+    /// Quantities that follow from several rows.
     fn extremes(&self, _rows: &[Self::Row]) -> Vec<Quantity> {
         Vec::new()
     }
