@@ -7,6 +7,7 @@
 
 mod any;
 pub(crate) mod autocorrelation;
+mod curves;
 mod dots;
 mod estimate;
 pub mod floors;
@@ -48,7 +49,7 @@ pub const STUDIES: &[Entry] = &[
     Entry::of::<independence::Independence>(),
     Entry::of::<impulse_law::ImpulseLaw>(),
     Entry::of::<operating_point::OperatingPoint>(),
-    Entry::of::<ride::Rides>(),
+    Entry::of::<outcomes::Of<ride::Rides>>(),
     Entry::of::<outcomes::Of<records::Records>>(),
     Entry::of::<outcomes::Of<floors::Buildings>>(),
     Entry::of::<outcomes::Of<trips::Trips>>(),

@@ -220,21 +220,20 @@ impl<T: Outcomes> Trials for &Of<T> {
     }
 }
 
-/// Declares the row of a study of outcomes: the columns of the point, `..` for those of the estimate, and more columns of the
-/// point.
+/// Declares the row of a study of outcomes: from what it is made, the columns of the point with their types and values,
+/// and `..` where those of the estimate stand.
 macro_rules! outcome_row {
-    ($($before:ident: $b:ty,)* .. $($after:ident: $a:ty,)*) => {
-        /// The columns of a point.
-        pub(super) struct Columns {
-            $(pub $before: $b,)*
-            $(pub $after: $a,)*
-        }
-
+    (
+        |$($from:ident: $of:ty),*|
+        $($(#[$first:meta])* $before:ident: $b:ty = $one:expr;)*
+        ..
+        $($(#[$later:meta])* $after:ident: $a:ty = $other:expr;)*
+    ) => {
         /// One row of `points.csv`: an outcome of a point.
         #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
         #[allow(missing_docs, reason = "the columns are the config's own words")]
         pub struct Row {
-            $(pub $before: $b,)*
+            $($(#[$first])* pub $before: $b,)*
             pub outcome: String,
             /// How often the event happened.
             pub count: u64,
@@ -248,18 +247,18 @@ macro_rules! outcome_row {
             pub high: f64,
             pub trials: u64,
             pub confidence: f64,
-            $(pub $after: $a,)*
+            $($(#[$later])* pub $after: $a,)*
         }
 
-        impl Columns {
-            /// With an outcome.
-            pub fn row(
-                self,
+        impl Row {
+            /// An outcome of a point.
+            pub(super) fn new(
+                $($from: $of,)*
                 estimate: $crate::study::estimate::Estimate,
                 context: &$crate::study::kind::Context,
-            ) -> Row {
-                Row {
-                    $($before: self.$before,)*
+            ) -> Self {
+                Self {
+                    $($before: $one,)*
                     outcome: estimate.outcome,
                     count: estimate.count,
                     exposure: estimate.exposure,
@@ -269,7 +268,7 @@ macro_rules! outcome_row {
                     high: estimate.high,
                     trials: context.trials,
                     confidence: context.confidence,
-                    $($after: self.$after,)*
+                    $($after: $other,)*
                 }
             }
         }

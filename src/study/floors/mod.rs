@@ -39,15 +39,16 @@ use crate::plot::Plot;
 use crate::rule::{OutOfRange, Rule};
 use crate::run::{Identity, StudyError};
 use crate::stats::tally::Tally;
+use crate::study::curves::{self, Point};
 use crate::study::estimate::Estimate;
 use crate::study::kind::Context;
 use crate::study::outcomes::Outcomes;
+use keys::Keys;
 use measure::Measure;
-use row::Columns;
 use schemars::SchemaGenerator;
 use serde_json::Value;
 use std::collections::BTreeSet;
-use table::{Point, Table};
+use table::Table;
 
 /// Buildings along an axis.
 pub(super) struct Buildings {
@@ -58,7 +59,7 @@ impl Outcomes for Buildings {
     const NAME: &'static str = "floors";
     /// One of 1000 trips takes about ten milliseconds.
     const BLOCK: u64 = 8;
-    type Point = Point;
+    type Point = Point<Keys>;
     type Row = Row;
 
     fn read(experiment: &Experiment) -> Result<Self, StudyError> {
@@ -67,14 +68,14 @@ impl Outcomes for Buildings {
     }
 
     fn schema(generator: &mut SchemaGenerator) -> Value {
-        table::schema(generator)
+        curves::schema::<Keys>(generator)
     }
 
-    fn points(&self) -> &[Point] {
+    fn points(&self) -> &[Point<Keys>] {
         &self.table.points
     }
 
-    fn identity(&self, point: &Point) -> Identity {
+    fn identity(&self, point: &Point<Keys>) -> Identity {
         point.identity(self.table.measure)
     }
 
@@ -82,40 +83,45 @@ impl Outcomes for Buildings {
         trial::shape(self.table.measure, &self.table.points)
     }
 
-    fn trials(&self, points: &[&Point], seed: u64, trial: u64) -> Vec<Sums> {
+    fn trials(&self, points: &[&Point<Keys>], seed: u64, trial: u64) -> Vec<Sums> {
         trial::run(self.table.measure, points, seed, trial)
     }
 
     /// A building.
-    fn family(&self, point: &Point) -> Identity {
+    fn family(&self, point: &Point<Keys>) -> Identity {
         point.building(self.table.measure)
     }
 
     /// As many stops as trips, and no more alarms than stops.
-    fn check(&self, point: &Point, sums: &Sums, trials: u64) -> Result<(), OutOfRange> {
+    fn check(&self, point: &Point<Keys>, sums: &Sums, trials: u64) -> Result<(), OutOfRange> {
         let counts = &sums.counts;
         let (stops, events) = match self.table.measure {
             Measure::Alarm => (counts[2], &counts[3..]),
             Measure::Stops => (counts[0], &counts[1..]),
             Measure::Position | Measure::Healing => return Ok(()),
         };
-        let all = trials.saturating_mul(point.keys.trips as u64) as f64;
+        let all = trials.saturating_mul(point.of.trips as u64) as f64;
         Rule::Within(all, all, "").check("stops", &(stops as f64))?;
         let most = events.iter().copied().max().unwrap_or_default();
         Rule::Within(0.0, stops as f64, "").check("alarms", &(most as f64))
     }
 
-    fn estimates(&self, point: &Point, sums: &Sums, trials: u64, confidence: f64) -> Vec<Estimate> {
-        estimate::of(self.table.measure, &point.keys, sums, trials, confidence)
+    fn estimates(
+        &self,
+        point: &Point<Keys>,
+        sums: &Sums,
+        trials: u64,
+        confidence: f64,
+    ) -> Vec<Estimate> {
+        estimate::of(self.table.measure, &point.of, sums, trials, confidence)
     }
 
-    fn row(&self, point: &Point, estimate: Estimate, context: &Context) -> Row {
-        Columns::of(&self.table, point).row(estimate, context)
+    fn row(&self, point: &Point<Keys>, estimate: Estimate, context: &Context) -> Row {
+        Row::new(&self.table, point, estimate, context)
     }
 
     fn name(&self, row: &Row) -> String {
-        let curve = self.table.name(row.curve - 1);
-        format!("{curve}_at_{}", row.x.to_string().replace('.', "_"))
+        self.table.name(row.curve, row.x)
     }
 
     /// Ordinary stops of each building, which several points may share.

@@ -3,9 +3,9 @@
 use super::building::{Building, Measured};
 use super::keys::Keys;
 use super::measure::Measure;
-use super::table::Point;
 use crate::counts::{Fixed, Shape, Sums};
 use crate::rng::Stream;
+use crate::study::curves::Point;
 use crate::track::floors::{Floors, Map, Start, Stop};
 use libm::sqrt;
 
@@ -32,10 +32,10 @@ struct Stops {
 }
 
 /// What a measure sums up.
-pub fn shape(measure: Measure, points: &[Point]) -> Shape {
+pub fn shape(measure: Measure, points: &[Point<Keys>]) -> Shape {
     let trips = points
         .iter()
-        .map(|point| point.keys.trips)
+        .map(|point| point.of.trips)
         .max()
         .unwrap_or_default();
     let (one, trips) = (Some(1), Some(trips as u64));
@@ -57,8 +57,8 @@ pub fn shape(measure: Measure, points: &[Point]) -> Shape {
 }
 
 /// The sums of one trial for points that share a building.
-pub fn run(measure: Measure, points: &[&Point], seed: u64, trial: u64) -> Vec<Sums> {
-    let keys = &points[0].keys;
+pub fn run(measure: Measure, points: &[&Point<Keys>], seed: u64, trial: u64) -> Vec<Sums> {
+    let keys = &points[0].of;
     let mut run = Run::new(keys, seed, trial);
     let probes = Stream::new(seed, "floors after", "").at(trial);
     if measure == Measure::Position {
@@ -67,20 +67,20 @@ pub fn run(measure: Measure, points: &[&Point], seed: u64, trial: u64) -> Vec<Su
     (0..keys.trips).for_each(|_| run.ride());
     run.building.draws = probes;
     match measure {
-        Measure::Alarm => points.iter().map(|point| run.alarm(&point.keys)).collect(),
+        Measure::Alarm => points.iter().map(|point| run.alarm(&point.of)).collect(),
         Measure::Healing => run.healing(points),
         Measure::Stops | Measure::Position => vec![Sums::of(&run.counted.counts())],
     }
 }
 
 /// The errors after each point's trips, in one course.
-fn positions(mut run: Run, points: &[&Point]) -> Vec<Sums> {
+fn positions(mut run: Run, points: &[&Point<Keys>]) -> Vec<Sums> {
     let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_by_key(|at| points[*at].keys.trips);
+    order.sort_by_key(|at| points[*at].of.trips);
     let mut sums = vec![Sums::default(); points.len()];
     let mut done = 0;
     for at in order {
-        let trips = points[at].keys.trips;
+        let trips = points[at].of.trips;
         (done..trips).for_each(|_| run.ride());
         done = trips;
         sums[at] = run.errors();
@@ -172,17 +172,17 @@ impl Run {
     }
 
     /// After a trip that the map is not told of.
-    fn healing(mut self, points: &[&Point]) -> Vec<Sums> {
+    fn healing(mut self, points: &[&Point<Keys>]) -> Vec<Sums> {
         let to = self.building.next();
         self.building.go(to, 0.0);
         let mut sums = vec![Sums::of(&[0]); points.len()];
-        let longest = points.iter().map(|point| point.keys.since).max();
+        let longest = points.iter().map(|point| point.of.since).max();
         for since in 1..=longest.unwrap_or_default() {
             let to = self.building.next();
             let trip = self.building.go(to, 0.0);
             let is_right = self.step(trip).floor == Some(to);
             for (point, sums) in points.iter().zip(&mut sums) {
-                if point.keys.since == since {
+                if point.of.since == since {
                     sums.counts[0] = u64::from(is_right);
                 }
             }

@@ -31,7 +31,6 @@ use crate::study::outcomes::Outcomes;
 use crate::track::gravity::Estimator;
 use crate::vector::{dot, mix};
 use condition::{Condition, Window};
-use row::Columns;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -130,8 +129,7 @@ impl Outcomes for Windows {
     }
 
     fn row(&self, condition: &Condition, estimate: Estimate, context: &Context) -> Row {
-        let condition = *condition;
-        Columns { condition }.row(estimate, context)
+        Row::new(*condition, estimate, context)
     }
 
     fn name(&self, row: &Row) -> String {

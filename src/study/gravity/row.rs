@@ -4,6 +4,7 @@ use super::condition::Condition;
 use crate::study::outcomes::outcome_row;
 
 outcome_row! {
-    condition: Condition,
+    |at: Condition|
+    condition: Condition = at;
     ..
 }

@@ -47,7 +47,6 @@ use crate::study::estimate::Estimate;
 use crate::study::kind::Context;
 use crate::study::outcomes::Outcomes;
 use detect::{Told, detect};
-use row::Columns;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::Value;
 use table::{Table, Watch};
@@ -130,12 +129,7 @@ impl Outcomes for Records {
     }
 
     fn row(&self, class: &Class, estimate: Estimate, context: &Context) -> Row {
-        let columns = Columns {
-            class: *class,
-            watch: self.table.watch.to_string(),
-            tolerance: self.table.tolerance.get(),
-        };
-        columns.row(estimate, context)
+        Row::new(&self.table, *class, estimate, context)
     }
 
     fn name(&self, row: &Row) -> String {

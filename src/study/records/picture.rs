@@ -67,7 +67,7 @@ pub fn plot(rows: &[Row], watch: Watch, seed: u64) -> Plot {
     plot
 }
 
-/// From 0 to 1, or from a decade below the least number to 1.
+/// From 0 to 1, or to 1 from a decade that leaves a bar to be seen of the least number.
 fn x_axis(rows: &[&Row], is_logarithmic: bool) -> Axis {
     if !is_logarithmic {
         return Axis::linear(0.0, 1.0, 5).within(-0.02, 1.02);
@@ -75,7 +75,7 @@ fn x_axis(rows: &[&Row], is_logarithmic: bool) -> Axis {
     let cases = rows.iter().filter(|row| row.exposure > 0.0);
     let least = cases.flat_map(|row| [row.low, row.high]);
     let least = least.filter(|share| *share > 0.0).fold(0.1, f64::min);
-    Axis::decades(log10(least).floor(), 0.0)
+    Axis::decades((log10(least) - 0.5).floor(), 0.0)
 }
 
 /// The interval and the estimate of each row, the first on top; none of what could not happen. On a logarithmic axis an interval from 0 begins at

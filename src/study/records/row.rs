@@ -1,11 +1,13 @@
 //! The columns of `points.csv`.
 
+use super::table::Table;
 use crate::lift::Class;
 use crate::study::outcomes::outcome_row;
 
 outcome_row! {
-    class: Class,
+    |table: &Table, of: Class|
+    class: Class = of;
     ..
-    watch: String,
-    tolerance: f64,
+    watch: String = table.watch.to_string();
+    tolerance: f64 = table.tolerance.get();
 }

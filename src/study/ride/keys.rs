@@ -3,7 +3,6 @@
 
 use super::problem::RideProblem;
 use crate::config::{Conflict, Node, Refusal};
-use crate::fields::names;
 use crate::monitor::Settings;
 use crate::signal::{Disturbance, Impulses, Jolt, Quantum};
 use crate::values::{NonNegative, Positive, Probability};
@@ -95,20 +94,6 @@ impl Default for RideKeys {
 
 /// The three keys for the strength of the noise, of which a point uses one.
 pub const STRENGTH: [&str; 3] = ["sigma", "density", "delta_over_sigma"];
-
-/// All keys that a curve may change and an axis may sweep.
-pub fn all() -> impl Iterator<Item = &'static str> + Clone {
-    let own = names::<RideKeys>().iter().copied();
-    own.chain(Settings::names())
-}
-
-/// Refuses the first key of a table that is neither a parameter nor in `more`.
-pub fn check_known(table: &Node, more: &[&'static str]) -> Result<(), Conflict> {
-    match table.unknown(more.iter().copied().chain(all())) {
-        Some((span, among)) => Err(Conflict::at(&span, RideProblem::UnknownKey(among))),
-        None => Ok(()),
-    }
-}
 
 /// Reads the keys of the ride and of the monitor.
 pub fn read(values: &Node) -> Result<(RideKeys, Settings), Conflict> {

@@ -39,142 +39,87 @@ mod watch;
 
 pub use row::Row;
 
-use crate::counts::{Counter, Counts};
+use crate::counts::{Shape, Sums};
 use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::plot::Plot;
-use crate::results::Quantity;
-use crate::run::{Group, Identity, StudyError, Target, Trials};
-use crate::study::kind::{Context, Counters, Study, counted};
+use crate::rule::OutOfRange;
+use crate::run::{Identity, StudyError};
+use crate::study::curves::{self, Point};
+use crate::study::estimate::Estimate;
+use crate::study::kind::Context;
+use crate::study::outcomes::Outcomes;
 use point::RidePoint;
 use schemars::SchemaGenerator;
 use serde_json::Value;
 use sums::RideSums;
-use table::RideTable;
-use watch::Watch;
-
-/// Trials in a block. A trial takes milliseconds.
-const BLOCK: u64 = 4;
+use table::Table;
 
 /// Rides along an axis.
 pub(super) struct Rides {
-    context: Context,
-    table: RideTable,
-    counters: Counters,
+    table: Table,
 }
 
-impl Rides {
-    /// Each point with the index of its curve and its value on the axis.
-    fn points(&self) -> impl Iterator<Item = (usize, f64, &RidePoint)> {
-        let curves = self.table.curves.iter().enumerate();
-        curves.flat_map(|(curve, of)| of.points.iter().map(move |(x, point)| (curve, *x, point)))
-    }
-}
-
-impl Study for Rides {
+impl Outcomes for Rides {
     const NAME: &'static str = "ride";
-    const USES: &'static [&'static str] = &[];
-    const COUNTS_TRIALS: bool = true;
+    /// A trial takes milliseconds.
+    const BLOCK: u64 = 4;
+    type Point = Point<RidePoint>;
     type Row = Row;
 
-    fn read(experiment: &Experiment, context: Context) -> Result<Self, StudyError> {
-        let table = RideTable::read(experiment)?;
-        let shape = RideSums::shape(&table);
-        let mut rides = Self {
-            context,
-            table,
-            counters: Counters::default(),
-        };
-        rides.counters = Counters::new(&rides, context.seed, &shape);
-        Ok(rides)
+    fn read(experiment: &Experiment) -> Result<Self, StudyError> {
+        let table = Table::read(experiment)?;
+        Ok(Self { table })
     }
 
     fn schema(generator: &mut SchemaGenerator) -> Value {
-        table::schema(generator)
+        curves::schema::<RidePoint>(generator)
     }
 
-    fn identities(&self) -> Vec<Identity> {
-        self.points().map(|(.., point)| point.identity()).collect()
+    fn points(&self) -> &[Point<RidePoint>] {
+        &self.table.points
     }
 
-    fn trials(&self) -> Option<Box<dyn Trials + '_>> {
-        Some(Box::new(self))
+    fn identity(&self, point: &Point<RidePoint>) -> Identity {
+        point.of.identity()
     }
 
-    /// All outcomes of all points, in the order of curves and values.
-    fn rows(&self, counts: &Counts) -> Vec<Row> {
-        let Self { context, table, .. } = self;
-        let shape = RideSums::shape(table);
-        let mut rows = Vec::new();
-        for ((curve, x, point), key) in self.points().zip(&self.counters.keys) {
-            let (trials, sums) = counted(counts, key, &shape);
-            let size = Watch::new(point, context.seed).size();
-            let estimates = estimate::of(table.measure, &sums.into(), trials, context.confidence);
-            for estimate in estimates {
-                rows.push(Row::new(table, curve, x, point, size, estimate, context));
-            }
-        }
-        rows
+    fn shape(&self) -> Shape {
+        RideSums::shape(&self.table)
     }
 
-    /// Each outcome by name. The name joins those of the outcome, its curve and its place on the axis.
-    fn quantities(&self, rows: &[Row]) -> Result<Vec<Quantity>, StudyError> {
-        let quantity = |row: &Row| {
-            let curve = self.table.curves[row.curve - 1].name();
-            let x = row.x.to_string().replace('.', "_");
-            Quantity {
-                name: format!("{}_{curve}_at_{x}", row.outcome),
-                value: row.estimate,
-                low: row.low,
-                high: row.high,
-            }
-        };
-        Ok(rows.iter().map(quantity).collect())
+    fn trials(&self, points: &[&Point<RidePoint>], seed: u64, trial: u64) -> Vec<Sums> {
+        let each = points.iter().map(|point| {
+            let mut sums = RideSums::default();
+            sums.add(&point.of.trial(seed, trial));
+            sums.into()
+        });
+        each.collect()
+    }
+
+    fn check(&self, point: &Point<RidePoint>, sums: &Sums, trials: u64) -> Result<(), OutOfRange> {
+        RideSums::from(sums.clone()).check(&point.of, trials)
+    }
+
+    fn estimates(
+        &self,
+        _: &Point<RidePoint>,
+        sums: &Sums,
+        trials: u64,
+        confidence: f64,
+    ) -> Vec<Estimate> {
+        estimate::of(self.table.measure, &sums.clone().into(), trials, confidence)
+    }
+
+    fn row(&self, point: &Point<RidePoint>, estimate: Estimate, context: &Context) -> Row {
+        Row::new(&self.table, point, estimate, context)
+    }
+
+    fn name(&self, row: &Row) -> String {
+        self.table.name(row.curve, row.x)
     }
 
     fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        let curves = self.table.curves.iter();
-        let labels: Vec<String> = curves.map(|curve| curve.label.clone()).collect();
-        let rides = picture::Rides {
-            measure: self.table.measure,
-            axis: &self.table.axis,
-            labels: &labels,
-            seed,
-        };
-        Ok(picture::plot(rows, &rides))
-    }
-}
-
-impl Trials for &Rides {
-    fn targets(&self) -> &[Target] {
-        &self.counters.targets
-    }
-
-    fn block(&self) -> u64 {
-        BLOCK
-    }
-
-    fn check(&self, counts: &Counts) -> Result<(), StudyError> {
-        for ((.., point), key) in (*self).points().zip(&self.counters.keys) {
-            if let Some(Counter { trials, sums }) = counts.get(key) {
-                let checked = RideSums::from(sums.clone()).check(point, trials.len());
-                checked.map_err(|error| format!("counter {key}: {error}"))?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Each point forms a group of its own.
-    fn groups(&self, targets: &[usize]) -> Vec<Group<'_>> {
-        let points: Vec<&RidePoint> = (*self).points().map(|(.., point)| point).collect();
-        let group = |&at: &usize| {
-            let watch = Watch::new(points[self.counters.points[at]], self.context.seed);
-            Group::new(vec![at], move |trials| {
-                let mut sums = RideSums::default();
-                trials.for_each(|trial| sums.add(&watch.trial(trial)));
-                vec![sums.into()]
-            })
-        };
-        targets.iter().map(group).collect()
+        Ok(picture::plot(rows, &self.table, seed))
     }
 }

@@ -3,22 +3,12 @@
 
 use super::measure::Measure;
 use super::row::Row;
+use super::table::Table;
 use crate::format::thousands;
 use crate::plot::{
     Axis, Curve, Entry, Key, Limit, Mark, Place, Plot, Point, Style, add_bands, ends, is_long,
     literal,
 };
-
-/// What was asked of rides along an axis.
-#[derive(Clone, Copy, Debug)]
-pub struct Rides<'a> {
-    pub measure: Measure,
-    /// The key that is swept.
-    pub axis: &'a str,
-    /// Of the curves, in their order.
-    pub labels: &'a [String],
-    pub seed: u64,
-}
 
 /// What a panel shows.
 struct Shown {
@@ -42,10 +32,10 @@ enum Kind {
 }
 
 /// The picture of a study.
-pub fn plot(rows: &[Row], rides: &Rides) -> Plot {
-    let places = Places::new(rows, rides.measure);
-    let panels = shown(rides.measure).into_iter().map(|shown| {
-        let curves = (0..rides.labels.len()).map(|index| Curve {
+pub fn plot(rows: &[Row], table: &Table, seed: u64) -> Plot {
+    let places = Places::new(rows, table.measure);
+    let panels = shown(table.measure).into_iter().map(|shown| {
+        let curves = (0..table.labels.len()).map(|index| Curve {
             style: Style::of(index),
             points: places.points(&shown, index),
         });
@@ -57,7 +47,7 @@ pub fn plot(rows: &[Row], rides: &Rides) -> Plot {
     let heights = panels
         .iter()
         .map(|(shown, curves)| (shown.height, shown.y_axis(curves)));
-    let mut plot = Plot::stack(&x.labelled(axis_label(rides)), heights);
+    let mut plot = Plot::stack(&x.labelled(axis_label(table)), heights);
     plot.margins.legend = (6.0, 6.0);
     for (panel, (_, curves)) in panels.iter().enumerate() {
         plot.add(panel, Mark::Grid);
@@ -65,11 +55,11 @@ pub fn plot(rows: &[Row], rides: &Rides) -> Plot {
         plot.add(panel, Mark::Axes);
     }
     // One curve without a name of its own needs no legend.
-    if rides.labels != ["1"] {
-        let names = rides.labels.iter().map(|label| literal(label));
+    if table.labels != ["1"] {
+        let names = table.labels.iter().map(|label| literal(label));
         plot.add_legend(Entry::of_curves(names, Key::MarkedLine), Place::Free);
     }
-    plot.set_caption(&caption(rows, rides));
+    plot.set_caption(&caption(rows, table, seed));
     plot
 }
 
@@ -230,10 +220,10 @@ impl Shown {
     }
 }
 
-fn axis_label(rides: &Rides) -> String {
-    match rides.measure {
+fn axis_label(table: &Table) -> String {
+    match table.measure {
         Measure::Tradeoff => "median delay from a start to H_1*, s".to_owned(),
-        _ => key_in_words(rides.axis),
+        _ => key_in_words(&table.axis),
     }
 }
 
@@ -257,18 +247,18 @@ fn key_in_words(key: &str) -> String {
 }
 
 /// What all points share, and what is drawn.
-fn caption(rows: &[Row], rides: &Rides) -> Vec<String> {
-    let measure = rides.measure;
+fn caption(rows: &[Row], table: &Table, seed: u64) -> Vec<String> {
+    let measure = table.measure;
     let facts: Vec<_> = rows.iter().map(|row| facts(measure, row)).collect();
     let shared = (0..facts[0].len())
         .filter(|&index| facts.iter().all(|other| other[index] == facts[0][index]))
         .filter_map(|index| facts[0][index].clone());
     let mut parts: Vec<String> = shared.collect();
     parts.push(format!("{} trials per point", thousands(rows[0].trials)));
-    parts.push(format!("seed {}", rides.seed));
+    parts.push(format!("seed {}", seed));
     if measure == Measure::Tradeoff {
         let (first, last) = (rows[0].x, rows[rows.len() - 1].x);
-        let key = key_in_words(rides.axis);
+        let key = key_in_words(&table.axis);
         parts.push(format!("along each curve {key}, from {first} to {last}"));
     }
     let percent = 100.0 * rows[0].confidence;

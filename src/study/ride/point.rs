@@ -4,20 +4,20 @@ use super::keys::{RideKeys, STRENGTH};
 use super::measure::Measure;
 use super::problem::RideProblem;
 use crate::lift::{Drive, Ending, Pickup, Ride, RideError, Trip};
-use crate::monitor::Settings;
+use crate::monitor::{Design, Settings};
 use crate::rule::{OutOfRange, Rule};
 use crate::run::Identity;
 use crate::signal::{Digitiser, Disturbance, Impulses, Sensor};
 
 /// Everything that a trial needs besides its draws.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct RidePoint {
     /// What is measured.
     pub measure: Measure,
     /// The keys as in the config.
     pub keys: RideKeys,
-    /// Settings of the monitor.
-    pub settings: Settings,
+    /// The monitor.
+    pub design: Design,
     /// The sensor in the cage.
     pub pickup: Pickup,
     /// Whether the monitor assumes, rightly or wrongly, that the record begins at rest.
@@ -35,16 +35,20 @@ impl RidePoint {
     ///
     /// # Errors
     /// If they do not fit.
-    pub fn new(measure: Measure, keys: RideKeys, settings: Settings) -> Result<Self, RideProblem> {
+    pub fn new(measure: Measure, keys: RideKeys, settings: &Settings) -> Result<Self, RideProblem> {
         keys.check()?;
+        let pickup = keys.pickup()?;
+        let in_ride = |path: &str| format!("ride.{}", path.rsplit('.').next().unwrap_or(path));
+        let design = settings.at(keys.rate);
+        let design = design.map_err(|error| error.called(in_ride))?;
         let point = Self {
             measure,
-            pickup: keys.pickup()?,
+            pickup,
+            design,
             begins_at_rest: keys
                 .begins_at_rest
                 .unwrap_or(measure != Measure::SwitchedOn),
             keys,
-            settings,
         };
         point.check()?;
         Ok(point)
@@ -53,7 +57,8 @@ impl RidePoint {
     /// Every parameter. A value that several keys can express appears once, in one form.
     pub fn identity(&self) -> Identity {
         let keys = serde_json::to_value(&self.keys).expect("keys are plain data");
-        let settings = serde_json::to_value(&self.settings).expect("settings are plain data");
+        let settings =
+            serde_json::to_value(&self.design.settings).expect("settings are plain data");
         let tables = settings
             .as_object()
             .into_iter()
@@ -78,8 +83,6 @@ impl RidePoint {
 
     /// Checks that any trial can run, whatever its draws: the longest trial can.
     fn check(&self) -> Result<(), RideProblem> {
-        let in_ride = |path: &str| format!("ride.{}", path.rsplit('.').next().unwrap_or(path));
-        (self.settings.at(self.keys.rate)).map_err(|error| error.called(in_ride))?;
         if self.measure.rests() {
             self.still()?;
         }

@@ -1,6 +1,5 @@
 //! Why rides were refused.
 
-use super::measure::Measure;
 use crate::config::Refusal;
 use crate::lift::{PickupError, RideError, TripError};
 use crate::monitor::SettingsError;
@@ -13,12 +12,6 @@ use crate::signal::SensorError;
 pub enum RideProblem {
     #[error(transparent)]
     Read(#[from] Refusal),
-    #[error("ride: unknown key {0}")]
-    UnknownKey(String),
-    #[error("ride.{key}: means nothing to measure = \"{measure}\" (take it out)")]
-    Unused { key: String, measure: Measure },
-    #[error("ride.axis.{0}: must be numbers (a picture has them on its axis)")]
-    NoNumber(String),
     #[error(
         "ride: sigma, density and delta_over_sigma all say how strong the noise is (leave one)"
     )]

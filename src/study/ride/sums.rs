@@ -3,7 +3,7 @@
 use super::account::{Account, Trip};
 use super::measure::Measure;
 use super::point::RidePoint;
-use super::table::RideTable;
+use super::table::Table;
 use crate::counts::{Fixed, Shape, Sums, Values};
 use crate::rule::{OutOfRange, Rule};
 use std::ops::RangeInclusive;
@@ -58,9 +58,8 @@ impl RideSums {
 
     /// Six events, two counts without a limit, a time, and three lists of delays. A trip adds at most one
     /// delay to each list.
-    pub fn shape(table: &RideTable) -> Shape {
-        let points = table.curves.iter().flat_map(|curve| &curve.points);
-        let trips = points.map(|(_, point)| point.keys.trips).max();
+    pub fn shape(table: &Table) -> Shape {
+        let trips = table.points.iter().map(|point| point.of.keys.trips).max();
         Shape {
             most: [vec![Some(1); 6], vec![None; 2]].concat(),
             lengths: 1,
@@ -190,8 +189,7 @@ mod tests {
     use super::*;
     use crate::monitor::{Alarm, Direction, Event, Kind, State};
     use crate::signal::Phase;
-    use crate::study::ride::Rides;
-    use crate::study::tests::read;
+    use crate::study::parse;
     use proptest::prelude::*;
 
     type Change = fn(&mut RideSums);
@@ -205,7 +203,8 @@ mod tests {
             "question = \"?\"\nseed = 1\ntrials = 4\n[ride]\nmeasure = \"{measure}\"\n{trips}\
              [ride.axis]\ndelta_over_sigma = [4]\n"
         );
-        read::<Rides>(&text).table.curves[0].points[0].1.clone()
+        let experiment = parse("test", &text).unwrap();
+        Table::read(&experiment).unwrap().points[0].of.clone()
     }
 
     /// Events that a monitor might report, true or not, in a record that ends at `to`, s.

@@ -1,23 +1,16 @@
 //! Studies of `[ride]` tables.
 
-use super::Rides;
 use super::point::RidePoint;
-use super::table::{RideCurve, RideTable};
+use super::table::Table;
 use crate::lift::Ending;
-use crate::study::tests::read;
+use crate::study::parse;
 use crate::whiten::Order;
 
-fn study(text: &str) -> RideTable {
-    read::<Rides>(&format!(
-        "question = \"?\"\nseed = 1\ntrials = 1\n[ride]\n{text}"
-    ))
-    .table
-}
-
 fn points(text: &str) -> Vec<RidePoint> {
-    let curves = study(text).curves.into_iter();
-    let points = curves.flat_map(|RideCurve { points, .. }| points);
-    points.map(|(_, point)| point).collect()
+    let text = format!("question = \"?\"\nseed = 1\ntrials = 1\n[ride]\n{text}");
+    let experiment = parse("test", &text).unwrap();
+    let points = Table::read(&experiment).unwrap().points;
+    points.into_iter().map(|point| point.of).collect()
 }
 
 /// A density holds at any sampling rate, a ratio for one sample. A curve's key replaces the table's.
@@ -60,13 +53,6 @@ fn rides_as_drawn() {
     assert!((after - (from + (to - from) / 4.0)).abs() < 1e-12);
 }
 
-#[test]
-fn labels_become_names() {
-    let text = "measure = \"rest\"\nlength = 60\n[ride.axis]\nalpha = [0.01]\n\
-        [[ride.curve]]\nlabel = \"σ = 0.4 m/s², 100 Hz\"\n";
-    assert_eq!(study(text).curves[0].name(), "σ_0_4_m_s²_100_hz");
-}
-
 /// Each setting of the monitor is a key of the table, a curve and an axis, by the last word of its path.
 #[test]
 fn the_monitor_has_all_its_settings() {
@@ -77,7 +63,7 @@ fn the_monitor_has_all_its_settings() {
     let settings: Vec<_> = points
         .iter()
         .map(|point| {
-            let settings = &point.settings;
+            let settings = &point.design.settings;
             assert_eq!(settings.monitor.longest_motion, 60.0);
             (settings.whitening.order, settings.monitor.longest_slack)
         })

@@ -9,6 +9,7 @@ use crate::lift::Journey;
 use crate::monitor::{Alarm, Direction, Event, Kind, State};
 use crate::signal::Phase;
 use crate::study::kind::Study;
+use crate::study::outcomes::Of;
 use crate::study::tests::{UP, read, rows};
 
 /// One trip up from 10 to 20 s and one down from 30 s that jams at 35 s, in a record of 60 s.
@@ -178,10 +179,15 @@ fn what_is_never_told_takes_for_ever() {
     assert_eq!(value("start_delay_95"), (3, 4.0, f64::INFINITY));
 }
 
+/// Of each point.
+const TRIALS: u64 = 4;
+
 /// The study of a config, and its rows.
-fn study(text: &str) -> (Rides, Vec<Row>) {
-    let study: Rides = read(&format!("question = \"?\"\nseed = 5\ntrials = 4\n{text}"));
-    let rows = rows(&study, study.context.trials);
+fn study(text: &str) -> (Of<Rides>, Vec<Row>) {
+    let study: Of<Rides> = read(&format!(
+        "question = \"?\"\nseed = 5\ntrials = {TRIALS}\n{text}"
+    ));
+    let rows = rows(&study, TRIALS);
     (study, rows)
 }
 

@@ -4,15 +4,15 @@ use super::account::{Account, Truth};
 use super::measure::Measure;
 use super::point::RidePoint;
 use crate::lift::Ride;
-use crate::monitor::{Design, Event, Knowledge, Monitor};
+use crate::monitor::{Event, Knowledge, Monitor};
 use crate::recording::Sample;
 use crate::rng::{self, Stream};
 
-/// A point, ready for trials.
-pub(super) struct Watch<'a> {
+/// A trial of a point.
+struct Watch<'a> {
     point: &'a RidePoint,
-    design: Design,
     seed: u64,
+    trial: u64,
 }
 
 /// The parts of a trial. Each part is simulated with its own draws.
@@ -25,35 +25,29 @@ enum Part {
 
 const CHECKED: &str = "the config was checked";
 
-impl<'a> Watch<'a> {
-    pub fn new(point: &'a RidePoint, seed: u64) -> Self {
-        let design = point.settings.at(point.keys.rate).expect(CHECKED);
-        Self {
-            point,
-            design,
+impl RidePoint {
+    /// What comes of a trial.
+    pub fn trial(&self, seed: u64, trial: u64) -> Account {
+        let watch = Watch {
+            point: self,
             seed,
-        }
-    }
-
-    /// The exact size of one decision.
-    pub fn size(&self) -> f64 {
-        self.design.region.size()
-    }
-
-    pub fn trial(&self, trial: u64) -> Account {
+            trial,
+        };
         let mut account = Account::default();
-        if self.point.measure.rides() {
-            account.add(self.ride(trial));
+        if self.measure.rides() {
+            account.add(watch.ride());
         }
-        if self.point.measure.rests() {
-            let ride = self.point.still().expect(CHECKED);
-            account.add(self.watch(&ride, trial, Part::Rest, 0.0));
+        if self.measure.rests() {
+            let ride = self.still().expect(CHECKED);
+            account.add(watch.watch(&ride, Part::Rest, 0.0));
         }
         account
     }
+}
 
-    fn ride(&self, trial: u64) -> Account {
-        let mut draws = Stream::new(self.seed, "ride plan", "").at(trial);
+impl Watch<'_> {
+    fn ride(&self) -> Account {
+        let mut draws = Stream::new(self.seed, "ride plan", "").at(self.trial);
         let mut uniform = || rng::unit(&mut draws);
         let ride = self.point.ride(&mut uniform).expect(CHECKED);
         let from = match self.point.measure {
@@ -63,14 +57,14 @@ impl<'a> Watch<'a> {
             }
             _ => 0.0,
         };
-        self.watch(&ride, trial, Part::Ride, from)
+        self.watch(&ride, Part::Ride, from)
     }
 
     /// Watches a ride from the time `from` on, s.
-    fn watch(&self, ride: &Ride, trial: u64, part: Part, from: f64) -> Account {
-        let mut monitor = Monitor::new(self.design.clone(), self.knowledge(trial));
+    fn watch(&self, ride: &Ride, part: Part, from: f64) -> Account {
+        let mut monitor = Monitor::new(self.point.design.clone(), self.knowledge());
         let mut events: Vec<Event> = Vec::new();
-        for sample in self.samples(ride, trial, part) {
+        for sample in self.samples(ride, part) {
             if sample.time >= from {
                 events.extend_from_slice(monitor.step(sample, None));
             }
@@ -82,9 +76,9 @@ impl<'a> Watch<'a> {
         Account::new(&truth, &events, self.point.keys.tolerance.get())
     }
 
-    fn samples(&self, ride: &Ride, trial: u64, part: Part) -> impl Iterator<Item = Sample> {
+    fn samples(&self, ride: &Ride, part: Part) -> impl Iterator<Item = Sample> {
         let rate = ride.rate();
-        let index = 3 * trial + part as u64;
+        let index = 3 * self.trial + part as u64;
         let record = ride.simulate(&self.point.pickup, self.seed, index).record;
         (record.into_iter().enumerate()).map(move |(i, acceleration)| Sample {
             time: i as f64 / rate,
@@ -93,15 +87,15 @@ impl<'a> Watch<'a> {
     }
 
     /// What the monitor assumes beforehand, rightly or wrongly.
-    fn knowledge(&self, trial: u64) -> Knowledge {
+    fn knowledge(&self) -> Knowledge {
         let mut knowledge = Knowledge {
             reference: None,
             begins_at_rest: self.point.begins_at_rest,
             motion_shows: self.point.keys.motion_shows,
         };
         if self.point.keys.learnt {
-            let mut monitor = Monitor::new(self.design.clone(), Knowledge::default());
-            for sample in self.samples(&self.lesson(), trial, Part::Lesson) {
+            let mut monitor = Monitor::new(self.point.design.clone(), Knowledge::default());
+            for sample in self.samples(&self.lesson(), Part::Lesson) {
                 monitor.step(sample, None);
             }
             knowledge.reference = monitor.reference().cloned();
@@ -111,10 +105,11 @@ impl<'a> Watch<'a> {
 
     /// A rest to learn from. It is longer than needed, because the monitor may be unable to use a part of it.
     fn lesson(&self) -> Ride {
-        let settings = &self.design.settings;
+        let design = &self.point.design;
+        let settings = &design.settings;
         let blocks =
             settings.whitening.training + settings.samples.reference + settings.samples.shift;
-        let seconds = 3.0 * blocks as f64 * self.design.block;
+        let seconds = 3.0 * blocks as f64 * design.block;
         Ride::still(self.point.keys.rate, seconds).expect(CHECKED)
     }
 }

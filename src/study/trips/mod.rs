@@ -37,7 +37,6 @@ use crate::run::{Identity, StudyError};
 use crate::study::estimate::Estimate;
 use crate::study::kind::Context;
 use crate::study::outcomes::Outcomes;
-use row::Columns;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::Value;
 use table::{Point, Table};
@@ -95,15 +94,7 @@ impl Outcomes for Trips {
     }
 
     fn row(&self, point: &Point, estimate: Estimate, context: &Context) -> Row {
-        let Point {
-            condition,
-            distance,
-        } = *point;
-        let columns = Columns {
-            condition,
-            distance,
-        };
-        columns.row(estimate, context)
+        Row::new(point, estimate, context)
     }
 
     fn name(&self, row: &Row) -> String {

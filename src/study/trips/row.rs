@@ -1,10 +1,12 @@
 //! The columns of `points.csv`.
 
 use super::condition::Condition;
+use super::table::Point;
 use crate::study::outcomes::outcome_row;
 
 outcome_row! {
-    condition: Condition,
-    distance: f64,
+    |point: &Point|
+    condition: Condition = point.condition;
+    distance: f64 = point.distance;
     ..
 }
