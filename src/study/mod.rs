@@ -5,6 +5,7 @@
 //! numbers (`quantities.csv`). Counts of trials go through [`run`](crate::run). Everything else that it
 //! computes is a function of the config alone.
 
+mod along;
 mod any;
 pub(crate) mod autocorrelation;
 mod curves;
