@@ -5,8 +5,10 @@
 
 use liftsim::detection::Detection;
 use liftsim::monitor::Settings;
-use liftsim::recording::{Reading, Recording};
-use liftsim::track::{Densities, LiveTrip, LiveTrips, Noise, Track, TrackSettings, Tracked};
+use liftsim::recording::{Barometer, Reading, Recording};
+use liftsim::track::{
+    Climbs, Densities, LiveTrip, LiveTrips, Noise, Track, TrackSettings, Tracked,
+};
 use std::collections::BTreeMap;
 use std::env;
 use std::path::{Path, PathBuf};
@@ -204,4 +206,30 @@ fn how_much_each_setting_matters_as_it_happens() {
         measured.collect()
     });
     assert!(farthest < 1.5, "{farthest} m");
+}
+
+/// A phone's barometer beside its accelerometer: at 20 °C it has the height that the accelerometer has, and with the air
+/// of the standard atmosphere, as the app prints it, 7 % less.
+#[test]
+fn a_real_barometer() {
+    let Some(folder) = folder() else {
+        return;
+    };
+    let path = folder.join("phyphox_elevator/acceleration.csv");
+    let recording = opened(&path);
+    assert!(!recording.vertical().is_sign_known);
+    let barometer = Barometer::recorded_with(&path)
+        .unwrap()
+        .expect("it lies beside it");
+    let trips = tracked(&recording, TrackSettings::default()).trips;
+    let climbs = Climbs::of(&trips, &barometer, 0.0, Some(20.0));
+    assert!(climbs.tells_up && !climbs.is_upside_down && climbs.unlike.is_empty());
+    for (climb, up) in climbs.climbs.iter().flatten().zip([1.0, -1.0]) {
+        println!("{climb:.2?}");
+        assert!((up * climb.height - 17.9).abs() < 0.15, "{climb:?}");
+        assert!((up * climb.height_printed - 16.6).abs() < 0.1, "{climb:?}");
+    }
+    let turned = recording.with_up(true);
+    let trips = tracked(&turned, TrackSettings::default()).trips;
+    assert!(Climbs::of(&trips, &barometer, 0.0, None).is_upside_down);
 }

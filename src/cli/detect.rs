@@ -66,6 +66,7 @@ impl Detect {
             recording,
             detection,
             settings: (settings, rate),
+            ..
         } = &rides;
         let saved = SavedState {
             first_sample: (recording.samples().first())

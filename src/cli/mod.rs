@@ -1,6 +1,7 @@
 //! The commands, one file each; `arguments` parses and calls them. What needs a terminal, an argument list
 //! or an exit code is here and nowhere else.
 
+mod air;
 mod arguments;
 mod check;
 mod completions;

@@ -7,9 +7,9 @@ use super::{Failure, warn};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::detection::Detection;
-use liftsim::monitor::{SavedState, Settings};
+use liftsim::monitor::{Reference, SavedState, Settings, SettingsError};
 use liftsim::recording::{Reading, Recording};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A recording, how it is read, and how rides are found in it.
 #[derive(Debug, Args)]
@@ -31,9 +31,36 @@ pub struct Rides {
     pub detection: Detection,
     /// The settings as given, and the rate that they are for, Hz.
     pub settings: (Settings, f64),
+    /// What was known at first: what rest is like, and whether the recording begins with it.
+    known: (Option<Reference>, Option<bool>),
 }
 
 impl Rides {
+    fn of(
+        recording: Recording,
+        settings: (Settings, f64),
+        known: (Option<Reference>, Option<bool>),
+    ) -> Result<Self, SettingsError> {
+        let design = settings.0.at(settings.1)?;
+        let (reference, begins_at_rest) = known.clone();
+        let detection = Detection::of(&design, recording.samples(), reference, begins_at_rest);
+        Ok(Self {
+            recording,
+            detection,
+            settings,
+            known,
+        })
+    }
+
+    /// The same with up where a barometer has it, which may be down in the record.
+    pub fn with_up(self, is_upside_down: bool) -> Result<Self, Failure> {
+        let recording = self.recording.with_up(is_upside_down);
+        if !is_upside_down {
+            return Ok(Self { recording, ..self });
+        }
+        Self::of(recording, self.settings, self.known).map_err(Failure::input)
+    }
+
     /// Prints the warnings about the rides.
     pub fn warn(&self) {
         for warning in self.detection.warnings(self.recording.rate()) {
@@ -70,15 +97,9 @@ impl RideArguments {
             }) => (knowledge.reference, (settings, rate)),
             None => (None, (setup.config.settings, recording.rate())),
         };
-        let design = settings.0.at(settings.1);
-        let design = design.map_err(|error| self.refused(error.into()))?;
-        let begins_at_rest = self.begins.and_then(Beginning::is_rest);
-        let detection = Detection::of(&design, recording.samples(), reference, begins_at_rest);
-        Ok(Rides {
-            recording,
-            detection,
-            settings,
-        })
+        let known = (reference, self.begins.and_then(Beginning::is_rest));
+        let rides = Rides::of(recording, settings, known);
+        rides.map_err(|error| self.refused(error.into()))
     }
 
     /// Opens the recording, and prints the warnings about it.
@@ -93,6 +114,11 @@ impl RideArguments {
             warn(warning);
         }
         Ok(recording)
+    }
+
+    /// The recording's file.
+    pub fn path(&self) -> &Path {
+        &self.recording
     }
 
     /// The recording's file, without its folder.

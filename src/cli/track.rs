@@ -1,5 +1,6 @@
 //! `liftsim track RECORDING`: how far each ride of a recording went, and how well that is known.
 
+use super::air::{self, AirArguments, Measured};
 use super::floors::{self, Building, FloorArguments};
 use super::found::{self, cell};
 use super::output::Output;
@@ -10,7 +11,7 @@ use anyhow::anyhow;
 use clap::Args;
 use liftsim::figure::{self, FigureError};
 use liftsim::track::floors::Floors;
-use liftsim::track::{Track, TrackReport, TrackSettings};
+use liftsim::track::{Track, TrackReport, Tracked};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -44,6 +45,8 @@ pub struct TrackCommand {
     #[command(flatten)]
     floors: FloorArguments,
     #[command(flatten)]
+    air: AirArguments,
+    #[command(flatten)]
     rides: RideArguments,
 }
 
@@ -60,22 +63,37 @@ const SHOWN: [&str; 9] = [
     "ended",
 ];
 
+/// Those of a barometer, and where they stand among them.
+const HEIGHT: [&str; 2] = ["height", "height_deviation"];
+const BESIDE: usize = 6;
+
 impl TrackCommand {
     /// Runs the command.
     pub fn run(self) -> CommandResult {
         let picture = |path: &PathBuf| Output::picture(path, self.force);
         let figure = self.figure.as_ref().map(picture).transpose()?;
-        let outputs = self.figure.iter().chain(&self.floors.map);
-        self.rides.apart(outputs)?;
+        let outputs = || self.figure.iter().chain(&self.floors.map);
+        self.rides.apart(outputs())?;
+        self.air.apart(outputs())?;
         let mut building = self.floors.building(self.force)?;
         let rides = self.rides.find()?;
+        let measured = self.air.measure(rides, self.rides.path())?;
+        let Measured {
+            rides,
+            mut track,
+            heights,
+        } = measured;
         rides.warn();
-        let mut track = track(&rides);
         if let Some(building) = &mut building {
             self.land(&mut track, &rides, building)?;
         }
         for warning in track.warnings() {
             warn(warning);
+        }
+        if let Some((barometer, climbs)) = &heights {
+            for warning in climbs.warnings(&track.trips, barometer.left_out) {
+                warn(warning);
+            }
         }
         let floors = building.as_ref().map(|building| &building.floors);
         if let Some(figure) = figure {
@@ -86,7 +104,9 @@ impl TrackCommand {
             detection,
             ..
         } = &rides;
-        let report = TrackReport::new(self.rides.name(), recording, detection, &track, floors);
+        let heights = heights.as_ref().map(|(of, climbs)| (of, climbs));
+        let name = self.rides.name();
+        let report = TrackReport::new(name, recording, detection, &track, floors, heights);
         print(&self.printed(&report))?;
         building.map_or(Ok(()), |building| building.save())?;
         Ok(ExitCode::SUCCESS)
@@ -137,20 +157,10 @@ impl TrackCommand {
     }
 }
 
-fn track(rides: &Rides) -> Track {
-    let recording = &rides.recording;
-    let step = recording.facts().coarse_step;
-    Track::of(
-        recording.samples(),
-        step,
-        &rides.detection,
-        TrackSettings::default(),
-    )
-}
-
 fn text(report: &TrackReport) -> String {
     [
         found::recording(&report.recording),
+        report.barometer.as_ref().map(air::text).unwrap_or_default(),
         trips(report),
         floors::text(report),
         found::undecided(report.undecided),
@@ -163,11 +173,17 @@ fn trips(report: &TrackReport) -> String {
     if report.rides.is_empty() {
         return "\n".to_owned() + found::no_rides(report.undecided, report.events);
     }
-    let rows: Vec<Vec<String>> = (report.rides.iter())
-        .map(|ride| SHOWN.map(|name| cell(&ride.column(name))).to_vec())
-        .collect();
+    let mut shown = SHOWN.to_vec();
+    if report.barometer.is_some() {
+        shown.splice(BESIDE..BESIDE, HEIGHT);
+    }
+    let row = |ride: &Tracked| {
+        let cells = shown.iter().map(|name| cell(&ride.column(name)));
+        cells.collect()
+    };
+    let rows: Vec<Vec<String>> = report.rides.iter().map(row).collect();
     let ends = report.rides.iter();
     let ends: String = ends.map(|ride| found::other_ends(&ride.trip)).collect();
     let legend = "times in s of the recording's clock, distances and their standard deviations in m, speeds in m/s\n";
-    "\n".to_owned() + &table(&SHOWN, &rows) + legend + &ends
+    "\n".to_owned() + &table(&shown, &rows) + legend + &ends
 }

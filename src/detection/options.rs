@@ -120,6 +120,7 @@ impl RecordingTable {
             rate: self.rate,
             resample: self.resample,
             member: self.member,
+            ..Reading::default()
         })
     }
 }

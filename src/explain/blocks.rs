@@ -1,6 +1,7 @@
 //! Means of blocks of a fixed number of samples.
 
 use crate::recording::Sample;
+use crate::stats::quantile::median;
 
 /// Samples are added as whole nanometres per second squared, so that equal means stay equal in any order of
 /// their samples: in floating point, rounding would break the ties of a coarse sensor.
@@ -172,13 +173,4 @@ fn step(samples: &[Sample]) -> f64 {
     } else {
         0.0
     }
-}
-
-/// The median; 0 of nothing.
-pub fn median(mut values: Vec<f64>) -> f64 {
-    if values.is_empty() {
-        return 0.0;
-    }
-    let middle = values.len() / 2;
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }

@@ -7,8 +7,9 @@
 //!
 //! A shift that does not last that long is found by a second path, through what the first leaves ([`Shift`]).
 
-use super::blocks::{Cut, median};
+use super::blocks::Cut;
 use super::steps::{Costs, Segment, cut, path};
+use crate::stats::quantile::median;
 use rayon::prelude::*;
 use std::ops::Range;
 

@@ -1,9 +1,10 @@
 //! A record cut into pulses: stretches in which it leaves its level and changes the speed.
 
-use super::blocks::{Cut, median};
+use super::blocks::Cut;
 use super::level::Level;
 use super::pulse::{AT_ONCE, Pulse, is_at_once};
 use super::swing::{self, LEAST_IN_SWING};
+use crate::stats::quantile::median;
 use std::ops::Range;
 
 /// The record is smoothed over this time before it is cut into pulses, s.

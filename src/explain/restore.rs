@@ -4,9 +4,10 @@
 //! the integral is part of the level. The integral of a small offset grows without bound, so the offset is removed
 //! first.
 
-use super::blocks::{Block, Cut, median};
+use super::blocks::{Block, Cut};
 use super::cost::Prior;
 use super::record::Record;
+use crate::stats::quantile::median;
 
 /// The time constants tried, s.
 const TIME_CONSTANTS: [f64; 15] = [

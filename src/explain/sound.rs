@@ -1,8 +1,8 @@
 //! What is wrong with the sensor itself: single samples that nothing moves it to, and stretches in which it repeats
 //! one value although it scattered before. The first are replaced, the second left out, as if they were a hole.
 
-use super::blocks::median;
 use crate::recording::Sample;
+use crate::stats::quantile::median;
 use libm::log;
 use std::borrow::Cow;
 use std::ops::Range;

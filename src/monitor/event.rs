@@ -160,6 +160,14 @@ impl Direction {
     pub fn of(sign: f64) -> Self {
         if sign > 0.0 { Self::Up } else { Self::Down }
     }
+
+    /// 1 upwards, −1 downwards.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Up => 1.0,
+            Self::Down => -1.0,
+        }
+    }
 }
 
 impl State {

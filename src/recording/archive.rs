@@ -5,11 +5,9 @@
 //! accelerations the one with gravity is taken, because it shows which way is up.
 
 use super::error::{Names, RecordingError, RecordingProblem};
-use super::layout::Input;
-use super::lines::Lines;
-use super::parser::Parser;
-use super::reading::Reading;
+use super::reading::{Quantity, Reading};
 use super::source::{Member, Packing, Source};
+use super::table::Columns;
 use std::io::{self, Read};
 use zip::result::ZipError;
 use zip::{CompressionMethod, ZipArchive};
@@ -65,9 +63,7 @@ pub(super) fn table(
     let mut tables = Vec::new();
     for candidate in candidates {
         let table = source.with_member(candidate)?;
-        let mut lines = Lines::new(table.text()?);
-        let begun = Parser::begin(&mut lines, table.name(), reading, Input::File);
-        if let Ok(parser) = begun {
+        if let Ok((parser, _)) = Columns::begin(&table, reading) {
             tables.push((parser.layout.includes_gravity(table.name()), table));
         }
     }
@@ -80,10 +76,18 @@ pub(super) fn table(
     }
     let found = tables.iter().filter_map(|(_, table)| table.part());
     let (what, names, remedy) = if tables.is_empty() {
-        let what = "zip archive: no member is a table of accelerations, it holds";
+        let what = match reading.quantity {
+            Quantity::Acceleration => {
+                "zip archive: no member is a table of accelerations, it holds"
+            }
+            Quantity::Pressure => "zip archive: no member is a table of a barometer, it holds",
+        };
         (what, Names::of(names()), "export as CSV")
     } else {
-        let what = "zip archive: several members are tables of accelerations:";
+        let what = match reading.quantity {
+            Quantity::Acceleration => "zip archive: several members are tables of accelerations:",
+            Quantity::Pressure => "zip archive: several members are tables of a barometer:",
+        };
         (what, Names::of(found), "--member NAME")
     };
     let problem = RecordingProblem::Among {

@@ -4,6 +4,7 @@ use super::cell::{Cell, DecimalMark};
 use super::error::{Located, RecordingProblem};
 use super::lines::{Kept, Lines};
 use super::names::{Column, Role};
+use super::pressure;
 use super::splitter::{Delimiter, Splitter};
 use super::stamp;
 use std::io::BufRead;
@@ -157,11 +158,12 @@ fn names(splitter: &mut Splitter, line: &[u8], owner: &str) -> Vec<Column> {
         .collect()
 }
 
-/// Whether both a time and an acceleration are named.
+/// Whether both a time and an acceleration, or a pressure, are named.
 fn is_header(columns: &[Column]) -> bool {
     let has = |is: fn(Role) -> bool| columns.iter().any(|column| is(column.role));
+    let is_measured = has(|role| matches!(role, Role::Along { .. } | Role::Acceleration));
     has(|role| matches!(role, Role::Time { .. }))
-        && has(|role| matches!(role, Role::Along { .. } | Role::Acceleration))
+        && (is_measured || pressure::column(columns).is_some())
 }
 
 /// The splitter, if by it a line is a row: every cell is a number, a time or blank; or those are that a header

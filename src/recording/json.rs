@@ -3,7 +3,7 @@
 use super::cell::shorten;
 use super::error::{Located, Names, RecordingError, RecordingProblem};
 use super::lines::{LONGEST_LINE, Lines};
-use super::reading::Reading;
+use super::reading::{Quantity, Reading};
 use super::source::Source;
 use super::text_table::{LARGEST, MOST_COLUMNS, MOST_LETTERS, TextTable, too_large};
 use serde::de::{DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
@@ -21,6 +21,9 @@ const SENSORS: [&str; 4] = [
     "",
 ];
 
+/// Those of a barometer.
+const BAROMETERS: [&str; 1] = ["Barometer"];
+
 /// The source itself, unless it is JSON.
 ///
 /// # Errors
@@ -36,8 +39,8 @@ pub(super) fn table(source: Source, reading: &Reading) -> Result<Source, Recordi
             Err(source.error(None, damaged(too_large())))
         }
         (Some(b'['), member) => {
-            let (sensor, table) =
-                of_array(text, member.as_deref()).map_err(|problem| source.error(None, problem))?;
+            let (sensor, table) = of_array(text, member.as_deref(), reading.quantity)
+                .map_err(|problem| source.error(None, problem))?;
             let part = Some(&*sensor).filter(|sensor| !sensor.is_empty());
             Ok(source.converted(table, part, 1))
         }
@@ -66,6 +69,7 @@ fn damaged(error: String) -> RecordingProblem {
 fn of_array(
     text: impl BufRead,
     member: Option<&str>,
+    quantity: Quantity,
 ) -> Result<(String, Vec<u8>), RecordingProblem> {
     let mut tables = Tables::default();
     let mut json = serde_json::Deserializer::from_reader(text);
@@ -74,9 +78,16 @@ fn of_array(
         .and_then(|()| json.end())
         .map_err(|error| damaged(error.to_string()))?;
     let mut tables = tables.0;
+    let sensors = match quantity {
+        Quantity::Acceleration => &SENSORS[..],
+        Quantity::Pressure => &BAROMETERS,
+    };
     let wanted = match member {
         Some(member) => Some(member),
-        None => SENSORS.into_iter().find(|name| tables.contains_key(*name)),
+        None => sensors
+            .iter()
+            .copied()
+            .find(|name| tables.contains_key(*name)),
     };
     if let Some((sensor, table)) = wanted.and_then(|sensor| tables.remove_entry(sensor)) {
         return Ok((sensor, table.whole()));
@@ -85,7 +96,10 @@ fn of_array(
     Err(match member {
         Some(member) => RecordingProblem::unknown("member", member, names),
         None => RecordingProblem::Among {
-            what: "JSON: no sensor is an accelerometer, there are",
+            what: match quantity {
+                Quantity::Acceleration => "JSON: no sensor is an accelerometer, there are",
+                Quantity::Pressure => "JSON: no sensor is a barometer, there are",
+            },
             names: Names::of(names),
             remedy: "--member NAME",
         },

@@ -4,7 +4,8 @@ use super::axis::Axis;
 use super::error::{Located, Names, RecordingProblem};
 use super::head::{Head, no_stream};
 use super::names::{self, Column, Gravity, Role};
-use super::reading::Reading;
+use super::pressure;
+use super::reading::{Quantity, Reading};
 use super::unit::{TimeUnit, Unit};
 
 /// Where a table comes from.
@@ -99,7 +100,10 @@ impl Layout {
             (_, Input::Stream { .. }) if reading.time.is_none() => time(&columns, reading).ok(),
             _ => Some(time(&columns, reading)?),
         };
-        let axes = accelerations(&columns, reading, time)?;
+        let axes = match reading.quantity {
+            Quantity::Acceleration => accelerations(&columns, reading, time)?,
+            Quantity::Pressure => vec![(None, pressure(&columns)?)],
+        };
         if let (Input::Stream { .. }, true) = (input, axes.len() > 1) {
             return Err(RecordingProblem::Simple(STREAM_OF_AXES));
         }
@@ -211,6 +215,12 @@ fn time(columns: &[Column], reading: &Reading) -> Result<usize, RecordingProblem
     let what = "no column looks like time, the columns are";
     let remedy = "--time COLUMN, or --rate HZ where rows are evenly spaced";
     best.ok_or_else(|| no_column(columns, what, remedy))
+}
+
+fn pressure(columns: &[Column]) -> Result<usize, RecordingProblem> {
+    let what = "no column looks like the pressure of the air, the columns are";
+    let remedy = "name it `pressure (hPa)` in the header";
+    pressure::column(columns).ok_or_else(|| no_column(columns, what, remedy))
 }
 
 /// The column named by the user, or else the axes, or else the only one.

@@ -47,6 +47,7 @@ mod line_reader;
 mod lines;
 mod names;
 mod parser;
+mod pressure;
 mod reading;
 mod resample;
 mod sample;
@@ -71,7 +72,8 @@ pub use error::{Names, RecordingError, RecordingProblem};
 pub use facts::{Facts, Gap};
 
 pub use line_reader::{LineError, LineReader, LineReading};
-pub use reading::Reading;
+pub use pressure::{Barometer, Pressure, PressureUnit};
+pub use reading::{Quantity, Reading};
 pub use sample::Sample;
 pub use unit::{GRAVITY, TimeUnit, Unit, UnitError};
 
@@ -199,6 +201,19 @@ impl Recording {
             vertical,
             unit,
         })
+    }
+
+    /// With up where a barometer has it, which may be down in the record.
+    #[must_use]
+    pub fn with_up(mut self, is_upside_down: bool) -> Self {
+        if is_upside_down {
+            let samples = self.samples.iter_mut();
+            samples.for_each(|sample| sample.acceleration = -sample.acceleration);
+            let facts = &mut self.facts;
+            (facts.least, facts.greatest) = (-facts.greatest, -facts.least);
+        }
+        self.vertical = self.vertical.by_barometer(is_upside_down);
+        self
     }
 
     /// The samples, times strictly increasing, after any resampling.

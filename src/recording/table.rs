@@ -5,7 +5,7 @@ use super::layout::Input;
 use super::lines::{Line, Lines};
 use super::parser::Parser;
 use super::reading::Reading;
-use super::source::Source;
+use super::source::{Source, Text};
 use super::unit::TimeUnit;
 
 /// The most memory taken for a recording, bytes.
@@ -39,6 +39,20 @@ pub(super) struct Skipped {
 }
 
 impl Columns {
+    /// Reads up to the first row.
+    ///
+    /// # Errors
+    /// If there is no table with such columns.
+    pub fn begin(
+        source: &Source,
+        reading: &Reading,
+    ) -> Result<(Parser, Lines<Text>), RecordingError> {
+        let mut lines = Lines::new(source.text()?);
+        let begun = Parser::begin(&mut lines, source.name(), reading, Input::File);
+        let blame = |(line, problem)| source.error(line, problem);
+        begun.map(|parser| (parser, lines)).map_err(blame)
+    }
+
     /// Reads a file.
     ///
     /// # Errors
@@ -50,10 +64,8 @@ impl Columns {
             let rule = "rate must lie in [0.001, 1e7] Hz";
             return Err(source.error(None, RecordingProblem::must(rule, rate, "--rate HZ")));
         }
-        let mut lines = Lines::new(source.text()?);
+        let (parser, mut lines) = Self::begin(source, reading)?;
         let blame = |(line, problem)| source.error(line, problem);
-        let begun = Parser::begin(&mut lines, source.name(), reading, Input::File);
-        let parser = begun.map_err(blame)?;
         let mut columns = Self {
             times: Vec::new(),
             axes: vec![Vec::new(); parser.layout.axes.len()],

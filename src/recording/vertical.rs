@@ -30,8 +30,9 @@ pub struct Vertical {
     axis: Option<usize>,
     /// How it was found.
     pub reason: Reason,
-    /// Whether it is certain which way is up: by gravity, or as the user says. Else it is the positive side.
+    /// Whether it is certain which way is up: by gravity, by a barometer, or as the user says. Else it is the positive side.
     pub is_sign_known: bool,
+    is_by_barometer: bool,
 }
 
 /// How the vertical was found.
@@ -60,6 +61,15 @@ impl Vertical {
         Self {
             is_sign_known: true,
             ..self.turned()
+        }
+    }
+
+    /// As a barometer says, which may be the opposite.
+    pub(super) fn by_barometer(self, is_upside_down: bool) -> Self {
+        Self {
+            is_sign_known: true,
+            is_by_barometer: true,
+            ..if is_upside_down { self.turned() } else { self }
         }
     }
 
@@ -100,6 +110,7 @@ impl fmt::Display for Vertical {
         }
         let plus = if minus.is_empty() { "+" } else { minus };
         match self.axis {
+            _ if self.is_by_barometer => f.write_str("; up as the barometer says"),
             _ if self.is_sign_known => Ok(()),
             Some(_) => write!(f, "; up assumed along {plus}{name} (--invert)"),
             None => f.write_str("; up assumed to be positive (--invert)"),
@@ -178,6 +189,7 @@ pub(super) fn find(
         axis: axes[nearest].0,
         reason,
         is_sign_known: has_gravity || is_given,
+        is_by_barometer: false,
     };
     let is_turned = is_reversed && !is_one && !has_gravity;
     Ok(if is_turned { found.turned() } else { found })

@@ -2,6 +2,7 @@
 
 use super::table::Columns;
 use super::unit::Unit;
+use crate::stats::quantile::median;
 use crate::vector::{Vector, dot, largest, length, mix, unit};
 use std::ops::{Range, RangeInclusive};
 
@@ -66,7 +67,7 @@ impl Windows {
 
     /// The median length.
     pub fn length(&self) -> f64 {
-        median(self.means.iter().map(|mean| length(*mean)))
+        median(self.means.iter().map(|mean| length(*mean)).collect())
     }
 
     pub fn has_gravity(&self) -> bool {
@@ -76,7 +77,7 @@ impl Windows {
     /// The median vector.
     pub fn median(&self, range: Range<usize>) -> Vector {
         let means = &self.means[range];
-        [0, 1, 2].map(|axis| median(means.iter().map(|mean| mean[axis])))
+        [0, 1, 2].map(|axis| median(means.iter().map(|mean| mean[axis]).collect()))
     }
 
     /// The sixth largest distance of a smoothed window from the median: what lasts 3 s in all.
@@ -129,9 +130,4 @@ fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut values: Vec<f64> = values.collect();
     values.sort_unstable_by(f64::total_cmp);
     values
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let values = sorted(values);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }

@@ -14,6 +14,7 @@
 //! [^1]: The monitor with accelerometer and barometer, in Chinese (楊昱等, 太原理工大學學報).
 //! [^2]: Y. Vardi, C.-H. Zhang, "The multivariate L1-median and associated data depth", PNAS 97 (2000), eq. (2.6).
 
+use crate::stats::quantile::median;
 use crate::vector::{Vector, dot, length, mix, unit};
 
 /// Readings are left out whose length is farther from the median length than this, in deviations of theirs, and in steps.
@@ -194,8 +195,8 @@ fn mean(points: &[Vector]) -> Vector {
 /// the outliers themselves do not widen it.
 fn without_outliers(points: &[Vector], step: f64) -> Vec<Vector> {
     let lengths: Vec<f64> = points.iter().map(|it| length(*it)).collect();
-    let middle = median(lengths.iter().copied());
-    let deviation = 1.4826 * median(lengths.iter().map(|it| (it - middle).abs()));
+    let middle = median(lengths.clone());
+    let deviation = 1.4826 * median(lengths.iter().map(|it| (it - middle).abs()).collect());
     let most = (OUTLIER * deviation).max(STEPS * step);
     let near = points.iter().zip(lengths);
     let near = near.filter(|(_, length)| (length - middle).abs() <= most);
@@ -210,12 +211,6 @@ fn is_lattice(points: &[Vector], step: f64) -> bool {
         squares.sum::<f64>() / points.len() as f64
     };
     (0..3).any(|axis| step * step > variance(axis))
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    let middle = values.len() / 2;
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@
 
 use crate::recording::Sample;
 use crate::stats::binomial::upper_tail;
+use crate::stats::quantile::median;
 use libm::{erfc, sqrt};
 use serde::Serialize;
 use std::ops::Range;
@@ -65,10 +66,11 @@ impl Scatter {
             means.pop();
             differences.extend(means.windows(2).map(|pair| (pair[1] - pair[0]).abs()));
         }
-        let deviation = median(&mut differences) / MEDIAN;
+        let number = differences.len();
+        let deviation = median(differences) / MEDIAN;
         Self {
             density: OF_NOISE * deviation * deviation / 2.0,
-            differences: differences.len(),
+            differences: number,
         }
     }
 
@@ -104,15 +106,6 @@ fn means(samples: &[Sample], seconds: f64) -> Vec<f64> {
         sum / samples.len() as f64
     };
     windows.map(mean).collect()
-}
-
-/// Zero of nothing.
-fn median(values: &mut [f64]) -> f64 {
-    if values.is_empty() {
-        return 0.0;
-    }
-    let middle = values.len() / 2;
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 /// Zero of nothing. Again and again the half of them that lie closest together.

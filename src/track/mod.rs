@@ -15,6 +15,8 @@
 //! to 1.39 with levelling (`configs/trip_error.toml`). The second is as good without levelling; a creep of 0.08 m/s it may
 //! take for a stop, since a gain's error leaves as much.
 //!
+//! A barometer gives [heights](Climbs) beside them, and which way is up.
+//!
 //! # What the deviation holds
 //! The noise of the sensor and of its bias, that of the motion as far as a uniform motion shows it, steps coarser than the noise,
 //! and where a trip does not close, something else that the record shows. It does not hold the sensor's gain: a gain of 1.01
@@ -31,6 +33,7 @@ mod course;
 mod filter;
 pub mod floors;
 pub mod gravity;
+mod height;
 mod integrals;
 mod landing;
 mod level;
@@ -51,15 +54,16 @@ mod warning;
 
 pub use course::{Course, Place};
 pub use filter::{TripFilter, Uncertain, Update};
+pub use height::{Air, Climb, Climbs};
 pub use integrals::{integrated, moments};
 pub use level::{Level, Scatter};
 pub use live::{LiveTrip, LiveTrips};
 pub use noise::{Densities, Deviations, Noise};
 pub use phases::{Method, Phases};
 pub use record::{Track, Tracked, Unknown};
-pub use report::TrackReport;
+pub use report::{Barometric, TrackReport};
 pub use settings::{TrackSettings, UniformSettings};
 pub use steps::{Step, Steps};
 pub use travelled::Travelled;
 pub use uniform::UniformDetector;
-pub use warning::Warning;
+pub use warning::{HeightWarning, Warning};

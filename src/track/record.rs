@@ -3,6 +3,7 @@
 use super::course::Course;
 use super::filter::Uncertain;
 use super::floors::Stop;
+use super::height::Climb;
 use super::level::Level;
 use super::phases::Phases;
 use super::rides::Surroundings;
@@ -32,6 +33,9 @@ pub struct Tracked {
     /// The stop after it, where floors are known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub landing: Option<Stop>,
+    /// Its height by a barometer, where there is one.
+    #[serde(flatten)]
+    pub climb: Option<Climb>,
     /// Why there is no distance.
     #[serde(skip)]
     pub unknown: Option<Unknown>,
@@ -167,6 +171,7 @@ impl Tracked {
             closing_speed: travelled.closing_speed,
             widened: (travelled.widened > 0.0).then_some(travelled.widened),
             landing: None,
+            climb: None,
             unknown: None,
         }
     }
@@ -179,6 +184,7 @@ impl Tracked {
             closing_speed: None,
             widened: None,
             landing: None,
+            climb: None,
             unknown: Some(unknown),
         }
     }

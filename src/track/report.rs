@@ -3,12 +3,13 @@
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
 use super::floors::{Floor, Floors};
+use super::height::{Air, CLIMB, Climbs};
 use super::landing;
 use super::level::Level;
 use super::record::{Track, Tracked};
 use super::settings::TrackSettings;
 use crate::detection::{Detection, Event, Recorded, Undecided, cell, columns};
-use crate::recording::Recording;
+use crate::recording::{Barometer, Recording};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -23,9 +24,37 @@ pub struct TrackReport<'a> {
     /// The floors after the trips, from the lowest up, where any are known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub floors: Option<Vec<Floor>>,
+    /// The barometer, where there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub barometer: Option<Barometric<'a>>,
     pub rides: &'a [Tracked],
     pub undecided: &'a [Undecided],
     pub events: &'a [Event],
+}
+
+/// A barometer and what it says of the air.
+#[derive(Debug, Serialize)]
+pub struct Barometric<'a> {
+    pub file: &'a str,
+    pub column: &'a str,
+    pub unit: String,
+    pub readings: usize,
+    /// The deviation of a reading, m.
+    pub noise: f64,
+    pub air: Air,
+}
+
+impl<'a> Barometric<'a> {
+    fn new(of: &'a Barometer, climbs: &Climbs) -> Self {
+        Self {
+            file: &of.file,
+            column: &of.column,
+            unit: of.unit.to_string(),
+            readings: of.readings.len(),
+            noise: climbs.noise,
+            air: climbs.air,
+        }
+    }
 }
 
 impl<'a> TrackReport<'a> {
@@ -36,6 +65,7 @@ impl<'a> TrackReport<'a> {
         detection: &'a Detection,
         track: &'a Track,
         floors: Option<&Floors>,
+        barometer: Option<(&'a Barometer, &Climbs)>,
     ) -> Self {
         let of_recording = recording.warnings().iter().map(ToString::to_string);
         let of_detection = detection.warnings(recording.rate()).into_iter();
@@ -49,6 +79,7 @@ impl<'a> TrackReport<'a> {
             settings: &track.settings,
             level: track.level,
             floors: floors.map(Floors::floors),
+            barometer: barometer.map(|(of, climbs)| Barometric::new(of, climbs)),
             rides: &track.trips,
             undecided: &detection.undecided,
             events: &detection.events,
@@ -64,7 +95,8 @@ impl<'a> TrackReport<'a> {
     pub fn columns(&self) -> Vec<String> {
         let measured = MEASURED.iter().map(|name| (*name).to_owned());
         let landing = self.floors.iter().flat_map(|_| landing::columns());
-        let measured = measured.chain(landing);
+        let climb = self.barometer.iter().flat_map(|_| CLIMB);
+        let measured = measured.chain(landing).chain(climb.map(str::to_owned));
         columns().into_iter().chain(measured).collect()
     }
 
@@ -89,6 +121,9 @@ impl Tracked {
             "deviation" => self.deviation,
             "closing_speed" => self.closing_speed,
             "widened" => self.widened,
+            "height" => self.climb.map(|it| it.height),
+            "height_deviation" => self.climb.map(|it| it.height_deviation),
+            "height_printed" => self.climb.map(|it| it.height_printed),
             _ => {
                 let landing = self.landing_column(name);
                 return landing.unwrap_or_else(|| self.trip.column(name));

@@ -2,6 +2,7 @@
 
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
+use super::height::Climbs;
 use super::record::{Track, Tracked, Unknown};
 
 /// A reason to distrust distances.
@@ -38,6 +39,58 @@ pub enum Warning {
          floor of the lift)"
     )]
     Noisy(f64),
+}
+
+/// A reason to distrust heights.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum HeightWarning {
+    #[error(
+        "ride {ride}: the barometer has it {height:.1} m up, the accelerometer {distance:.1} m, so it tells nothing of the \
+         air's temperature (look whether the barometer froze, or was sealed)"
+    )]
+    Unlike {
+        ride: usize,
+        height: f64,
+        distance: f64,
+    },
+    #[error(
+        "ride {0}: no height, the barometer has no reading at rest before or after it (record both sensors for as long)"
+    )]
+    Missing(usize),
+    #[error(
+        "by the barometer up is down in this recording (look at --axis and --invert, and at the sensor's mounting)"
+    )]
+    UpsideDown,
+    #[error("{0} readings of the barometer are of no air on earth, and were left out")]
+    LeftOut(usize),
+}
+
+impl Climbs {
+    /// The warnings about the heights of these trips, if the vertical of the record is known.
+    pub fn warnings(&self, trips: &[Tracked], left_out: usize) -> Vec<HeightWarning> {
+        let left_out = (left_out > 0).then_some(HeightWarning::LeftOut(left_out));
+        let upside_down = self.is_upside_down.then_some(HeightWarning::UpsideDown);
+        let of_trips = trips.iter().zip(&self.climbs).filter_map(|(it, climb)| {
+            let ride = it.trip.ride;
+            let Some(climb) = climb else {
+                let is_whole = it.trip.start.and(it.trip.stop).is_some();
+                return is_whole.then_some(HeightWarning::Missing(ride));
+            };
+            let unlike = self.unlike.contains(&ride);
+            it.distance
+                .filter(|_| unlike)
+                .map(|distance| HeightWarning::Unlike {
+                    ride,
+                    height: climb.height,
+                    distance,
+                })
+        });
+        left_out
+            .into_iter()
+            .chain(upside_down)
+            .chain(of_trips)
+            .collect()
+    }
 }
 
 impl Track {

@@ -405,3 +405,146 @@ fn says_which_floors_it_cannot_use() {
     assert!(code == 0 && err.contains("lift.json: not written"), "{err}");
     assert!(!directory.path().join("lift.json").exists());
 }
+
+/// The air's pressure at every second of a simulated ride, in hPa at 755 hPa and 20 °C; the record without gravity.
+fn with_a_barometer(scale: f64) -> tempfile::TempDir {
+    let directory = recorded(&["--trip", "up:18", "--trip", "down:9", "--speed", "1.2"]);
+    let path = directory.path();
+    let truth: Vec<(f64, f64, f64)> = fs::read_to_string(path.join("ride.truth.csv"))
+        .unwrap()
+        .lines()
+        .skip(1)
+        .map(|line| {
+            let cell = |at: usize| line.split(',').nth(at).unwrap().parse().unwrap();
+            (cell(0), cell(1), cell(3))
+        })
+        .collect();
+    let text = fs::read_to_string(path.join("ride.csv")).unwrap();
+    let last = text.lines().last().unwrap();
+    let end: f64 = last.split(',').next().unwrap().parse().unwrap();
+    let rows = (0..=end as usize).map(|second| {
+        let time = second as f64;
+        let gone = |(start, stop, distance): &(f64, f64, f64)| {
+            distance * ((time - start) / (stop - start)).clamp(0.0, 1.0)
+        };
+        let height: f64 = truth.iter().map(gone).sum();
+        let pressure = 755.0 * scale * (-height * 9.80665 / (287.05 * 293.15)).exp();
+        format!("{time},{pressure}\n")
+    });
+    let rows: String = rows.collect();
+    fs::write(path.join("air.csv"), "time,pressure\n".to_owned() + &rows).unwrap();
+    directory
+}
+
+/// The heights of the rides are their distances, whatever the unit; with the air 29.3 K colder they are a tenth shorter.
+#[test]
+fn a_barometer_gives_heights() {
+    for scale in [1.0, 100.0, 0.1] {
+        let directory = with_a_barometer(scale);
+        let path = directory.path();
+        let flags = ["ride.csv", "--barometer", "air.csv", "--format", "json"];
+        let (code, out, err) = track(path, &flags);
+        assert_eq!(code, 0, "{err}");
+        let found = rides(&out);
+        for (ride, truth) in found.iter().zip(truth(path)) {
+            let height = ride["height"].as_f64().unwrap();
+            assert!((height - truth).abs() < 0.2, "{ride}");
+        }
+        let (_, out, _) = track(path, &[&flags[..], &["--temperature", "-9.315"]].concat());
+        for (ride, truth) in rides(&out).iter().zip(truth(path)) {
+            let height = ride["height"].as_f64().unwrap();
+            assert!((height / truth - 0.9).abs() < 0.005, "{ride}");
+        }
+        let out = well(track(path, &["ride.csv", "--barometer", "air.csv"]));
+        assert!(
+            out.contains("barometer: air.csv, \"pressure\"") && out.contains("height"),
+            "{out}"
+        );
+    }
+}
+
+/// Without gravity a record may be upside down. The barometer turns it, unless the user said which way is up.
+#[test]
+fn a_barometer_says_which_way_is_up() {
+    let directory = with_a_barometer(1.0);
+    let path = directory.path();
+    let text = fs::read_to_string(path.join("ride.csv")).unwrap();
+    let rows = text.lines().skip(1).map(|line| {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        format!("{},{}\n", cells[0], -cells[3])
+    });
+    let rows: String = rows.collect();
+    let turned = "time,acceleration\n".to_owned() + &rows;
+    fs::write(path.join("acceleration.csv"), turned).unwrap();
+    let directions = |flags: &[&str]| {
+        let flags = [&["acceleration.csv", "--format", "json"], flags].concat();
+        let (code, out, err) = track(path, &flags);
+        assert_eq!(code, 0, "{err}");
+        let of = |ride: &Value| ride["direction"].as_str().unwrap().to_owned();
+        (rides(&out).iter().map(of).collect::<Vec<_>>(), out, err)
+    };
+    let (alone, ..) = directions(&[]);
+    assert_eq!(alone, ["down", "up"]);
+    let (right, out, err) = directions(&["--barometer", "air.csv"]);
+    assert_eq!(right, ["up", "down"]);
+    assert!(
+        out.contains("up as the barometer says") && !err.contains("up is down"),
+        "{out} {err}"
+    );
+    let (told, _, err) = directions(&["--barometer", "air.csv", "--acceleration", "acceleration"]);
+    assert_eq!(told, ["down", "up"]);
+    assert!(err.contains("by the barometer up is down"), "{err}");
+    // One beside it is found, and left out where asked.
+    fs::rename(path.join("air.csv"), path.join("pressure.csv")).unwrap();
+    assert_eq!(directions(&[]).0, ["up", "down"]);
+    assert_eq!(directions(&["--no-barometer"]).0, ["down", "up"]);
+}
+
+#[test]
+fn a_barometer_that_cannot_be_used() {
+    let directory = with_a_barometer(1.0);
+    let path = directory.path();
+    let air = fs::read_to_string(path.join("air.csv")).unwrap();
+    let late = air.lines().skip(1).map(|line| format!("1000{line}\n"));
+    let late: String = late.collect();
+    for (text, message) in [
+        (
+            "time,pressure\n".to_owned() + &late,
+            "are not those of the recording",
+        ),
+        (
+            "time,pressure\n0,7\n1,7\n".to_owned(),
+            "name its unit in the header",
+        ),
+        (
+            "time,az\n0,9\n1,9\n".to_owned(),
+            "no column looks like the pressure",
+        ),
+    ] {
+        fs::write(path.join("bad.csv"), &text).unwrap();
+        let (code, out, err) = track(path, &["ride.csv", "--barometer", "bad.csv"]);
+        assert_eq!((code, out.as_str()), (2, ""), "{text}");
+        assert!(err.contains(message) && err.contains("bad.csv"), "{err}");
+    }
+    let flags = [
+        "ride.csv",
+        "--barometer",
+        "air.csv",
+        "--figure",
+        "air.csv",
+        "--force",
+    ];
+    assert_eq!(track(path, &flags).0, 2);
+    let (code, _, err) = track(path, &["ride.csv", "--temperature", "400"]);
+    assert_eq!(code, 2);
+    assert!(err.contains("must be a temperature of -60 to 60"), "{err}");
+    // One that was found beside it, and cannot be used, is only warned of.
+    fs::copy(path.join("ride.csv"), path.join("acceleration.csv")).unwrap();
+    fs::rename(path.join("bad.csv"), path.join("barometer.csv")).unwrap();
+    let (code, out, err) = track(path, &["acceleration.csv"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(
+        err.contains("the barometer is not used: ") && !out.contains("barometer:"),
+        "{err}"
+    );
+}

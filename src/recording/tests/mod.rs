@@ -8,6 +8,7 @@ use zip::write::SimpleFileOptions;
 mod arbitrary;
 mod archives;
 mod formats;
+mod pressure;
 mod real;
 mod refusals;
 mod vertical;

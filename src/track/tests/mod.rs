@@ -2,6 +2,7 @@
 
 mod bound;
 mod detector;
+mod height;
 mod trips;
 
 use crate::lift::{Drive, Ending, Journey, Pickup, Ride, Trip};

@@ -1,0 +1,157 @@
+//! A barometer beside the accelerometer, for `track`: its flags, and what is printed of it.
+
+use super::output::apart;
+use super::rides::Rides;
+use super::{Failure, warn};
+use anyhow::anyhow;
+use clap::Args;
+use liftsim::recording::{Barometer, Recording};
+use liftsim::track::{Barometric, Climbs, Track, TrackSettings};
+use std::path::{Path, PathBuf};
+
+/// The air that lifts are in, °C.
+const AIR: (f64, f64) = (-60.0, 60.0);
+
+/// A barometer, and the air that it measures.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "The barometer")]
+pub struct AirArguments {
+    /// The recording of a barometer: heights beside the distances, and which way is up where gravity does not show it
+    /// [default: one that was recorded with the acceleration, in the same file or beside it].
+    #[arg(long, value_name = "FILE")]
+    barometer: Option<PathBuf>,
+    /// Use no barometer.
+    #[arg(long, conflicts_with = "barometer")]
+    no_barometer: bool,
+    /// The temperature of the air, °C; heights are in proportion to its distance from −273.15 [default: that with which
+    /// they are the distances, near 20].
+    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true, value_parser = celsius)]
+    temperature: Option<f64>,
+}
+
+/// Measured rides, and their heights where there is a barometer.
+pub struct Measured {
+    pub rides: Rides,
+    pub track: Track,
+    pub heights: Option<(Barometer, Climbs)>,
+}
+
+fn celsius(text: &str) -> Result<f64, String> {
+    let celsius = text.parse().ok().filter(|it| (AIR.0..=AIR.1).contains(it));
+    celsius.ok_or_else(|| format!("must be a temperature of {} to {} °C", AIR.0, AIR.1))
+}
+
+impl AirArguments {
+    /// Refuses outputs that are the barometer.
+    pub fn apart<'a>(&'a self, outputs: impl Iterator<Item = &'a PathBuf>) -> Result<(), Failure> {
+        (self.barometer.as_ref()).map_or(Ok(()), |barometer| apart(barometer, outputs))
+    }
+
+    /// Measures rides, with the barometer if there is one. Where the record does not say which way is up, it does.
+    pub fn measure(&self, rides: Rides, recording: &Path) -> Result<Measured, Failure> {
+        let track = track(&rides);
+        let Some((barometer, ahead)) = self.barometer(recording, &rides.recording)? else {
+            return Ok(Measured {
+                rides,
+                track,
+                heights: None,
+            });
+        };
+        let climbs = |track: &Track| Climbs::of(&track.trips, &barometer, ahead, self.temperature);
+        let mut of = (climbs(&track), track, rides);
+        let is_sign_known = of.2.recording.vertical().is_sign_known;
+        if of.0.tells_up && !is_sign_known {
+            let is_upside_down = of.0.is_upside_down;
+            of.2 = of.2.with_up(is_upside_down)?;
+            if is_upside_down {
+                of.1 = self::track(&of.2);
+                of.0 = climbs(&of.1);
+            }
+        }
+        let (climbs, mut track, rides) = of;
+        track.rise(&climbs);
+        Ok(Measured {
+            rides,
+            track,
+            heights: Some((barometer, climbs)),
+        })
+    }
+
+    /// The barometer, and how far the recording's clock is ahead of its, s. One that is found, and cannot be used, is
+    /// only warned of.
+    fn barometer(
+        &self,
+        path: &Path,
+        recording: &Recording,
+    ) -> Result<Option<(Barometer, f64)>, Failure> {
+        if self.no_barometer {
+            return Ok(None);
+        }
+        let (found, is_given) = match &self.barometer {
+            Some(file) => (Barometer::open(file).map(Some), true),
+            None => (Barometer::recorded_with(path), false),
+        };
+        let found = found.map_err(|error| anyhow!(error));
+        let used = found.and_then(|it| it.map(|it| beside(it, recording)).transpose());
+        match used {
+            Err(error) if is_given => Err(Failure::Input(error)),
+            Err(error) => {
+                warn(format!("the barometer is not used: {error:#}"));
+                Ok(None)
+            }
+            Ok(used) => Ok(used),
+        }
+    }
+}
+
+/// A barometer whose clock is that of a recording, and how far the latter's is ahead.
+fn beside(barometer: Barometer, recording: &Recording) -> anyhow::Result<(Barometer, f64)> {
+    let facts = recording.facts();
+    let ahead = match (barometer.clock_offset, facts.clock_offset) {
+        (Some(own), Some(other)) => own - other,
+        (None, None) => 0.0,
+        _ => {
+            return Err(anyhow!(
+                "{}: only one of the two clocks has dates (give both the same clock)",
+                barometer.file
+            ));
+        }
+    };
+    let times = || barometer.readings.iter().map(|it| it.time + ahead);
+    let (from, to) = times().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), it| {
+        (low.min(it), high.max(it))
+    });
+    if from >= facts.end || to <= facts.start {
+        return Err(anyhow!(
+            "{}: its times, {from:.1} to {to:.1} s, are not those of the recording, {:.1} to {:.1} s (give both the same \
+             clock, or leave it out with --no-barometer)",
+            barometer.file,
+            facts.start,
+            facts.end
+        ));
+    }
+    Ok((barometer, ahead))
+}
+
+fn track(rides: &Rides) -> Track {
+    let recording = &rides.recording;
+    let step = recording.facts().coarse_step;
+    let settings = TrackSettings::default();
+    Track::of(recording.samples(), step, &rides.detection, settings)
+}
+
+/// The barometer and the air, in lines.
+pub fn text(of: &Barometric) -> String {
+    let air = of.air;
+    let learnt = match air.learnt {
+        0 if air.deviation == 0.0 => "as given".to_owned(),
+        0 => "not learnt: as usual indoors".to_owned(),
+        1 => "learnt from 1 ride and what is usual indoors".to_owned(),
+        rides => format!("learnt from {rides} rides and what is usual indoors"),
+    };
+    format!(
+        "barometer: {}, \"{}\" ({}), {} readings, deviation {:.2} m\n\
+         air: {:.1} ± {:.1} °C, {learnt}\n",
+        of.file, of.column, of.unit, of.readings, of.noise, air.celsius, air.deviation,
+    )
+}

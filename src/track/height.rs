@@ -1,0 +1,294 @@
+//! How high trips went by the pressure of the air, and which way is up.
+//!
+//! Between two pressures lie (R T/g) ln(p₁/p₂) metres of air of temperature T. [^1], eq. (5), has an altitude in the
+//! standard atmosphere instead, whose air is colder than that of a building by 5 to 25 K: its heights are too short in
+//! proportion, by 2 to 8 %. T is given, or learnt from trips whose distance the accelerometer knows: then the accelerometer
+//! fixes the scale and the barometer what drifts.
+//!
+//! The pressure at either end of a trip is the mean of the nearest seconds of rest, without outliers (3 σ, as in [^1]). Its
+//! deviation is that of the readings among each other and of the weather since the trip began.
+//!
+//! [^1]: The monitor with accelerometer and barometer, in Chinese (楊昱等, 太原理工大學學報).
+
+use super::record::{Track, Tracked};
+use crate::recording::{Barometer, GRAVITY, Pressure};
+use crate::stats::quantile::median;
+use serde::Serialize;
+use std::ops::Range;
+
+/// The gas constant of dry air, J/(kg K).
+const DRY_AIR: f64 = 287.05;
+
+/// 0 °C, K.
+const FREEZING: f64 = 273.15;
+
+/// The columns that a trip gains by a barometer.
+pub(super) const CLIMB: [&str; 3] = ["height", "height_deviation", "height_printed"];
+
+/// The air of a building where nothing is known of it, and its deviation, K.
+const INDOORS: (f64, f64) = (FREEZING + 20.0, 10.0);
+
+/// The rest that is looked at on either side of a trip, and what is left out beside the trip, where a barometer lags, s.
+const REST: f64 = 10.0;
+const LAG: f64 = 1.0;
+
+/// Of the readings of a rest those are outliers that are farther from their median than this, in deviations.
+const OUTLIER: f64 = 3.0;
+
+/// Readings are independent after so long: barometers smooth, s.
+const SMOOTH: f64 = 1.0;
+
+/// How fast the weather may change the pressure, Pa/s: 0.3 hPa an hour.
+const WEATHER: f64 = 30.0 / 3600.0;
+
+/// A barometer and an accelerometer that differ by more, in deviations, do not tell of one trip, or not of one direction.
+const UNLIKE: f64 = 4.0;
+
+/// The air between the ends of a trip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Column {
+    /// ln(p₁/p₂): up positive.
+    log_ratio: f64,
+    deviation: f64,
+    /// By eq. (5), m.
+    printed: f64,
+}
+
+/// How high a trip went by the barometer.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Climb {
+    /// m, up positive.
+    pub height: f64,
+    /// Its standard deviation, m, with that of the air's temperature.
+    pub height_deviation: f64,
+    /// In the standard atmosphere, m: eq. (5) of [1].
+    pub height_printed: f64,
+}
+
+/// The temperature of the air.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Air {
+    /// °C
+    pub celsius: f64,
+    /// Its standard deviation, K; 0 if it is given.
+    pub deviation: f64,
+    /// The number of trips that it is learnt from.
+    pub learnt: usize,
+}
+
+/// The trips of a record by a barometer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Climbs {
+    /// The temperature that they are reckoned with.
+    pub air: Air,
+    /// In the order of the trips.
+    pub climbs: Vec<Option<Climb>>,
+    /// The deviation of a reading, m.
+    pub noise: f64,
+    /// The numbers of trips whose distances are unlike.
+    pub unlike: Vec<usize>,
+    /// Whether the barometer says that up is down.
+    pub is_upside_down: bool,
+    /// Whether it says which way is up at all.
+    pub tells_up: bool,
+}
+
+impl Track {
+    /// Gives each trip its height.
+    pub fn rise(&mut self, climbs: &Climbs) {
+        for (trip, climb) in self.trips.iter_mut().zip(&climbs.climbs) {
+            trip.climb = *climb;
+        }
+    }
+}
+
+impl Climbs {
+    /// Of trips in order of time, whose clock is so much ahead of the barometer's, s. The air's temperature is given, °C, or
+    /// learnt.
+    pub fn of(trips: &[Tracked], barometer: &Barometer, ahead: f64, celsius: Option<f64>) -> Self {
+        let readings: Vec<Pressure> = (barometer.readings.iter())
+            .map(|it| Pressure {
+                time: it.time + ahead,
+                ..*it
+            })
+            .collect();
+        let rests: Vec<[Rest; 2]> = (0..trips.len())
+            .map(|at| rests(trips, at).map(|rest| Rest::of(&readings, rest)))
+            .collect();
+        let noise = noise(rests.as_flattened());
+        let columns: Vec<Option<Column>> = rests
+            .iter()
+            .map(|[before, after]| Column::between(before, after, noise))
+            .collect();
+        let known: Vec<(usize, Column)> = columns
+            .iter()
+            .enumerate()
+            .filter_map(|(place, column)| Some((place, (*column)?)))
+            .collect();
+        let votes = known.iter().map(|(place, column)| {
+            let is_clear = column.log_ratio.abs() > UNLIKE * column.deviation;
+            let up = trips[*place].trip.direction.sign();
+            f64::from(u8::from(is_clear)) * up * column.log_ratio / column.deviation
+        });
+        let vote: f64 = votes.sum();
+        let sign = if vote < 0.0 { -1.0 } else { 1.0 };
+        let pairs = known.iter().filter_map(|(place, column)| {
+            let trip = &trips[*place];
+            let (distance, deviation) = trip.distance.zip(trip.deviation)?;
+            trip.trip.stop?;
+            Some((trip.trip.ride, *column, sign * distance, deviation))
+        });
+        let (like, unlike): (Vec<_>, Vec<_>) =
+            pairs.partition(|(_, column, distance, deviation)| {
+                let usual = column.climb(INDOORS);
+                (usual.height - distance).abs()
+                    <= UNLIKE * libm::hypot(usual.height_deviation, *deviation)
+            });
+        let air = match celsius {
+            Some(celsius) => Air {
+                celsius,
+                deviation: 0.0,
+                learnt: 0,
+            },
+            None => learn(&like),
+        };
+        let kelvin = (air.celsius + FREEZING, air.deviation);
+        Self {
+            air,
+            climbs: columns
+                .iter()
+                .map(|it| Some((*it)?.climb(kelvin)))
+                .collect(),
+            noise: metres(noise, kelvin.0),
+            unlike: unlike.into_iter().map(|(ride, ..)| ride).collect(),
+            is_upside_down: vote < 0.0,
+            tells_up: vote != 0.0,
+        }
+    }
+}
+
+/// The height of the air between pressures of which this is the logarithm of the ratio, m.
+fn metres(log_ratio: f64, kelvin: f64) -> f64 {
+    DRY_AIR * kelvin / GRAVITY * log_ratio
+}
+
+impl Column {
+    fn between(one: &Rest, other: &Rest, noise: f64) -> Option<Self> {
+        let seconds = other.time - one.time;
+        let weather = WEATHER * seconds / one.mean.exp();
+        let deviation = libm::hypot(
+            noise * (one.per_reading() + other.per_reading()).sqrt(),
+            weather,
+        );
+        let printed = other.standard_altitude() - one.standard_altitude();
+        let log_ratio = one.mean - other.mean;
+        (one.count > 0.0 && other.count > 0.0).then_some(Self {
+            log_ratio,
+            deviation,
+            printed,
+        })
+    }
+
+    fn climb(&self, (kelvin, deviation): (f64, f64)) -> Climb {
+        let of_air = metres(self.log_ratio, deviation);
+        Climb {
+            height: metres(self.log_ratio, kelvin),
+            height_deviation: libm::hypot(metres(self.deviation, kelvin), of_air),
+            height_printed: self.printed,
+        }
+    }
+}
+
+/// The temperature that makes heights of distances, beside what air indoors is like.
+fn learn(trips: &[(usize, Column, f64, f64)]) -> Air {
+    let (usual, spread) = INDOORS;
+    let mut weight = 1.0 / (spread * spread);
+    let mut sum = weight * usual;
+    for (_, column, distance, deviation) in trips {
+        // Metres for each kelvin.
+        let slope = metres(column.log_ratio, 1.0);
+        let variance = deviation * deviation + metres(column.deviation, usual).powi(2);
+        weight += slope * slope / variance;
+        sum += slope * distance / variance;
+    }
+    Air {
+        celsius: sum / weight - FREEZING,
+        deviation: (1.0 / weight).sqrt(),
+        learnt: trips.len(),
+    }
+}
+
+/// The air at rest.
+#[derive(Clone, Debug)]
+struct Rest {
+    /// Of the readings that are no outliers.
+    count: f64,
+    /// The mean of the logarithms of the pressures, and of the times.
+    mean: f64,
+    time: f64,
+    /// How far each is off.
+    off: Vec<f64>,
+    /// So many of them are independent.
+    independent: f64,
+}
+
+impl Rest {
+    fn of(readings: &[Pressure], times: Range<f64>) -> Self {
+        let first = readings.partition_point(|it| it.time < times.start);
+        let end = readings
+            .partition_point(|it| it.time <= times.end)
+            .max(first);
+        let readings = &readings[first..end];
+        let logs = || readings.iter().map(|it| it.pascal.ln());
+        let middle = median(logs().collect());
+        let deviation = 1.4826 * median(logs().map(|it| (it - middle).abs()).collect());
+        let sound = readings.iter().zip(logs());
+        let sound: Vec<(f64, f64)> = sound
+            .filter(|(_, it)| (it - middle).abs() <= OUTLIER * deviation)
+            .map(|(reading, it)| (reading.time, it))
+            .collect();
+        let count = sound.len() as f64;
+        let mean = sound.iter().map(|it| it.1).sum::<f64>() / count;
+        let (from, to) = sound
+            .first()
+            .zip(sound.last())
+            .map_or((0.0, 0.0), |(a, b)| (a.0, b.0));
+        Self {
+            count,
+            mean,
+            time: sound.iter().map(|it| it.0).sum::<f64>() / count,
+            off: sound.iter().map(|it| it.1 - mean).collect(),
+            independent: count.min(1.0 + (to - from) / SMOOTH),
+        }
+    }
+
+    fn per_reading(&self) -> f64 {
+        1.0 / self.independent
+    }
+
+    fn standard_altitude(&self) -> f64 {
+        let (time, pascal) = (self.time, self.mean.exp());
+        Pressure { time, pascal }.standard_altitude()
+    }
+}
+
+/// The rest before a trip and that after it, as far as they are looked at; empty where that end is not recorded.
+fn rests(trips: &[Tracked], at: usize) -> [Range<f64>; 2] {
+    let trip = &trips[at].trip;
+    let before = trips[..at].last().and_then(|it| it.trip.stop);
+    let after = trips.get(at + 1).and_then(|it| it.trip.start);
+    let begin = before.map_or(f64::NEG_INFINITY, |stop| stop + LAG);
+    let end = after.unwrap_or(f64::INFINITY);
+    let rest = |range: Option<Range<f64>>| range.unwrap_or(0.0..0.0);
+    [
+        rest(trip.start.map(|start| begin.max(start - REST)..start)),
+        rest(trip.stop.map(|stop| stop + LAG..end.min(stop + LAG + REST))),
+    ]
+}
+
+/// The deviation of readings among each other, as logarithms.
+fn noise(rests: &[Rest]) -> f64 {
+    let squares = rests.iter().flat_map(|rest| &rest.off).map(|off| off * off);
+    let spare: f64 = rests.iter().map(|rest| (rest.count - 1.0).max(0.0)).sum();
+    (squares.sum::<f64>() / spare.max(1.0)).sqrt()
+}

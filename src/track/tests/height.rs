@@ -1,0 +1,251 @@
+//! Heights by the pressure of the air, against the standard atmosphere and generated trips whose truth is known.
+
+use crate::detection::{End, Trip};
+use crate::monitor::Direction;
+use crate::recording::{Barometer, Pressure, PressureUnit};
+use crate::rng::Stream;
+use crate::signal::{Law, Noise};
+use crate::stats::binomial::lower_tail;
+use crate::track::{Climbs, Tracked};
+
+/// How much of the air lies below so many metres of the standard atmosphere, by small steps: dp/dh = −p g/(R T).
+fn pressure_by_steps(metres: f64) -> f64 {
+    const STEPS: usize = 100_000;
+    let step = metres / STEPS as f64;
+    let mut pascal = 101_325.0;
+    for at in 0..STEPS {
+        let kelvin = 288.15 - 0.0065 * step * (at as f64 + 0.5);
+        pascal *= 1.0 - step * 9.80665 / (287.05 * kelvin);
+    }
+    pascal
+}
+
+#[test]
+fn the_printed_altitude_is_that_of_the_standard_atmosphere() {
+    for metres in [100.0, 1000.0, 2500.0] {
+        let pascal = pressure_by_steps(metres);
+        let printed = Pressure { time: 0.0, pascal }.standard_altitude();
+        assert!((printed / metres - 1.0).abs() < 3e-4, "{metres} {printed}");
+    }
+}
+
+/// A ride of a building: what an accelerometer says of it, and the air around it.
+struct Building {
+    celsius: f64,
+    /// Of a reading, m.
+    noise: f64,
+    /// How the pressure changes with the weather, Pa/s.
+    weather: f64,
+    /// Hz
+    rate: f64,
+    distances: Vec<f64>,
+}
+
+/// Rests and trips, s.
+const REST: f64 = 12.0;
+const TRIP: f64 = 18.0;
+
+impl Building {
+    /// 18 m up and down, as often as asked, in air like that of a building, at 1 Hz.
+    fn usual(trips: usize) -> Self {
+        Self {
+            celsius: 24.0,
+            noise: 0.08,
+            weather: 5.0 / 3600.0,
+            rate: 1.0,
+            distances: [18.0, -18.0].into_iter().cycle().take(trips).collect(),
+        }
+    }
+
+    fn start(trip: usize) -> f64 {
+        REST + (REST + TRIP) * trip as f64
+    }
+
+    fn height(&self, time: f64) -> f64 {
+        let gone =
+            self.distances.iter().enumerate().map(|(trip, distance)| {
+                distance * ((time - Self::start(trip)) / TRIP).clamp(0.0, 1.0)
+            });
+        gone.sum()
+    }
+
+    /// A barometer at 755 hPa.
+    fn barometer(&self, seed: u64) -> Barometer {
+        let to = Self::start(self.distances.len());
+        let count = (to * self.rate) as usize;
+        let mut noise = vec![0.0; count];
+        let mut draws = Stream::new(seed, "air", "").at(0);
+        Noise::new(Law::Normal)
+            .unwrap()
+            .fill(&mut draws, &mut noise);
+        let kelvin = self.celsius + 273.15;
+        let readings = noise.iter().enumerate().map(|(at, noise)| {
+            let time = at as f64 / self.rate;
+            let height = self.height(time) + self.noise * noise;
+            let pascal = 75_500.0 * (-height * 9.80665 / (287.05 * kelvin)).exp();
+            Pressure {
+                time,
+                pascal: pascal + self.weather * time,
+            }
+        });
+        Barometer {
+            readings: readings.collect(),
+            file: "generated".to_owned(),
+            column: "pressure".to_owned(),
+            unit: PressureUnit::Pascal,
+            clock_offset: None,
+            left_out: 0,
+        }
+    }
+
+    /// What an accelerometer says, whose gain is `gain`; −1 hangs upside down.
+    fn trips(&self, gain: f64) -> Vec<Tracked> {
+        let trips = self.distances.iter().enumerate();
+        let trips = trips.map(|(at, distance)| Tracked {
+            trip: Trip {
+                ride: at + 1,
+                direction: Direction::of(gain * distance),
+                start: Some(Self::start(at)),
+                inertial: None,
+                braking: None,
+                levelling: None,
+                landing: None,
+                stop: Some(Self::start(at) + TRIP),
+                speed: 1.0,
+                ended: End::Stop,
+                or_start: None,
+                or_stop: None,
+                start_decision: None,
+                stop_decision: None,
+            },
+            distance: Some(gain * distance),
+            deviation: Some(0.05),
+            closing_speed: None,
+            widened: None,
+            landing: None,
+            climb: None,
+            unknown: None,
+        });
+        trips.collect()
+    }
+}
+
+fn heights(climbs: &Climbs) -> Vec<f64> {
+    let climbs = climbs.climbs.iter().flatten();
+    climbs.map(|it| it.height).collect()
+}
+
+/// Where the temperature is given, no more than 95 % − the least by chance are farther off than 1.96 deviations, and with
+/// the printed altitude all are short by the air's temperature.
+#[test]
+fn heights_are_within_their_deviations() {
+    let (mut within, mut all, mut printed) = (0u64, 0u64, 0.0);
+    for seed in 0..200 {
+        let building = Building::usual(10);
+        let trips = building.trips(1.0);
+        let climbs = Climbs::of(&trips, &building.barometer(seed), 0.0, Some(24.0));
+        assert!(climbs.unlike.is_empty() && climbs.tells_up && !climbs.is_upside_down);
+        for (climb, distance) in climbs.climbs.iter().flatten().zip(&building.distances) {
+            within += u64::from((climb.height - distance).abs() < 1.96 * climb.height_deviation);
+            printed += climb.height_printed / distance;
+            all += 1;
+        }
+    }
+    println!("{within} of {all} within");
+    assert!(lower_tail(within, all, 0.93) > 1e-6);
+    // The standard atmosphere is at 272.6 K where the air has 755 hPa.
+    let short = printed / all as f64;
+    assert!((short - 272.6 / 297.15).abs() < 2e-3, "{short}");
+}
+
+#[test]
+fn the_temperature_is_learnt_from_distances() {
+    let building = Building::usual(20);
+    for seed in 0..20 {
+        let climbs = Climbs::of(&building.trips(1.0), &building.barometer(seed), 0.0, None);
+        let off = (climbs.air.celsius - 24.0) / climbs.air.deviation;
+        assert!(
+            off.abs() < 5.0 && climbs.air.deviation < 1.0,
+            "{:?}",
+            climbs.air
+        );
+        assert_eq!(climbs.air.learnt, 20);
+    }
+    // From nothing nothing is learnt.
+    let climbs = Climbs::of(&[], &building.barometer(0), 0.0, None);
+    assert_eq!(
+        (
+            climbs.air.learnt,
+            climbs.air.celsius.round(),
+            climbs.tells_up
+        ),
+        (0, 20.0, false)
+    );
+}
+
+#[test]
+fn up_is_where_the_pressure_falls() {
+    let building = Building::usual(2);
+    let barometer = building.barometer(1);
+    let climbs = Climbs::of(&building.trips(-1.0), &barometer, 0.0, None);
+    assert!(climbs.is_upside_down && climbs.tells_up);
+    assert_eq!(climbs.air.learnt, 2, "distances count as they are");
+    // A trip that the barometer cannot see tells nothing.
+    let low = Building {
+        distances: vec![0.1, -0.1],
+        ..Building::usual(2)
+    };
+    let climbs = Climbs::of(&low.trips(-1.0), &low.barometer(1), 0.0, None);
+    assert!(!climbs.tells_up && !climbs.is_upside_down);
+}
+
+/// A barometer that freezes, jumps within a rest, or drops out: said, and what is left is right.
+#[test]
+fn a_faulty_barometer_is_ridden_through() {
+    let building = Building::usual(4);
+    let trips = building.trips(1.0);
+    let sound = building.barometer(3);
+    let with = |change: &dyn Fn(&mut Vec<Pressure>)| {
+        let mut barometer = sound.clone();
+        change(&mut barometer.readings);
+        Climbs::of(&trips, &barometer, 0.0, None)
+    };
+    let second = Building::start(1);
+    let frozen = with(&|readings| {
+        let held = readings[second as usize - 1].pascal;
+        let frozen = readings
+            .iter_mut()
+            .filter(|it| it.time >= second && it.time < second + TRIP + REST);
+        frozen.for_each(|it| it.pascal = held);
+    });
+    assert!(
+        frozen.unlike.contains(&2) && !frozen.is_upside_down,
+        "{frozen:?}"
+    );
+    assert!((frozen.air.celsius - 24.0).abs() < 4.0 * frozen.air.deviation);
+    // A door that slams.
+    let jumping = with(&|readings| readings[(second - 4.0) as usize].pascal += 300.0);
+    let off = heights(&jumping)[1] - heights(&with(&|_| {}))[1];
+    assert!(jumping.unlike.is_empty() && off.abs() < 0.1, "{off}");
+    let dropping = with(&|readings| readings.retain(|it| (it.time - second).abs() > REST));
+    assert_eq!(dropping.climbs.iter().flatten().count(), 2, "{dropping:?}");
+    let silent = with(&|readings| readings.retain(|it| it.time < 2.0));
+    assert!(silent.climbs.iter().all(Option::is_none) && !silent.tells_up);
+}
+
+/// A barometer whose clock is behind.
+#[test]
+fn clocks_are_brought_together() {
+    let building = Building::usual(4);
+    let mut barometer = building.barometer(3);
+    let trips = building.trips(1.0);
+    let there = heights(&Climbs::of(&trips, &barometer, 0.0, None));
+    barometer
+        .readings
+        .iter_mut()
+        .for_each(|it| it.time -= 1000.0);
+    assert_eq!(
+        heights(&Climbs::of(&trips, &barometer, 1000.0, None)),
+        there
+    );
+}
