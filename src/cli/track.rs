@@ -97,7 +97,14 @@ impl TrackCommand {
         }
         let floors = building.as_ref().map(|building| &building.floors);
         if let Some(figure) = figure {
-            self.draw(figure, &rides, &track, floors)?;
+            let barometer = heights.as_ref().map(|(_, climbs)| &climbs.readings[..]);
+            self.draw(
+                figure,
+                &rides,
+                &track,
+                floors,
+                barometer.unwrap_or_default(),
+            )?;
         }
         let Rides {
             recording,
@@ -134,12 +141,19 @@ impl TrackCommand {
         rides: &Rides,
         track: &Track,
         floors: Option<&Floors>,
+        barometer: &[(f64, f64)],
     ) -> Result<(), Failure> {
         let name = self.rides.name();
         let offset = rides.recording.facts().clock_offset;
         let floors = floors.into_iter().flat_map(Floors::floors);
         let heights: Vec<f64> = floors.map(|floor| floor.height).collect();
-        let plot = figure::track::plot(&rides.detection, track, &heights, (&name, offset));
+        let plot = figure::track::plot(
+            &rides.detection,
+            track,
+            &heights,
+            barometer,
+            (&name, offset),
+        );
         let plot = plot.map_err(|error| match error {
             FigureError::Short => self.rides.refused(error.into()),
             error => Failure::run(error),

@@ -5,6 +5,7 @@ use super::error::FigureError;
 use super::record::{Recorded, axis};
 use crate::detection::Detection;
 use crate::plot::{Colour, Entry, Key, Mark, Plot, Point, Style, phase_colour};
+use crate::stats::quantile::median;
 use crate::track::{self, Track, Update};
 
 /// Heights of the panels, points.
@@ -13,6 +14,14 @@ const SPEED: f64 = 80.0;
 const POSITION: f64 = 130.0;
 
 const FLOOR: Style = Style::of(0).coloured(Colour::new(150, 150, 150)).wide(0.6);
+
+const READING: Style = Style {
+    size: 1.3,
+    ..Style::of(0).coloured(Colour::new(60, 60, 60))
+};
+
+/// The most readings of a barometer that are drawn.
+const MOST_READINGS: usize = 300;
 
 /// Deviations on either side of a position.
 const WIDE: f64 = 2.0;
@@ -26,6 +35,7 @@ pub fn plot(
     detection: &Detection,
     track: &Track,
     floors: &[f64],
+    barometer: &[(f64, f64)],
     (name, clock_offset): (&str, Option<f64>),
 ) -> Result<Plot, FigureError> {
     let recorded = Recorded::of(detection)?;
@@ -55,7 +65,10 @@ pub fn plot(
     for places in track.course.stretches() {
         add_places(&mut plot, places);
     }
-    let entries = entries(!floors.is_empty());
+    let readings = beside(barometer, track);
+    let has_readings = !readings.is_empty();
+    plot.add(2, Mark::Markers(readings, READING));
+    let entries = entries(!floors.is_empty(), has_readings);
     let trips = track.trips.iter().filter_map(|it| {
         let (distance, deviation) = it.distance.zip(it.deviation)?;
         Some(format!(
@@ -64,6 +77,33 @@ pub fn plot(
         ))
     });
     Ok(recorded.finish(plot, entries, (name, clock_offset), trips))
+}
+
+/// Readings of a barometer, few enough to be seen, at the height where most of them agree with the position.
+fn beside(barometer: &[(f64, f64)], track: &Track) -> Vec<Point> {
+    let places = || track.course.stretches().iter().flatten();
+    let (Some(first), Some(last)) = (places().next(), places().last()) else {
+        return Vec::new();
+    };
+    let together = barometer.chunks(barometer.len().div_ceil(MOST_READINGS).max(1));
+    let means = together.map(|some| {
+        let count = some.len() as f64;
+        let sum = some
+            .iter()
+            .fold((0.0, 0.0), |sum, it| (sum.0 + it.0, sum.1 + it.1));
+        (sum.0 / count, sum.1 / count)
+    });
+    let within = means.filter(|it| (first.time..=last.time).contains(&it.0));
+    let readings: Vec<(f64, f64)> = within.collect();
+    let off = readings.iter().filter_map(|(time, height)| {
+        let here = places().take_while(|place| place.time <= *time).last()?;
+        Some(here.position.mean - height)
+    });
+    let off = median(off.collect());
+    let points = readings
+        .iter()
+        .map(|(time, height)| Point::at((*time, height + off)));
+    points.collect()
 }
 
 /// The ends of a position's interval, m.
@@ -94,7 +134,7 @@ fn phase(update: Update) -> Option<&'static str> {
     }
 }
 
-fn entries(has_floors: bool) -> impl Iterator<Item = Entry> {
+fn entries(has_floors: bool, has_readings: bool) -> impl Iterator<Item = Entry> {
     let shade = |text: &str, update: Update| {
         let colour = phase_colour(phase(update).unwrap_or("rest"));
         Entry::new(text, Style::of(0).coloured(colour), Key::Shade)
@@ -102,6 +142,11 @@ fn entries(has_floors: bool) -> impl Iterator<Item = Entry> {
     let stands = shade("known to stand", Update::Standing);
     let moves = shade("known to move uniformly", Update::Uniform);
     let floors = has_floors.then(|| Entry::new("floors", FLOOR, Key::Line));
+    let readings = has_readings.then(|| Entry::new("barometer", READING, Key::Marker));
     let within = Entry::new("± 2 deviations", Style::of(1).faded(0.3), Key::Shade);
-    [stands, moves].into_iter().chain(floors).chain([within])
+    [stands, moves]
+        .into_iter()
+        .chain(floors)
+        .chain(readings)
+        .chain([within])
 }

@@ -83,6 +83,8 @@ pub struct Climbs {
     pub air: Air,
     /// In the order of the trips.
     pub climbs: Vec<Option<Climb>>,
+    /// The height of each reading above the first, m, at its time in the record, s.
+    pub readings: Vec<(f64, f64)>,
     /// The deviation of a reading, m.
     pub noise: f64,
     /// The numbers of trips whose distances are unlike.
@@ -160,6 +162,15 @@ impl Climbs {
                 .map(|it| Some((*it)?.climb(kelvin)))
                 .collect(),
             noise: metres(noise, kelvin.0),
+            readings: readings
+                .iter()
+                .map(|it| {
+                    (
+                        it.time,
+                        metres((readings[0].pascal / it.pascal).ln(), kelvin.0),
+                    )
+                })
+                .collect(),
             unlike: unlike.into_iter().map(|(ride, ..)| ride).collect(),
             is_upside_down: vote < 0.0,
             tells_up: vote != 0.0,

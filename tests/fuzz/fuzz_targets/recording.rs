@@ -1,19 +1,26 @@
 //! Bytes as a recording, read in the way that the first of them says: refused, or a signal, whose rest is
-//! learnt and whose rides are found and measured.
+//! learnt and whose rides are found and measured; and as one of a barometer, with the same rides.
 
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
 use liftsim::detection::Detection;
 use liftsim::monitor::Settings;
-use liftsim::recording::{Axis, Reading, Recording, TimeUnit, Unit};
-use liftsim::track::{Track, TrackReport, TrackSettings, Tracked};
+use liftsim::recording::{Axis, Barometer, Reading, Recording, TimeUnit, Unit};
+use liftsim::track::{Climbs, Track, TrackReport, TrackSettings, Tracked};
 use liftsim::whiten::Order;
 
 fuzz_target!(|bytes: &[u8]| {
     let Some((&choice, bytes)) = bytes.split_first() else {
         return;
     };
+    let barometer = Barometer::from_bytes("air", bytes).ok();
+    let readings = barometer.iter().flat_map(|it| &it.readings);
+    assert!(
+        readings
+            .clone()
+            .all(|it| it.time.is_finite() && it.pascal > 0.0)
+    );
     let Ok(recording) = Recording::from_bytes("ride", bytes, &reading(choice)) else {
         return;
     };
@@ -29,10 +36,10 @@ fuzz_target!(|bytes: &[u8]| {
         assert!(sample.time > last && sample.time.is_finite() && sample.acceleration.is_finite());
         last = sample.time;
     }
-    detect(&recording, choice);
+    detect(&recording, barometer.as_ref(), choice);
 });
 
-fn detect(recording: &Recording, choice: u8) {
+fn detect(recording: &Recording, barometer: Option<&Barometer>, choice: u8) {
     let Ok(design) = settings(choice).at(recording.rate()) else {
         return;
     };
@@ -46,10 +53,10 @@ fn detect(recording: &Recording, choice: u8) {
         assert!(it.from <= it.to && it.log_odds >= -1e-9, "{it:?}");
     }
     assert!(found.at_rest.false_alarms <= found.at_rest.decisions);
-    measure(recording, &found);
+    measure(recording, barometer, &found);
 }
 
-fn measure(recording: &Recording, found: &Detection) {
+fn measure(recording: &Recording, barometer: Option<&Barometer>, found: &Detection) {
     let step = recording.facts().coarse_step;
     let track = Track::of(recording.samples(), step, found, TrackSettings::default());
     for warning in track.warnings() {
@@ -66,7 +73,12 @@ fn measure(recording: &Recording, found: &Detection) {
         assert!(distance.is_none_or(f64::is_finite));
         assert!(deviation.is_none_or(|deviation| deviation.is_finite() && deviation >= 0.0));
     }
-    let report = TrackReport::new("ride".to_owned(), recording, found, &track, None);
+    let climbs = barometer.map(|it| (it, Climbs::of(&track.trips, it, 0.0, None)));
+    for climb in climbs.iter().flat_map(|(_, it)| it.climbs.iter().flatten()) {
+        assert!(climb.height.is_finite() && climb.height_deviation >= 0.0);
+    }
+    let heights = climbs.as_ref().map(|(it, climbs)| (*it, climbs));
+    let report = TrackReport::new("ride".to_owned(), recording, found, &track, None, heights);
     assert_eq!(report.rows().len(), track.trips.len());
 }
 
