@@ -48,6 +48,10 @@ pub enum PressureUnit {
     Hectopascal,
     /// kPa
     Kilopascal,
+    /// mmHg
+    Mercury,
+    /// inHg
+    InchesOfMercury,
     /// An altitude above the sea in the standard atmosphere, m.
     Metres,
 }
@@ -60,11 +64,14 @@ const PRESSURES: [&str; 4] = ["press", "druck", "baro", "presi"];
 const ALTITUDES: [&str; 3] = ["altitud", "height", "höhe"];
 
 /// The names of units, in lower case.
-const UNITS: [(&str, PressureUnit); 6] = [
+const UNITS: [(&str, PressureUnit); 9] = [
     ("pa", PressureUnit::Pascal),
     ("hpa", PressureUnit::Hectopascal),
     ("mbar", PressureUnit::Hectopascal),
     ("kpa", PressureUnit::Kilopascal),
+    ("mmhg", PressureUnit::Mercury),
+    ("torr", PressureUnit::Mercury),
+    ("inhg", PressureUnit::InchesOfMercury),
     ("m", PressureUnit::Metres),
     ("metres", PressureUnit::Metres),
 ];
@@ -74,6 +81,9 @@ const UNITS: [(&str, PressureUnit); 6] = [
 const TOP: f64 = 44_330.0;
 const EXPONENT: f64 = 1.0 / 5.255;
 const AT_SEA: f64 = 101_325.0;
+
+/// A millimetre of mercury, Pa.
+const MERCURY: f64 = 133.322;
 
 impl Pressure {
     /// The altitude above the sea, m, in the standard atmosphere: eq. (5) of the monitor with accelerometer and barometer, in
@@ -110,6 +120,8 @@ impl PressureUnit {
             Self::Pascal => reading,
             Self::Hectopascal => 100.0 * reading,
             Self::Kilopascal => 1000.0 * reading,
+            Self::Mercury => MERCURY * reading,
+            Self::InchesOfMercury => 25.4 * MERCURY * reading,
             Self::Metres => AT_SEA * libm::pow((1.0 - reading / TOP).max(0.0), 1.0 / EXPONENT),
         }
     }
@@ -121,6 +133,8 @@ impl fmt::Display for PressureUnit {
             Self::Pascal => "Pa",
             Self::Hectopascal => "hPa",
             Self::Kilopascal => "kPa",
+            Self::Mercury => "mmHg",
+            Self::InchesOfMercury => "inHg",
             Self::Metres => "m in the standard atmosphere",
         })
     }
@@ -172,7 +186,7 @@ impl Barometer {
                 column: column.clone(),
                 rule: "be the pressure of the air on earth",
                 got: axis.first().map_or("nothing".to_owned(), f64::to_string),
-                remedy: "name its unit in the header: Pa, hPa or kPa in brackets",
+                remedy: "name its unit in the header: Pa, hPa, kPa, mmHg or inHg in brackets",
             };
             source.error(None, problem)
         })?;

@@ -13,6 +13,7 @@
 use super::record::{Track, Tracked};
 use crate::recording::{Barometer, GRAVITY, Pressure};
 use crate::stats::quantile::median;
+use libm::hypot;
 use serde::Serialize;
 use std::ops::Range;
 
@@ -118,9 +119,12 @@ impl Climbs {
             .map(|at| rests(trips, at).map(|rest| Rest::of(&readings, rest)))
             .collect();
         let noise = noise(rests.as_flattened());
+        let step = Some(step(&readings)).filter(|step| *step > noise);
+        // A rest that lies between two steps reads one of them all the time.
+        let rounded = step.unwrap_or(0.0) / 6f64.sqrt();
         let columns: Vec<Option<Column>> = rests
             .iter()
-            .map(|[before, after]| Column::between(before, after, noise))
+            .map(|[before, after]| Column::between(before, after, noise, rounded))
             .collect();
         let known: Vec<(usize, Column)> = columns
             .iter()
@@ -144,7 +148,7 @@ impl Climbs {
             pairs.partition(|(_, column, distance, deviation)| {
                 let usual = column.climb(INDOORS);
                 (usual.height - distance).abs()
-                    <= UNLIKE * libm::hypot(usual.height_deviation, *deviation)
+                    <= UNLIKE * hypot(usual.height_deviation, *deviation)
             });
         let air = match celsius {
             Some(celsius) => Air {
@@ -184,13 +188,12 @@ fn metres(log_ratio: f64, kelvin: f64) -> f64 {
 }
 
 impl Column {
-    fn between(one: &Rest, other: &Rest, noise: f64) -> Option<Self> {
+    /// Between two rests of a barometer with this noise of a reading and this error of a difference by its steps.
+    fn between(one: &Rest, other: &Rest, noise: f64, rounded: f64) -> Option<Self> {
         let seconds = other.time - one.time;
         let weather = WEATHER * seconds / one.mean.exp();
-        let deviation = libm::hypot(
-            noise * (one.per_reading() + other.per_reading()).sqrt(),
-            weather,
-        );
+        let readings = noise * (one.per_reading() + other.per_reading()).sqrt();
+        let deviation = hypot(hypot(readings, weather), rounded);
         let printed = other.standard_altitude() - one.standard_altitude();
         let log_ratio = one.mean - other.mean;
         (one.count > 0.0 && other.count > 0.0).then_some(Self {
@@ -204,7 +207,7 @@ impl Column {
         let of_air = metres(self.log_ratio, deviation);
         Climb {
             height: metres(self.log_ratio, kelvin),
-            height_deviation: libm::hypot(metres(self.deviation, kelvin), of_air),
+            height_deviation: hypot(metres(self.deviation, kelvin), of_air),
             height_printed: self.printed,
         }
     }
@@ -295,6 +298,17 @@ fn rests(trips: &[Tracked], at: usize) -> [Range<f64>; 2] {
         rest(trip.start.map(|start| begin.max(start - REST)..start)),
         rest(trip.stop.map(|stop| stop + LAG..end.min(stop + LAG + REST))),
     ]
+}
+
+/// The smallest change from one reading to the next, as a logarithm.
+fn step(readings: &[Pressure]) -> f64 {
+    let changes = readings
+        .windows(2)
+        .map(|pair| (pair[1].pascal / pair[0].pascal).ln().abs());
+    let step = changes
+        .filter(|change| *change > 0.0)
+        .fold(f64::INFINITY, f64::min);
+    if step.is_finite() { step } else { 0.0 }
 }
 
 /// The deviation of readings among each other, as logarithms.

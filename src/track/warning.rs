@@ -54,7 +54,8 @@ pub enum HeightWarning {
         distance: f64,
     },
     #[error(
-        "ride {0}: no height, the barometer has no reading at rest before or after it (record both sensors for as long)"
+        "ride {0}: no height, the barometer has no reading in the 10 s of rest before it or after it (record it for as long as the \
+         acceleration, and every second)"
     )]
     Missing(usize),
     #[error(

@@ -29,6 +29,12 @@ fn units_by_name_and_by_what_air_there_is() {
         ("time,baro (Pa)", 1.0, Pascal),
         ("time,pressure", 1e-3, Kilopascal),
         ("time,pressure (kPa)", 1e-3, Kilopascal),
+        ("time,pressure (mmHg)", 1.0 / 133.322, PressureUnit::Mercury),
+        (
+            "time,p (inHg)",
+            1.0 / (25.4 * 133.322),
+            PressureUnit::InchesOfMercury,
+        ),
     ] {
         let barometer = read(&table(header, scale));
         assert_eq!(barometer.unit, unit, "{header}");

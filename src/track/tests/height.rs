@@ -233,6 +233,23 @@ fn a_faulty_barometer_is_ridden_through() {
     assert!(silent.climbs.iter().all(Option::is_none) && !silent.tells_up);
 }
 
+/// Steps of 1 hPa, 11 m: heights are off by metres, and their deviations say so.
+#[test]
+fn coarse_steps_are_in_the_deviation() {
+    let building = Building {
+        noise: 0.0,
+        ..Building::usual(6)
+    };
+    let mut barometer = building.barometer(1);
+    let readings = barometer.readings.iter_mut();
+    readings.for_each(|it| it.pascal = 100.0 * (it.pascal / 100.0).round());
+    let climbs = Climbs::of(&building.trips(1.0), &barometer, 0.0, Some(24.0));
+    for (climb, distance) in climbs.climbs.iter().flatten().zip(&building.distances) {
+        let off = (climb.height - distance).abs() / climb.height_deviation;
+        assert!(off < 2.5 && climb.height_deviation > 3.0, "{climb:?}");
+    }
+}
+
 /// A barometer whose clock is behind.
 #[test]
 fn clocks_are_brought_together() {
