@@ -29,6 +29,9 @@ pub(super) const CLIMB: [&str; 3] = ["height", "height_deviation", "height_print
 /// The air of a building where nothing is known of it, and its deviation, K.
 const INDOORS: (f64, f64) = (FREEZING + 20.0, 10.0);
 
+/// The error of an accelerometer's gain.
+const GAIN: f64 = 0.01;
+
 /// The rest that is looked at on either side of a trip, and what is left out beside the trip, where a barometer lags, s.
 const REST: f64 = 10.0;
 const LAG: f64 = 1.0;
@@ -213,11 +216,11 @@ impl Column {
     }
 }
 
-/// The temperature that makes heights of distances, beside what air indoors is like.
+/// The temperature that makes heights of distances, with what air indoors is like. The accelerometer's gain is an error of all
+/// distances alike.
 fn learn(trips: &[(usize, Column, f64, f64)]) -> Air {
     let (usual, spread) = INDOORS;
-    let mut weight = 1.0 / (spread * spread);
-    let mut sum = weight * usual;
+    let (mut weight, mut sum) = (0.0, 0.0);
     for (_, column, distance, deviation) in trips {
         // Metres for each kelvin.
         let slope = metres(column.log_ratio, 1.0);
@@ -225,9 +228,13 @@ fn learn(trips: &[(usize, Column, f64, f64)]) -> Air {
         weight += slope * slope / variance;
         sum += slope * distance / variance;
     }
+    let of_trips = hypot((1.0 / weight).sqrt(), GAIN * usual);
+    let [trips_weigh, usual_weighs] = [of_trips, spread].map(|it| 1.0 / (it * it));
+    let all = trips_weigh + usual_weighs;
+    let learnt = if weight > 0.0 { sum / weight } else { usual };
     Air {
-        celsius: sum / weight - FREEZING,
-        deviation: (1.0 / weight).sqrt(),
+        celsius: (trips_weigh * learnt + usual_weighs * usual) / all - FREEZING,
+        deviation: (1.0 / all).sqrt(),
         learnt: trips.len(),
     }
 }
