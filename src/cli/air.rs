@@ -49,32 +49,28 @@ impl AirArguments {
 
     /// Measures rides, with the barometer if there is one. Where the record does not say which way is up, it does.
     pub fn measure(&self, rides: Rides, recording: &Path) -> Result<Measured, Failure> {
-        let track = track(&rides);
-        let Some((barometer, ahead)) = self.barometer(recording, &rides.recording)? else {
-            return Ok(Measured {
-                rides,
-                track,
-                heights: None,
-            });
+        let mut measured = Measured {
+            track: track(&rides),
+            rides,
+            heights: None,
+        };
+        let found = self.barometer(recording, &measured.rides.recording)?;
+        let Some((barometer, ahead)) = found else {
+            return Ok(measured);
         };
         let climbs = |track: &Track| Climbs::of(&track.trips, &barometer, ahead, self.temperature);
-        let mut of = (climbs(&track), track, rides);
-        let is_sign_known = of.2.recording.vertical().is_sign_known;
-        if of.0.tells_up && !is_sign_known {
-            let is_upside_down = of.0.is_upside_down;
-            of.2 = of.2.with_up(is_upside_down)?;
+        let mut heights = climbs(&measured.track);
+        let is_sign_known = measured.rides.recording.vertical().is_sign_known;
+        if let (Some(is_upside_down), false) = (heights.upside_down, is_sign_known) {
+            measured.rides = measured.rides.with_up(is_upside_down)?;
             if is_upside_down {
-                of.1 = self::track(&of.2);
-                of.0 = climbs(&of.1);
+                measured.track = track(&measured.rides);
+                heights = climbs(&measured.track);
             }
         }
-        let (climbs, mut track, rides) = of;
-        track.rise(&climbs);
-        Ok(Measured {
-            rides,
-            track,
-            heights: Some((barometer, climbs)),
-        })
+        measured.track.rise(&heights);
+        measured.heights = Some((barometer, heights));
+        Ok(measured)
     }
 
     /// The barometer, and how far the recording's clock is ahead of its, s. One that is found, and cannot be used, is

@@ -93,10 +93,8 @@ pub struct Climbs {
     pub noise: f64,
     /// The numbers of trips whose distances are unlike.
     pub unlike: Vec<usize>,
-    /// Whether the barometer says that up is down.
-    pub is_upside_down: bool,
-    /// Whether it says which way is up at all.
-    pub tells_up: bool,
+    /// Whether up is down, if the barometer tells.
+    pub upside_down: Option<bool>,
 }
 
 impl Track {
@@ -179,8 +177,7 @@ impl Climbs {
                 })
                 .collect(),
             unlike: unlike.into_iter().map(|(ride, ..)| ride).collect(),
-            is_upside_down: vote < 0.0,
-            tells_up: vote != 0.0,
+            upside_down: (vote != 0.0).then_some(vote < 0.0),
         }
     }
 }

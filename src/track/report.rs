@@ -70,10 +70,14 @@ impl<'a> TrackReport<'a> {
         let of_recording = recording.warnings().iter().map(ToString::to_string);
         let of_detection = detection.warnings(recording.rate()).into_iter();
         let of_track = track.warnings().into_iter();
+        let of_heights = barometer
+            .iter()
+            .flat_map(|(of, climbs)| climbs.warnings(&track.trips, of.left_out).into_iter());
         Self {
             warnings: of_recording
                 .chain(of_detection.map(|it| it.to_string()))
                 .chain(of_track.map(|it| it.to_string()))
+                .chain(of_heights.map(|it| it.to_string()))
                 .collect(),
             recording: Recorded::of(file, recording, detection),
             settings: &track.settings,

@@ -70,7 +70,8 @@ impl Climbs {
     /// The warnings about the heights of these trips, if the vertical of the record is known.
     pub fn warnings(&self, trips: &[Tracked], left_out: usize) -> Vec<HeightWarning> {
         let left_out = (left_out > 0).then_some(HeightWarning::LeftOut(left_out));
-        let upside_down = self.is_upside_down.then_some(HeightWarning::UpsideDown);
+        let upside_down = self.upside_down.filter(|it| *it);
+        let upside_down = upside_down.map(|_| HeightWarning::UpsideDown);
         let of_trips = trips.iter().zip(&self.climbs).filter_map(|(it, climb)| {
             let ride = it.trip.ride;
             let Some(climb) = climb else {

@@ -144,7 +144,7 @@ fn heights_are_within_their_deviations() {
         let building = Building::usual(10);
         let trips = building.trips(1.0);
         let climbs = Climbs::of(&trips, &building.barometer(seed), 0.0, Some(24.0));
-        assert!(climbs.unlike.is_empty() && climbs.tells_up && !climbs.is_upside_down);
+        assert!(climbs.unlike.is_empty() && climbs.upside_down == Some(false));
         for (climb, distance) in climbs.climbs.iter().flatten().zip(&building.distances) {
             within += u64::from((climb.height - distance).abs() < 1.96 * climb.height_deviation);
             printed += climb.height_printed / distance;
@@ -182,9 +182,9 @@ fn the_temperature_is_learnt_from_distances() {
         (
             climbs.air.learnt,
             climbs.air.celsius.round(),
-            climbs.tells_up
+            climbs.upside_down
         ),
-        (0, 20.0, false)
+        (0, 20.0, None)
     );
 }
 
@@ -193,7 +193,7 @@ fn up_is_where_the_pressure_falls() {
     let building = Building::usual(2);
     let barometer = building.barometer(1);
     let climbs = Climbs::of(&building.trips(-1.0), &barometer, 0.0, None);
-    assert!(climbs.is_upside_down && climbs.tells_up);
+    assert!(climbs.upside_down == Some(true));
     assert_eq!(climbs.air.learnt, 2, "distances count as they are");
     // A trip that the barometer cannot see tells nothing.
     let low = Building {
@@ -201,7 +201,7 @@ fn up_is_where_the_pressure_falls() {
         ..Building::usual(2)
     };
     let climbs = Climbs::of(&low.trips(-1.0), &low.barometer(1), 0.0, None);
-    assert!(!climbs.tells_up && !climbs.is_upside_down);
+    assert!(climbs.upside_down.is_none());
 }
 
 /// A barometer that freezes, jumps within a rest, or drops out: said, and what is left is right.
@@ -224,7 +224,7 @@ fn a_faulty_barometer_is_ridden_through() {
         frozen.for_each(|it| it.pascal = held);
     });
     assert!(
-        frozen.unlike.contains(&2) && !frozen.is_upside_down,
+        frozen.unlike.contains(&2) && frozen.upside_down == Some(false),
         "{frozen:?}"
     );
     assert!((frozen.air.celsius - 24.0).abs() < 4.0 * frozen.air.deviation);
@@ -235,7 +235,7 @@ fn a_faulty_barometer_is_ridden_through() {
     let dropping = with(&|readings| readings.retain(|it| (it.time - second).abs() > REST));
     assert_eq!(dropping.climbs.iter().flatten().count(), 2, "{dropping:?}");
     let silent = with(&|readings| readings.retain(|it| it.time < 2.0));
-    assert!(silent.climbs.iter().all(Option::is_none) && !silent.tells_up);
+    assert!(silent.climbs.iter().all(Option::is_none) && silent.upside_down.is_none());
 }
 
 /// Steps of 1 hPa, 11 m: heights are off by metres, and their deviations say so.
