@@ -65,7 +65,7 @@ pub struct Climb {
     pub height: f64,
     /// Its standard deviation, m, with that of the air's temperature.
     pub height_deviation: f64,
-    /// In the standard atmosphere, m: eq. (5) of [1].
+    /// In the standard atmosphere, m: eq. (5).
     pub height_printed: f64,
 }
 
