@@ -17,7 +17,8 @@ const AIR: (f64, f64) = (-60.0, 60.0);
 #[command(next_help_heading = "The barometer")]
 pub struct AirArguments {
     /// The recording of a barometer: heights beside the distances, and which way is up where gravity does not show it
-    /// [default: one that was recorded with the acceleration, in the same file or beside it].
+    /// [default: one that was recorded with the acceleration, in the same file or in one beside it that is called alike; none
+    /// where --rate, --time, --time-unit or --member is given].
     #[arg(long, value_name = "FILE")]
     barometer: Option<PathBuf>,
     /// Use no barometer.
@@ -54,7 +55,7 @@ impl AirArguments {
             rides,
             heights: None,
         };
-        let found = self.barometer(recording, &measured.rides.recording)?;
+        let found = self.barometer(recording, &measured.rides)?;
         let Some((barometer, ahead)) = found else {
             return Ok(measured);
         };
@@ -75,20 +76,17 @@ impl AirArguments {
 
     /// The barometer, and how far the recording's clock is ahead of its, s. One that is found, and cannot be used, is
     /// only warned of.
-    fn barometer(
-        &self,
-        path: &Path,
-        recording: &Recording,
-    ) -> Result<Option<(Barometer, f64)>, Failure> {
+    fn barometer(&self, path: &Path, rides: &Rides) -> Result<Option<(Barometer, f64)>, Failure> {
         if self.no_barometer {
             return Ok(None);
         }
         let (found, is_given) = match &self.barometer {
             Some(file) => (Barometer::open(file).map(Some), true),
+            None if rides.is_told => (Ok(None), false),
             None => (Barometer::recorded_with(path), false),
         };
         let found = found.map_err(|error| anyhow!(error));
-        let used = found.and_then(|it| it.map(|it| beside(it, recording)).transpose());
+        let used = found.and_then(|it| it.map(|it| beside(it, &rides.recording)).transpose());
         match used {
             Err(error) if is_given => Err(Failure::Input(error)),
             Err(error) => {

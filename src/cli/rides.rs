@@ -31,6 +31,8 @@ pub struct Rides {
     pub detection: Detection,
     /// The settings as given, and the rate that they are for, Hz.
     pub settings: (Settings, f64),
+    /// Whether the user said how its clock is read, or which table it is.
+    pub is_told: bool,
     /// What was known at first: what rest is like, and whether the recording begins with it.
     known: (Option<Reference>, Option<bool>),
 }
@@ -38,6 +40,7 @@ pub struct Rides {
 impl Rides {
     fn of(
         recording: Recording,
+        is_told: bool,
         settings: (Settings, f64),
         known: (Option<Reference>, Option<bool>),
     ) -> Result<Self, SettingsError> {
@@ -48,6 +51,7 @@ impl Rides {
             recording,
             detection,
             settings,
+            is_told,
             known,
         })
     }
@@ -58,7 +62,7 @@ impl Rides {
         if !is_upside_down {
             return Ok(Self { recording, ..self });
         }
-        Self::of(recording, self.settings, self.known).map_err(Failure::input)
+        Self::of(recording, self.is_told, self.settings, self.known).map_err(Failure::input)
     }
 
     /// Prints the warnings about the rides.
@@ -81,7 +85,10 @@ impl RideArguments {
     /// Reads the recording and finds its rides; prints the warnings about it.
     pub fn find(&self) -> Result<Rides, Failure> {
         let setup = self.options.setup()?;
-        let recording = self.open(&setup.config.reading)?;
+        let reading = self.reading.over(&setup.config.reading)?;
+        let recording = self.open(&reading)?;
+        let clock = reading.rate.is_some() || reading.time.is_some() || reading.time_unit.is_some();
+        let is_told = clock || reading.member.is_some();
         let seconds = recording.facts().end - recording.facts().start;
         if seconds < SHORTEST {
             return Err(self.refused(anyhow!(
@@ -98,14 +105,13 @@ impl RideArguments {
             None => (None, (setup.config.settings, recording.rate())),
         };
         let known = (reference, self.begins.and_then(Beginning::is_rest));
-        let rides = Rides::of(recording, settings, known);
+        let rides = Rides::of(recording, is_told, settings, known);
         rides.map_err(|error| self.refused(error.into()))
     }
 
     /// Opens the recording, and prints the warnings about it.
     fn open(&self, reading: &Reading) -> Result<Recording, Failure> {
-        let reading = self.reading.over(reading)?;
-        let recording = Recording::open(&self.recording, &reading).map_err(Failure::input)?;
+        let recording = Recording::open(&self.recording, reading).map_err(Failure::input)?;
         let facts = recording.facts();
         check_strength(facts.least)
             .and(check_strength(facts.greatest))

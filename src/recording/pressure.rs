@@ -97,11 +97,9 @@ impl PressureUnit {
     /// That of a column: by its name, or by its readings.
     fn of(name: &str, readings: &[f64]) -> Option<Self> {
         let named = unit_name(name);
-        let named = UNITS
-            .iter()
-            .find(|(unit, _)| Some(*unit) == named.as_deref());
-        if let Some((_, unit)) = named {
-            return Some(*unit);
+        if let Some(named) = named {
+            let known = UNITS.iter().find(|(unit, _)| *unit == named);
+            return known.map(|(_, unit)| *unit);
         }
         if is_one(&ALTITUDES, name) && !is_one(&PRESSURES, name) {
             return Some(Self::Metres);
@@ -160,20 +158,22 @@ impl Barometer {
     }
 
     /// The barometer that was recorded with an acceleration: a column of the same table, a table of the same archive, or a
-    /// table of its own beside it. None if there is none, or more than one.
+    /// table beside it that is called alike. None if there is none, or more than one. An altitude may be that of a satellite,
+    /// and is none.
     ///
     /// # Errors
     /// If one is there and cannot be read.
     pub fn recorded_with(acceleration: &Path) -> Result<Option<Self>, RecordingError> {
-        if let Ok(source) = Source::file(acceleration).and_then(table)
-            && Columns::begin(&source, &reading()).is_ok()
-        {
-            return Self::of(&source).map(Some);
-        }
-        match &beside(acceleration)[..] {
-            [path] => Self::open(path).map(Some),
-            _ => Ok(None),
-        }
+        let source = Source::file(acceleration).and_then(table);
+        let source = source
+            .ok()
+            .filter(|it| Columns::begin(it, &reading()).is_ok());
+        let found = match (source, &beside(acceleration)[..]) {
+            (Some(source), _) => Self::of(&source)?,
+            (None, [path]) => Self::open(path)?,
+            (None, _) => return Ok(None),
+        };
+        Ok(Some(found).filter(|it| it.unit != PressureUnit::Metres))
     }
 
     fn of(source: &Source) -> Result<Self, RecordingError> {
@@ -237,33 +237,33 @@ fn table(source: Source) -> Result<Source, RecordingError> {
     json::table(source, &reading)
 }
 
-/// The tables of a barometer beside a table of accelerations, by their names.
+/// What apps call the tables of their sensors.
+const ACCELEROMETERS: [&str; 4] = [
+    "totalacceleration",
+    "linear accelerometer",
+    "accelerometer",
+    "acceleration",
+];
+const BAROMETERS: [&str; 2] = ["barometer", "pressure"];
+
+/// The tables of a barometer beside a table of accelerations, whose names differ only by the sensor.
 fn beside(acceleration: &Path) -> Vec<PathBuf> {
     let lower = |path: &Path| {
         let name = path.file_name().map(OsStr::to_string_lossy);
         name.unwrap_or_default().to_lowercase()
     };
-    if !lower(acceleration).contains("accel") {
+    let name = lower(acceleration);
+    let Some(sensor) = ACCELEROMETERS.iter().find(|it| name.contains(**it)) else {
         return Vec::new();
-    }
+    };
+    let alike = BAROMETERS.map(|barometer| name.replace(sensor, barometer));
     let folder = acceleration
         .parent()
         .filter(|folder| *folder != Path::new(""));
-    let entries = std::fs::read_dir(folder.unwrap_or(Path::new(".")))
-        .into_iter()
-        .flatten();
-    let paths = entries.flatten().map(|entry| entry.path());
-    let is_barometer = |path: &PathBuf| {
-        let name = lower(path);
-        let is_table = [".csv", ".txt", ".tsv"]
-            .iter()
-            .any(|end| name.ends_with(end));
-        is_table
-            && ["pressure", "barometer"]
-                .iter()
-                .any(|word| name.contains(word))
-    };
-    paths.filter(is_barometer).collect()
+    let entries = std::fs::read_dir(folder.unwrap_or(Path::new(".")));
+    let entries = entries.into_iter().flatten().flatten();
+    let paths = entries.map(|entry| entry.path());
+    paths.filter(|path| alike.contains(&lower(path))).collect()
 }
 
 /// The place of the column with the pressure, or else with an altitude.

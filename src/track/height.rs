@@ -117,7 +117,7 @@ impl Climbs {
             })
             .collect();
         let rests: Vec<[Rest; 2]> = (0..trips.len())
-            .map(|at| rests(trips, at).map(|rest| Rest::of(&readings, rest)))
+            .map(|at| rests(trips, at).map(|rest| Rest::of(&readings, rest.unwrap_or(NONE))))
             .collect();
         let noise = noise(rests.as_flattened());
         let step = Some(step(&readings)).filter(|step| *step > noise);
@@ -132,25 +132,36 @@ impl Climbs {
             .enumerate()
             .filter_map(|(place, column)| Some((place, (*column)?)))
             .collect();
-        let votes = known.iter().map(|(place, column)| {
-            let is_clear = column.log_ratio.abs() > UNLIKE * column.deviation;
-            let up = trips[*place].trip.direction.sign();
-            f64::from(u8::from(is_clear)) * up * column.log_ratio / column.deviation
+        let usual = celsius.map_or(INDOORS, |it| (it + FREEZING, GAIN * INDOORS.0));
+        let is_like = |column: &Column, distance: f64, deviation: f64| {
+            let climb = column.climb(usual);
+            (climb.height - distance).abs() <= UNLIKE * hypot(climb.height_deviation, deviation)
+        };
+        // What the barometer has as far as the accelerometer has it, up or down, says which it is.
+        let ways = known.iter().filter_map(|(place, column)| {
+            let trip = &trips[*place];
+            let size = trip.distance.map(f64::abs).zip(trip.deviation);
+            let up = Column {
+                log_ratio: column.log_ratio.abs(),
+                ..*column
+            };
+            let is_seen =
+                size.is_none_or(|(distance, deviation)| is_like(&up, distance, deviation));
+            let is_clear = up.log_ratio > UNLIKE * column.deviation;
+            (is_seen && is_clear).then_some(trip.trip.direction.sign() * column.log_ratio < 0.0)
         });
-        let vote: f64 = votes.sum();
-        let sign = if vote < 0.0 { -1.0 } else { 1.0 };
+        let ways: Vec<bool> = ways.collect();
+        let upside_down = ways.first().copied();
+        let upside_down = upside_down.filter(|first| ways.iter().all(|way| way == first));
+        let sign = if upside_down == Some(true) { -1.0 } else { 1.0 };
         let pairs = known.iter().filter_map(|(place, column)| {
             let trip = &trips[*place];
             let (distance, deviation) = trip.distance.zip(trip.deviation)?;
             trip.trip.stop?;
             Some((trip.trip.ride, *column, sign * distance, deviation))
         });
-        let (like, unlike): (Vec<_>, Vec<_>) =
-            pairs.partition(|(_, column, distance, deviation)| {
-                let usual = column.climb(INDOORS);
-                (usual.height - distance).abs()
-                    <= UNLIKE * hypot(usual.height_deviation, *deviation)
-            });
+        let (like, unlike): (Vec<_>, Vec<_>) = pairs
+            .partition(|(_, column, distance, deviation)| is_like(column, *distance, *deviation));
         let air = match celsius {
             Some(celsius) => Air {
                 celsius,
@@ -177,7 +188,7 @@ impl Climbs {
                 })
                 .collect(),
             unlike: unlike.into_iter().map(|(ride, ..)| ride).collect(),
-            upside_down: (vote != 0.0).then_some(vote < 0.0),
+            upside_down,
         }
     }
 }
@@ -290,17 +301,24 @@ impl Rest {
     }
 }
 
-/// The rest before a trip and that after it, as far as they are looked at; empty where that end is not recorded.
-fn rests(trips: &[Tracked], at: usize) -> [Range<f64>; 2] {
+/// No time at all.
+const NONE: Range<f64> = f64::INFINITY..f64::NEG_INFINITY;
+
+/// The rest before a trip and that after it, as far as they are looked at; none where that end is not recorded, nor that of
+/// the trip on its other side.
+fn rests(trips: &[Tracked], at: usize) -> [Option<Range<f64>>; 2] {
     let trip = &trips[at].trip;
-    let before = trips[..at].last().and_then(|it| it.trip.stop);
-    let after = trips.get(at + 1).and_then(|it| it.trip.start);
-    let begin = before.map_or(f64::NEG_INFINITY, |stop| stop + LAG);
-    let end = after.unwrap_or(f64::INFINITY);
-    let rest = |range: Option<Range<f64>>| range.unwrap_or(0.0..0.0);
+    let begin = trips[..at]
+        .last()
+        .map_or(Some(f64::NEG_INFINITY), |it| it.trip.stop);
+    let end = trips
+        .get(at + 1)
+        .map_or(Some(f64::INFINITY), |it| it.trip.start);
+    let before = begin.zip(trip.start);
+    let after = trip.stop.zip(end);
     [
-        rest(trip.start.map(|start| begin.max(start - REST)..start)),
-        rest(trip.stop.map(|stop| stop + LAG..end.min(stop + LAG + REST))),
+        before.map(|(begin, start)| (begin + LAG).max(start - REST)..start),
+        after.map(|(stop, end)| stop + LAG..end.min(stop + LAG + REST)),
     ]
 }
 
@@ -319,5 +337,5 @@ fn step(readings: &[Pressure]) -> f64 {
 fn noise(rests: &[Rest]) -> f64 {
     let squares = rests.iter().flat_map(|rest| &rest.off).map(|off| off * off);
     let spare: f64 = rests.iter().map(|rest| (rest.count - 1.0).max(0.0)).sum();
-    (squares.sum::<f64>() / spare.max(1.0)).sqrt()
+    (squares.fold(0.0, |sum, square| sum + square) / spare.max(1.0)).sqrt()
 }

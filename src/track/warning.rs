@@ -45,8 +45,8 @@ pub enum Warning {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum HeightWarning {
     #[error(
-        "ride {ride}: the barometer has it {height:.1} m up, the accelerometer {distance:.1} m, so it tells nothing of the \
-         air's temperature (look whether the barometer froze, or was sealed)"
+        "ride {ride}: by the barometer it went {height:+.1} m, by the accelerometer {distance:+.1} m (look at the barometer: did it \
+         freeze, jump, or have another clock? or was --temperature wrong?)"
     )]
     Unlike {
         ride: usize,

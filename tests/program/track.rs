@@ -498,6 +498,14 @@ fn a_barometer_says_which_way_is_up() {
     fs::rename(path.join("air.csv"), path.join("pressure.csv")).unwrap();
     assert_eq!(directions(&[]).0, ["up", "down"]);
     assert_eq!(directions(&["--no-barometer"]).0, ["down", "up"]);
+    // Not that of another day, nor an altitude, nor where the user said how the clock is read.
+    fs::rename(path.join("pressure.csv"), path.join("pressure_monday.csv")).unwrap();
+    assert_eq!(directions(&[]).0, ["down", "up"]);
+    fs::write(path.join("barometer.csv"), "time,altitude (m)\n0,9\n50,0\n").unwrap();
+    assert_eq!(directions(&[]).0, ["down", "up"]);
+    fs::rename(path.join("pressure_monday.csv"), path.join("barometer.csv")).unwrap();
+    assert_eq!(directions(&[]).0, ["up", "down"]);
+    assert_eq!(directions(&["--time", "time"]).0, ["down", "up"]);
 }
 
 #[test]

@@ -72,6 +72,10 @@ fn what_is_no_air_is_left_out_or_refused() {
             "no column looks like the pressure of the air",
         ),
         ("time,pressure (hPa)\n0,1000\n1,x\n", "air.csv:3"),
+        (
+            "time,Sound pressure level (dB)\n0,40\n1,41\n",
+            "name its unit in the header",
+        ),
         ("", "is empty"),
     ] {
         let error = refused(text);

@@ -238,6 +238,56 @@ fn a_faulty_barometer_is_ridden_through() {
     assert!(silent.climbs.iter().all(Option::is_none) && silent.upside_down.is_none());
 }
 
+/// An end that the record does not hold has no rest, whatever was read at zero.
+#[test]
+fn a_trip_that_is_cut_off_has_no_height() {
+    let building = Building::usual(3);
+    let mut trips = building.trips(1.0);
+    trips[0].trip.start = None;
+    trips[2].trip.stop = None;
+    let climbs = Climbs::of(&trips, &building.barometer(1), 0.0, None);
+    let known: Vec<bool> = climbs.climbs.iter().map(Option::is_some).collect();
+    assert_eq!(known, [false, true, false]);
+    // Nor does a rest reach into such a trip.
+    let mut trips = building.trips(1.0);
+    trips[0].trip.stop = None;
+    let climbs = Climbs::of(&trips, &building.barometer(1), 0.0, None);
+    let known: Vec<bool> = climbs.climbs.iter().map(Option::is_some).collect();
+    assert_eq!(known, [false, false, true]);
+}
+
+/// The pressure of another room for good, in a trip: it is said, and turns nothing upside down.
+#[test]
+fn a_jump_is_no_direction() {
+    let building = Building::usual(2);
+    let mut barometer = building.barometer(1);
+    let second = Building::start(1);
+    for jump in [-800.0, 300.0, -1500.0, 1500.0] {
+        let late = barometer
+            .readings
+            .iter_mut()
+            .filter(|it| it.time > second + 5.0);
+        late.for_each(|it| it.pascal += jump);
+        for gain in [1.0, -1.0] {
+            let climbs = Climbs::of(&building.trips(gain), &barometer, 0.0, None);
+            assert_eq!(climbs.upside_down, Some(gain < 0.0), "{jump}");
+            assert_eq!(climbs.unlike, [2], "{jump}");
+        }
+        barometer = building.barometer(1);
+    }
+    // One that makes the way down look like one up leaves it open.
+    let late = barometer
+        .readings
+        .iter_mut()
+        .filter(|it| it.time > second + 5.0);
+    late.for_each(|it| it.pascal -= 300.0);
+    let climbs = Climbs::of(&building.trips(1.0), &barometer, 0.0, None);
+    assert_eq!(climbs.upside_down, None);
+    let sound = building.barometer(1);
+    let hot = Climbs::of(&building.trips(1.0), &sound, 0.0, Some(-60.0));
+    assert_eq!(hot.unlike, [1, 2]);
+}
+
 /// Steps of 1 hPa, 11 m: heights are off by metres, and their deviations say so.
 #[test]
 fn coarse_steps_are_in_the_deviation() {
