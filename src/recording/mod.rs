@@ -36,6 +36,7 @@
 mod archive;
 mod assumed;
 mod axis;
+mod barometer;
 mod cell;
 mod clock;
 mod error;
@@ -71,8 +72,9 @@ pub use axis::{Axis, UnknownName};
 pub use error::{Names, RecordingError, RecordingProblem};
 pub use facts::{Facts, Gap};
 
+pub use barometer::Barometer;
 pub use line_reader::{LineError, LineReader, LineReading};
-pub use pressure::{Barometer, Pressure, PressureUnit};
+pub use pressure::{Pressure, PressureUnit};
 pub use reading::{Quantity, Reading};
 pub use sample::Sample;
 pub use unit::{GRAVITY, TimeUnit, Unit, UnitError};

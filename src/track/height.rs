@@ -10,6 +10,7 @@
 //!
 //! [^1]: The monitor with accelerometer and barometer, in Chinese (楊昱等, 太原理工大學學報).
 
+use super::climb::Climb;
 use super::record::{Track, Tracked};
 use crate::recording::{Barometer, GRAVITY, Pressure};
 use crate::stats::quantile::median;
@@ -22,9 +23,6 @@ const DRY_AIR: f64 = 287.05;
 
 /// 0 °C, K.
 const FREEZING: f64 = 273.15;
-
-/// The columns that a trip gains by a barometer.
-pub(super) const CLIMB: [&str; 3] = ["height", "height_deviation", "height_printed"];
 
 /// The air of a building where nothing is known of it, and its deviation, K.
 const INDOORS: (f64, f64) = (FREEZING + 20.0, 10.0);
@@ -56,17 +54,6 @@ struct Column {
     deviation: f64,
     /// By eq. (5), m.
     printed: f64,
-}
-
-/// How high a trip went by the barometer.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Climb {
-    /// m, up positive.
-    pub height: f64,
-    /// Its standard deviation, m, with that of the air's temperature.
-    pub height_deviation: f64,
-    /// In the standard atmosphere, m: eq. (5).
-    pub height_printed: f64,
 }
 
 /// The temperature of the air.

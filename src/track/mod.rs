@@ -29,6 +29,7 @@
 //! [^1]: A patent on the detection of lift motion and abnormal stops by an accelerometer, in Chinese (基于加速度传感器的电梯运
 //!     动检测及异常位置停车判断), claims 1 to 3.
 
+mod climb;
 mod course;
 mod filter;
 pub mod floors;
@@ -52,9 +53,10 @@ mod travelled;
 mod uniform;
 mod warning;
 
+pub use climb::Climb;
 pub use course::{Course, Place};
 pub use filter::{TripFilter, Uncertain, Update};
-pub use height::{Air, Climb, Climbs};
+pub use height::{Air, Climbs};
 pub use integrals::{integrated, moments};
 pub use level::{Level, Scatter};
 pub use live::{LiveTrip, LiveTrips};

@@ -1,9 +1,9 @@
 //! The trips of a record, measured.
 
+use super::climb::Climb;
 use super::course::Course;
 use super::filter::Uncertain;
 use super::floors::Stop;
-use super::height::Climb;
 use super::level::Level;
 use super::phases::Phases;
 use super::rides::Surroundings;

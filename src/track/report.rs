@@ -2,8 +2,9 @@
 
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
+use super::climb::CLIMB;
 use super::floors::{Floor, Floors};
-use super::height::{Air, CLIMB, Climbs};
+use super::height::{Air, Climbs};
 use super::landing;
 use super::level::Level;
 use super::record::{Track, Tracked};
