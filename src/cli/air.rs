@@ -86,7 +86,10 @@ impl AirArguments {
             None => (Barometer::recorded_with(path), false),
         };
         let found = found.map_err(|error| anyhow!(error));
-        let used = found.and_then(|it| it.map(|it| beside(it, &rides.recording)).transpose());
+        let used = found.and_then(|it| {
+            it.map(|it| on_the_clock_of(&rides.recording, it))
+                .transpose()
+        });
         match used {
             Err(error) if is_given => Err(Failure::Input(error)),
             Err(error) => {
@@ -99,7 +102,10 @@ impl AirArguments {
 }
 
 /// A barometer whose clock is that of a recording, and how far the latter's is ahead.
-fn beside(barometer: Barometer, recording: &Recording) -> anyhow::Result<(Barometer, f64)> {
+fn on_the_clock_of(
+    recording: &Recording,
+    barometer: Barometer,
+) -> anyhow::Result<(Barometer, f64)> {
     let facts = recording.facts();
     let ahead = match (barometer.clock_offset, facts.clock_offset) {
         (Some(own), Some(other)) => own - other,

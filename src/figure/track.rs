@@ -65,7 +65,7 @@ pub fn plot(
     for places in track.course.stretches() {
         add_places(&mut plot, places);
     }
-    let readings = beside(barometer, track);
+    let readings = readings(barometer, track);
     let has_readings = !readings.is_empty();
     plot.add(2, Mark::Markers(readings, READING));
     let entries = entries(!floors.is_empty(), has_readings);
@@ -80,7 +80,7 @@ pub fn plot(
 }
 
 /// Readings of a barometer, few enough to be seen, at the height where most of them agree with the position.
-fn beside(barometer: &[(f64, f64)], track: &Track) -> Vec<Point> {
+fn readings(barometer: &[(f64, f64)], track: &Track) -> Vec<Point> {
     let places = || track.course.stretches().iter().flatten();
     let (Some(first), Some(last)) = (places().next(), places().last()) else {
         return Vec::new();

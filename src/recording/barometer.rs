@@ -1,11 +1,9 @@
 //! The pressure of the air, as a barometer recorded it: a table of its own, or a column beside the acceleration.
 
-use super::archive;
+use super::container;
 use super::error::{RecordingError, RecordingProblem};
-use super::json;
 use super::pressure::{Pressure, PressureUnit, is_on_earth};
 use super::reading::{Quantity, Reading};
-use super::sheet;
 use super::source::Source;
 use super::table::Columns;
 use std::ffi::OsStr;
@@ -35,7 +33,7 @@ impl Barometer {
     /// # Errors
     /// If it is no recording of a barometer.
     pub fn open(path: &Path) -> Result<Self, RecordingError> {
-        let source = table(Source::file(path)?)?;
+        let source = container::table(Source::file(path)?, &reading())?;
         Self::of(&source)
     }
 
@@ -44,7 +42,7 @@ impl Barometer {
     /// # Errors
     /// If it is no recording of a barometer.
     pub fn from_bytes(name: &str, bytes: impl Into<Arc<[u8]>>) -> Result<Self, RecordingError> {
-        let source = table(Source::memory(name, bytes.into()))?;
+        let source = container::table(Source::memory(name, bytes.into()), &reading())?;
         Self::of(&source)
     }
 
@@ -55,11 +53,12 @@ impl Barometer {
     /// # Errors
     /// If one is there and cannot be read.
     pub fn recorded_with(acceleration: &Path) -> Result<Option<Self>, RecordingError> {
-        let source = Source::file(acceleration).and_then(table);
+        let source = Source::file(acceleration);
+        let source = source.and_then(|it| container::table(it, &reading()));
         let source = source
             .ok()
             .filter(|it| Columns::begin(it, &reading()).is_ok());
-        let found = match (source, &beside(acceleration)[..]) {
+        let found = match (source, &called_alike(acceleration)[..]) {
             (Some(source), _) => Self::of(&source)?,
             (None, [path]) => Self::open(path)?,
             (None, _) => return Ok(None),
@@ -117,17 +116,6 @@ fn reading() -> Reading {
     }
 }
 
-/// The table of a file, of whatever kind.
-fn table(source: Source) -> Result<Source, RecordingError> {
-    let reading = reading();
-    let source = match archive::members(&source)? {
-        Some(members) if sheet::is_book(&members) => sheet::table(&source, &members, &reading)?,
-        Some(members) => archive::table(&source, &members, &reading)?,
-        None => source,
-    };
-    json::table(source, &reading)
-}
-
 /// What apps call the tables of their sensors.
 const ACCELEROMETERS: [&str; 4] = [
     "totalacceleration",
@@ -138,7 +126,7 @@ const ACCELEROMETERS: [&str; 4] = [
 const BAROMETERS: [&str; 2] = ["barometer", "pressure"];
 
 /// The tables of a barometer beside a table of accelerations, whose names differ only by the sensor.
-fn beside(acceleration: &Path) -> Vec<PathBuf> {
+fn called_alike(acceleration: &Path) -> Vec<PathBuf> {
     let lower = |path: &Path| {
         let name = path.file_name().map(OsStr::to_string_lossy);
         name.unwrap_or_default().to_lowercase()

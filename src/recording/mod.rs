@@ -39,6 +39,7 @@ mod axis;
 mod barometer;
 mod cell;
 mod clock;
+mod container;
 mod error;
 mod facts;
 mod head;
@@ -126,12 +127,7 @@ impl Recording {
     }
 
     fn of(source: Source, reading: &Reading) -> Result<Self, RecordingError> {
-        let source = match archive::members(&source)? {
-            Some(members) if sheet::is_book(&members) => sheet::table(&source, &members, reading)?,
-            Some(members) => archive::table(&source, &members, reading)?,
-            None => source,
-        };
-        let source = json::table(source, reading)?;
+        let source = container::table(source, reading)?;
         let columns = Columns::read(&source, reading)?;
         let recording = Self::of_columns(columns, source.part().map(str::to_owned), reading);
         recording.map_err(|problem| source.error(None, problem))

@@ -1,6 +1,7 @@
 //! The pressure of the air in the units in which it is recorded.
 
 use super::names::Column;
+use crate::stats::quantile::median;
 use std::fmt;
 
 /// A reading of a barometer.
@@ -69,21 +70,24 @@ impl Pressure {
 impl PressureUnit {
     /// That of a column: by its name, or by its readings.
     pub(super) fn of(name: &str, readings: &[f64]) -> Option<Self> {
-        let named = unit_name(name);
-        if let Some(named) = named {
-            let known = UNITS.iter().find(|(unit, _)| *unit == named);
-            return known.map(|(_, unit)| *unit);
+        if unit_name(name).is_some() {
+            return Self::named(name);
         }
         if is_one(&ALTITUDES, name) && !is_one(&PRESSURES, name) {
             return Some(Self::Metres);
         }
-        let mut sorted: Vec<f64> = readings.to_vec();
-        sorted.sort_by(f64::total_cmp);
-        let median = *sorted.get(sorted.len() / 2)?;
+        let median = median(readings.to_vec());
         let units = [Self::Pascal, Self::Hectopascal, Self::Kilopascal];
         units
             .into_iter()
             .find(|unit| is_on_earth(unit.pascal(median)))
+    }
+
+    /// That in brackets behind a name.
+    fn named(name: &str) -> Option<Self> {
+        let named = unit_name(name)?;
+        let known = UNITS.iter().find(|(unit, _)| *unit == named);
+        known.map(|(_, unit)| *unit)
     }
 
     pub(super) fn pascal(self, reading: f64) -> f64 {
@@ -113,15 +117,9 @@ impl fmt::Display for PressureUnit {
 
 /// The place of the column with the pressure, or else with an altitude.
 pub(super) fn column(columns: &[Column]) -> Option<usize> {
-    let units = |of: &Column| {
-        UNITS
-            .iter()
-            .find(|(unit, _)| unit_name(&of.name).as_deref() == Some(unit))
-    };
-    let is_pressure = |of: &&Column| {
-        let unit = units(of).map(|(_, unit)| *unit);
-        unit.is_some_and(|unit| unit != PressureUnit::Metres)
-            || unit.is_none() && is_one(&PRESSURES, &of.name)
+    let is_pressure = |of: &&Column| match PressureUnit::named(&of.name) {
+        Some(unit) => unit != PressureUnit::Metres,
+        None => is_one(&PRESSURES, &of.name),
     };
     let is_altitude = |of: &&Column| is_one(&ALTITUDES, &of.name);
     let place = |is_it: &dyn Fn(&&Column) -> bool| columns.iter().position(|of| is_it(&of));

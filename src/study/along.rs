@@ -1,5 +1,6 @@
 //! Pictures of outcomes along the axis, or against another outcome, curve by curve: one panel under the other.
 
+use super::outcomes::OutcomeRow;
 use crate::plot::{
     Axis, Curve, Entry, Key, Limit, Mark, Place, Plot, Point, Style, add_bands, ends, is_long,
     literal,
@@ -15,6 +16,18 @@ pub struct Outcome<'a> {
     pub x: f64,
     /// The estimate, and the ends of its interval.
     pub value: [f64; 3],
+}
+
+impl<'a> Outcome<'a> {
+    /// That of a row, whose curve counts from 1.
+    pub fn of(row: &'a impl OutcomeRow, curve: usize, x: f64) -> Self {
+        Self {
+            name: row.outcome(),
+            curve,
+            x,
+            value: row.value(),
+        }
+    }
 }
 
 /// What a panel shows.
@@ -74,9 +87,16 @@ impl Shown {
     }
 }
 
-/// The picture, without its caption.
-pub fn plot(outcomes: &[Outcome], labels: &[String], shown: Vec<Shown>, axis: &str) -> Plot {
-    let along = Along::new(outcomes, &shown);
+/// The picture.
+pub fn plot<'a>(
+    outcomes: impl Iterator<Item = Outcome<'a>>,
+    labels: &[String],
+    shown: Vec<Shown>,
+    axis: &str,
+    caption: &[String],
+) -> Plot {
+    let outcomes: Vec<Outcome> = outcomes.collect();
+    let along = Along::new(&outcomes, &shown);
     let panels = shown.into_iter().map(|shown| {
         let curves = (0..labels.len()).map(|index| Curve {
             style: Style::of(index),
@@ -108,6 +128,7 @@ pub fn plot(outcomes: &[Outcome], labels: &[String], shown: Vec<Shown>, axis: &s
         let names = labels.iter().map(|label| literal(label));
         plot.add_legend(Entry::of_curves(names, Key::MarkedLine), Place::Free);
     }
+    plot.set_caption(caption);
     plot
 }
 

@@ -88,7 +88,7 @@ impl<P: Keyed> Curves<P> {
     ///
     /// # Errors
     /// If a key is unknown or does not affect the measure, or a point is refused.
-    pub fn read(experiment: &Experiment) -> Result<Self, ConfigError> {
+    pub fn parse(experiment: &Experiment) -> Result<Self, ConfigError> {
         let table = experiment.table();
         let required = table.only(|key| ["measure", "axis"].contains(&key));
         let Required { measure, .. } = experiment.read_part(&required)?;
@@ -131,7 +131,7 @@ impl<P: Keyed> Curves<P> {
     }
 
     /// A curve, from 1, at a value of the axis, as a part of the name of a quantity.
-    pub fn name(&self, curve: usize, x: f64) -> String {
+    pub fn name_at(&self, curve: usize, x: f64) -> String {
         let curve = name_of(&self.labels[curve - 1]);
         format!("{curve}_at_{}", x.to_string().replace('.', "_"))
     }

@@ -50,9 +50,9 @@ pub const STUDIES: &[Entry] = &[
     Entry::of::<independence::Independence>(),
     Entry::of::<impulse_law::ImpulseLaw>(),
     Entry::of::<operating_point::OperatingPoint>(),
-    Entry::of::<outcomes::Of<ride::Rides>>(),
-    Entry::of::<outcomes::Of<records::Records>>(),
-    Entry::of::<outcomes::Of<floors::Buildings>>(),
+    Entry::of::<outcomes::Of<ride::Table>>(),
+    Entry::of::<outcomes::Of<records::Table>>(),
+    Entry::of::<outcomes::Of<floors::Table>>(),
     Entry::of::<outcomes::Of<trips::Trips>>(),
     Entry::of::<outcomes::Of<gravity::Windows>>(),
 ];

@@ -287,7 +287,7 @@ fn operating_points_stand_at_their_sizes() {
 
 #[test]
 fn rides_show_rates_above_delays() {
-    let (rows, plot) = drawn::<outcomes::Of<ride::Rides>>("ride_found");
+    let (rows, plot) = drawn::<outcomes::Of<ride::Table>>("ride_found");
     let curves = ["10 Hz", "25 Hz", "100 Hz", "200 Hz", "100 Hz, within 2 s"];
     assert_eq!(names(&plot), curves);
     let y: Vec<&str> = plot

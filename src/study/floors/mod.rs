@@ -48,14 +48,9 @@ use measure::Measure;
 use schemars::SchemaGenerator;
 use serde_json::Value;
 use std::collections::BTreeSet;
-use table::Table;
+pub(super) use table::Table;
 
-/// Buildings along an axis.
-pub(super) struct Buildings {
-    table: Table,
-}
-
-impl Outcomes for Buildings {
+impl Outcomes for Table {
     const NAME: &'static str = "floors";
     /// One of 1000 trips takes about ten milliseconds.
     const BLOCK: u64 = 8;
@@ -63,8 +58,7 @@ impl Outcomes for Buildings {
     type Row = Row;
 
     fn read(experiment: &Experiment) -> Result<Self, StudyError> {
-        let table = Table::read(experiment)?;
-        Ok(Self { table })
+        Ok(Self::parse(experiment)?)
     }
 
     fn schema(generator: &mut SchemaGenerator) -> Value {
@@ -72,30 +66,30 @@ impl Outcomes for Buildings {
     }
 
     fn points(&self) -> &[Point<Keys>] {
-        &self.table.points
+        &self.points
     }
 
     fn identity(&self, point: &Point<Keys>) -> Identity {
-        point.identity(self.table.measure)
+        point.identity(self.measure)
     }
 
     fn shape(&self) -> Shape {
-        trial::shape(self.table.measure, &self.table.points)
+        trial::shape(self.measure, &self.points)
     }
 
     fn trials(&self, points: &[&Point<Keys>], seed: u64, trial: u64) -> Vec<Sums> {
-        trial::run(self.table.measure, points, seed, trial)
+        trial::run(self.measure, points, seed, trial)
     }
 
     /// A building.
     fn family(&self, point: &Point<Keys>) -> Identity {
-        point.building(self.table.measure)
+        point.building(self.measure)
     }
 
     /// As many stops as trips, and no more alarms than stops.
     fn check(&self, point: &Point<Keys>, sums: &Sums, trials: u64) -> Result<(), OutOfRange> {
         let counts = &sums.counts;
-        let (stops, events) = match self.table.measure {
+        let (stops, events) = match self.measure {
             Measure::Alarm => (counts[2], &counts[3..]),
             Measure::Stops => (counts[0], &counts[1..]),
             Measure::Position | Measure::Healing => return Ok(()),
@@ -113,23 +107,23 @@ impl Outcomes for Buildings {
         trials: u64,
         confidence: f64,
     ) -> Vec<Estimate> {
-        estimate::of(self.table.measure, &point.of, sums, trials, confidence)
+        estimate::of(self.measure, &point.of, sums, trials, confidence)
     }
 
     fn row(&self, point: &Point<Keys>, estimate: Estimate, context: &Context) -> Row {
-        Row::new(&self.table, point, estimate, context)
+        Row::new(self, point, estimate, context)
     }
 
     fn name(&self, row: &Row) -> String {
-        self.table.name(row.curve, row.x)
+        self.name_at(row.curve, row.x)
     }
 
     /// Ordinary stops of each building, which several points may share.
     fn false_alarms(&self, rows: &[Row]) -> Vec<Scenario> {
         let mut known = BTreeSet::new();
         let mut scenarios = Vec::new();
-        for point in &self.table.points {
-            if known.insert(point.building(self.table.measure)) {
+        for point in &self.points {
+            if known.insert(point.building(self.measure)) {
                 let here = |row: &&Row| row.curve == point.curve + 1 && row.x == point.x;
                 let is_counted =
                     |row: &&Row| row.outcome.starts_with("false_") && row.exposure > 0.0;
@@ -140,7 +134,7 @@ impl Outcomes for Buildings {
     }
 
     fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        Ok(picture::plot(rows, &self.table, seed))
+        Ok(picture::plot(rows, self, seed))
     }
 }
 

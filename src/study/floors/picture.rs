@@ -6,27 +6,20 @@ use super::table::Table;
 use crate::format::thousands;
 use crate::plot::{Limit, Plot, literal};
 use crate::study::along::{self, Kind, Outcome, Shown};
-use crate::study::outcomes::OutcomeRow;
 
 /// The height of all panels of a picture and of what is between them, points.
 const HEIGHT: f64 = 300.0;
 
 /// The picture of a study.
 pub fn plot(rows: &[Row], table: &Table, seed: u64) -> Plot {
-    let outcomes = rows.iter().map(|row| Outcome {
-        name: &row.outcome,
-        curve: row.curve,
-        x: row.x,
-        value: row.value(),
-    });
-    let mut plot = along::plot(
-        &outcomes.collect::<Vec<_>>(),
+    let outcomes = rows.iter().map(|row| Outcome::of(row, row.curve, row.x));
+    along::plot(
+        outcomes,
         &table.labels,
         shown(table.measure),
         &key_in_words(&table.axis),
-    );
-    plot.set_caption(&caption(rows, table, seed));
-    plot
+        &caption(rows, table, seed),
+    )
 }
 
 fn shown(measure: Measure) -> Vec<Shown> {

@@ -1,6 +1,6 @@
 //! Buildings, counted.
 
-use super::Buildings;
+use super::Table;
 use crate::study::floors::Row;
 use crate::study::outcomes::Of;
 use crate::study::parse;
@@ -27,33 +27,33 @@ fn value(rows: &[Row], outcome: &str, at: usize) -> f64 {
 fn each_measure() {
     let alarm =
         "measure = \"alarm\"\ntrips = 100\nstoreys = 9\n[floors.axis]\noffset = [0.0, 0.2, 0.6]\n";
-    let study = read::<Of<Buildings>>(&config(alarm));
+    let study = read::<Of<Table>>(&config(alarm));
     let all = rows(&study, 40);
     assert_eq!(all.len(), 3 * 7);
     assert_eq!(value(&all, "alarmed", 2), 1.0);
     assert!(value(&all, "alarmed", 0) < 0.1 && value(&all, "false_alarms", 0) < 0.005);
     assert!((value(&all, "bound", 0) - 5.3e-4).abs() < 1e-5);
-    let one = read::<Of<Buildings>>(&config(&alarm.replace("0.0, 0.2, 0.6", "0.2")));
+    let one = read::<Of<Table>>(&config(&alarm.replace("0.0, 0.2, 0.6", "0.2")));
     assert_eq!(
         value(&rows(&one, 40), "alarmed", 0),
         value(&all, "alarmed", 1)
     );
 
     let position = "measure = \"position\"\n[floors.axis]\ntrips = [100, 0]\n";
-    let study = read::<Of<Buildings>>(&config(position));
+    let study = read::<Of<Table>>(&config(position));
     let all = rows(&study, 40);
     assert!(value(&all, "map", 0) < 0.008 && value(&all, "map", 1) > 0.008);
     assert!(value(&all, "reckoned", 0) > 10.0 * value(&all, "position", 0));
     assert!((0..2).all(|at| (value(&all, "nees", at) - 1.0).abs() < 0.4));
 
     let healing = "measure = \"healing\"\ntraffic = \"lobby\"\n[floors.axis]\nsince = [1, 25]\n";
-    let study = read::<Of<Buildings>>(&config(healing));
+    let study = read::<Of<Table>>(&config(healing));
     let all = rows(&study, 40);
     assert!(value(&all, "healed", 0) < 0.5 && value(&all, "healed", 1) > 0.9);
 
     let stops = "measure = \"stops\"\ntrips = 100\n[floors.axis]\nvague = [0.0, 2.0]\n\
         [[floors.curve]]\nlabel = \"by ξ\"\nassociation = \"nearest\"\n[[floors.curve]]\nlabel = \"mended\"\n";
-    let study = read::<Of<Buildings>>(&config(stops));
+    let study = read::<Of<Table>>(&config(stops));
     let all = rows(&study, 40);
     assert!(value(&all, "wrong_floors", 1) > 0.01 && value(&all, "wrong_floors", 3) < 0.01);
 }

@@ -49,7 +49,8 @@ use crate::study::outcomes::Outcomes;
 use detect::{Told, detect};
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::Value;
-use table::{Table, Watch};
+pub(super) use table::Table;
+use table::Watch;
 use watched::Watched;
 
 /// Which of two numbers.
@@ -58,23 +59,18 @@ type Pick = fn(f64, f64) -> f64;
 /// The least and the largest of the classes, as parts of the names of quantities.
 const EXTREMES: [(&str, Pick); 2] = [("least", f64::min), ("most", f64::max)];
 
-/// Records of several classes.
-pub(super) struct Records {
-    table: Table,
-}
-
-impl Records {
+impl Table {
     /// One record of a class.
     fn trial(&self, class: Class, seed: u64, trial: u64) -> Sums {
         let record = Record::new(class, seed, trial);
-        let (table, tolerance) = (&self.table, self.table.tolerance.get());
-        let Ok(design) = table.settings.at(record.rate) else {
+        let tolerance = self.tolerance.get();
+        let Ok(design) = self.settings.at(record.rate) else {
             unreachable!("rates lie in 5 to 500 Hz, which every block fits")
         };
-        match table.watch {
+        match self.watch {
             Watch::Detect => {
                 let outcome = detect(&design, &record);
-                let least_speed = table.settings.monitor.least_speed;
+                let least_speed = self.settings.monitor.least_speed;
                 Told::new(&record, &outcome, least_speed, tolerance).into()
             }
             Watch::Monitor => Watched::new(class, &record, &design, tolerance).into(),
@@ -82,7 +78,7 @@ impl Records {
     }
 }
 
-impl Outcomes for Records {
+impl Outcomes for Table {
     const NAME: &'static str = "records";
     /// A record takes tens of milliseconds.
     const BLOCK: u64 = 4;
@@ -90,29 +86,29 @@ impl Outcomes for Records {
     type Row = Row;
 
     fn read(experiment: &Experiment) -> Result<Self, StudyError> {
-        let table: Table = experiment.read()?;
+        let table: Self = experiment.read()?;
         table.check().map_err(|error| experiment.refuse(error))?;
         let settings = table.settings.check();
         settings.map_err(|error| {
             experiment.refuse(error.called(|path| format!("records.settings.{path}")))
         })?;
-        Ok(Self { table })
+        Ok(table)
     }
 
     fn schema(generator: &mut SchemaGenerator) -> Value {
-        Table::json_schema(generator).to_value()
+        Self::json_schema(generator).to_value()
     }
 
     fn points(&self) -> &[Class] {
-        &self.table.class
+        &self.class
     }
 
     fn identity(&self, class: &Class) -> Identity {
-        self.table.identity(*class)
+        self.parameters(*class)
     }
 
     fn shape(&self) -> Shape {
-        self.table.watch.shape()
+        self.watch.shape()
     }
 
     fn trials(&self, classes: &[&Class], seed: u64, trial: u64) -> Vec<Sums> {
@@ -121,15 +117,15 @@ impl Outcomes for Records {
     }
 
     fn check(&self, _: &Class, sums: &Sums, _: u64) -> Result<(), OutOfRange> {
-        self.table.watch.check(sums)
+        self.watch.check(sums)
     }
 
     fn estimates(&self, _: &Class, sums: &Sums, records: u64, confidence: f64) -> Vec<Estimate> {
-        self.table.watch.estimates(sums, records, confidence)
+        self.watch.estimates(sums, records, confidence)
     }
 
     fn row(&self, class: &Class, estimate: Estimate, context: &Context) -> Row {
-        Row::new(&self.table, *class, estimate, context)
+        Row::new(self, *class, estimate, context)
     }
 
     fn name(&self, row: &Row) -> String {
@@ -169,6 +165,6 @@ impl Outcomes for Records {
     }
 
     fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        Ok(picture::plot(rows, self.table.watch, seed))
+        Ok(picture::plot(rows, self.watch, seed))
     }
 }

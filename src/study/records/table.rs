@@ -70,7 +70,7 @@ impl Table {
     }
 
     /// Every parameter of a point.
-    pub fn identity(&self, class: Class) -> Identity {
+    pub fn parameters(&self, class: Class) -> Identity {
         let settings = serde_json::to_string(&self.settings).expect("settings are plain data");
         Identity::new([
             ("watch", self.watch.to_string()),

@@ -130,7 +130,7 @@ const HEAD: &str = "question = \"?\"\nseed = 5\ntrials = 3\n[records]\n";
 fn outcomes_of_each_class() {
     for (watch, outcomes) in [("detect", 7), ("monitor", 13)] {
         let class = "class = [\"ordinary\", \"drum\"]\n";
-        let study: Of<Records> = read(&format!("{HEAD}watch = \"{watch}\"\n{class}"));
+        let study: Of<Table> = read(&format!("{HEAD}watch = \"{watch}\"\n{class}"));
         let rows = rows(&study, 3);
         assert_eq!(rows.len(), 2 * outcomes);
         for row in &rows {
@@ -154,7 +154,7 @@ fn outcomes_of_each_class() {
 fn refusals() {
     let refused = |table: &str| {
         let experiment = parse("test", &format!("{HEAD}{table}")).unwrap();
-        let refused = Records::read(&experiment).err();
+        let refused = <Table as Outcomes>::read(&experiment).err();
         refused.expect("it is refused").to_string()
     };
     let class = "watch = \"detect\"\nclass = ";

@@ -53,14 +53,9 @@ use point::RidePoint;
 use schemars::SchemaGenerator;
 use serde_json::Value;
 use sums::RideSums;
-use table::Table;
+pub(super) use table::Table;
 
-/// Rides along an axis.
-pub(super) struct Rides {
-    table: Table,
-}
-
-impl Outcomes for Rides {
+impl Outcomes for Table {
     const NAME: &'static str = "ride";
     /// A trial takes milliseconds.
     const BLOCK: u64 = 4;
@@ -68,8 +63,7 @@ impl Outcomes for Rides {
     type Row = Row;
 
     fn read(experiment: &Experiment) -> Result<Self, StudyError> {
-        let table = Table::read(experiment)?;
-        Ok(Self { table })
+        Ok(Self::parse(experiment)?)
     }
 
     fn schema(generator: &mut SchemaGenerator) -> Value {
@@ -77,7 +71,7 @@ impl Outcomes for Rides {
     }
 
     fn points(&self) -> &[Point<RidePoint>] {
-        &self.table.points
+        &self.points
     }
 
     fn identity(&self, point: &Point<RidePoint>) -> Identity {
@@ -85,7 +79,7 @@ impl Outcomes for Rides {
     }
 
     fn shape(&self) -> Shape {
-        RideSums::shape(&self.table)
+        RideSums::shape(self)
     }
 
     fn trials(&self, points: &[&Point<RidePoint>], seed: u64, trial: u64) -> Vec<Sums> {
@@ -108,18 +102,18 @@ impl Outcomes for Rides {
         trials: u64,
         confidence: f64,
     ) -> Vec<Estimate> {
-        estimate::of(self.table.measure, &sums.clone().into(), trials, confidence)
+        estimate::of(self.measure, &sums.clone().into(), trials, confidence)
     }
 
     fn row(&self, point: &Point<RidePoint>, estimate: Estimate, context: &Context) -> Row {
-        Row::new(&self.table, point, estimate, context)
+        Row::new(self, point, estimate, context)
     }
 
     fn name(&self, row: &Row) -> String {
-        self.table.name(row.curve, row.x)
+        self.name_at(row.curve, row.x)
     }
 
     fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        Ok(picture::plot(rows, &self.table, seed))
+        Ok(picture::plot(rows, self, seed))
     }
 }

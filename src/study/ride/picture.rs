@@ -6,28 +6,21 @@ use super::table::Table;
 use crate::format::thousands;
 use crate::plot::{Limit, Plot, literal};
 use crate::study::along::{self, Kind, Outcome, Shown};
-use crate::study::outcomes::OutcomeRow;
 
 /// The picture of a study.
 pub fn plot(rows: &[Row], table: &Table, seed: u64) -> Plot {
-    let outcomes = rows.iter().map(|row| Outcome {
-        name: &row.outcome,
-        curve: row.curve,
-        x: row.x,
-        value: row.value(),
-    });
+    let outcomes = rows.iter().map(|row| Outcome::of(row, row.curve, row.x));
     let axis = match table.measure {
         Measure::Tradeoff => "median delay from a start to H_1*, s".to_owned(),
         _ => key_in_words(&table.axis),
     };
-    let mut plot = along::plot(
-        &outcomes.collect::<Vec<_>>(),
+    along::plot(
+        outcomes,
         &table.labels,
         shown(table.measure),
         &axis,
-    );
-    plot.set_caption(&caption(rows, table, seed));
-    plot
+        &caption(rows, table, seed),
+    )
 }
 
 /// The panels of a measurement, from the top.

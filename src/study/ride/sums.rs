@@ -204,7 +204,7 @@ mod tests {
              [ride.axis]\ndelta_over_sigma = [4]\n"
         );
         let experiment = parse("test", &text).unwrap();
-        Table::read(&experiment).unwrap().points[0].of.clone()
+        Table::parse(&experiment).unwrap().points[0].of.clone()
     }
 
     /// Events that a monitor might report, true or not, in a record that ends at `to`, s.

@@ -9,7 +9,7 @@ use crate::whiten::Order;
 fn points(text: &str) -> Vec<RidePoint> {
     let text = format!("question = \"?\"\nseed = 1\ntrials = 1\n[ride]\n{text}");
     let experiment = parse("test", &text).unwrap();
-    let points = Table::read(&experiment).unwrap().points;
+    let points = Table::parse(&experiment).unwrap().points;
     points.into_iter().map(|point| point.of).collect()
 }
 

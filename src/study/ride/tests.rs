@@ -4,7 +4,7 @@ use super::account::{Account, Truth};
 use super::estimate::of;
 use super::measure::Measure;
 use super::sums::RideSums;
-use super::{Rides, Row};
+use super::{Row, Table};
 use crate::lift::Journey;
 use crate::monitor::{Alarm, Direction, Event, Kind, State};
 use crate::signal::Phase;
@@ -183,8 +183,8 @@ fn what_is_never_told_takes_for_ever() {
 const TRIALS: u64 = 4;
 
 /// The study of a config, and its rows.
-fn study(text: &str) -> (Of<Rides>, Vec<Row>) {
-    let study: Of<Rides> = read(&format!(
+fn study(text: &str) -> (Of<Table>, Vec<Row>) {
+    let study: Of<Table> = read(&format!(
         "question = \"?\"\nseed = 5\ntrials = {TRIALS}\n{text}"
     ));
     let rows = rows(&study, TRIALS);
