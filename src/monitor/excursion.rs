@@ -11,7 +11,7 @@ pub(super) const FAST: (f64, f64, f64) = (0.02, 0.25, 2.5);
 const SLOW: (f64, f64, f64) = (0.02, 0.12, 3.5);
 
 /// How far a pulse reaches beyond the point where it falls into the noise, s.
-const FOOT: f64 = 0.3;
+pub(super) const FOOT: f64 = 0.3;
 
 /// A pulse begins where the smoothed record leaves this share of that.
 const ONSET: f64 = 0.3;
@@ -71,6 +71,8 @@ pub(super) struct Excursion {
     since_shock: f64,
     /// The largest change at once.
     pub jump: Jump,
+    /// The largest towards the level, m/s².
+    jump_back: f64,
     /// The largest smoothed value.
     most: f64,
     is_up: bool,
@@ -188,6 +190,7 @@ impl Excursion {
                 before: self.part,
             };
         }
+        self.jump_back = self.jump_back.max(-sign * off.jump);
         self.part.change += off.mean * off.seconds;
         self.part.seconds += off.seconds;
         self.part.peak = self.part.peak.max(off.mean.abs());
@@ -205,6 +208,11 @@ impl Excursion {
     /// Whether it may be another level.
     pub fn begins_at_once(&self) -> bool {
         self.jump.before.seconds < 2.0 * FOOT && is_at_once(self.jump.by, self.most, 0.0)
+    }
+
+    /// Whether it changes towards the level at once, as after a knock.
+    pub fn ends_at_once(&self) -> bool {
+        is_at_once(self.jump_back, self.most, 0.0)
     }
 
     /// It, or a part of it, as a pulse, if it is more than noise of this deviation over the longer time.

@@ -140,27 +140,22 @@ impl Live {
         let home = (0..self.tracks.len())
             .min_by(|a, b| distance(&self.tracks[*a]).total_cmp(&distance(&self.tracks[*b])))
             .filter(|home| distance(&self.tracks[*home]) < self.tracks[*home].nearness());
-        let turned = self.turned(level, since);
         let is_young = self.recent.is_whole();
-        let doubts = |track: &Track| track.is_in_pulse_since(since);
-        if turned.is_empty() && home.is_none() && is_young && self.tracks.iter().all(doubts) {
-            let mut track = Track::new(level, self.recent.white(), &self.begins);
-            if !self.tracks.is_empty() {
-                track.hypotheses.raise(self.latest.least + YOUNG_SHIFT);
-            }
-            self.see(&mut track, f64::NEG_INFINITY);
-            self.tracks.push(track);
-            return;
-        }
+        let in_pulse = |track: &Track| track.is_in_pulse_since(since);
+        let is_first = home.is_none() && is_young && self.tracks.iter().all(in_pulse);
+        let mut turned = Vec::new();
         let mut given: Option<(Vec<Hypothesis>, Noises)> = None;
         for index in 0..self.tracks.len() {
             let track = &mut self.tracks[index];
-            if Some(index) != home && track.doubts(since, level) {
-                let (all, _) = given.get_or_insert((Vec::new(), track.noise()));
-                all.extend(track.hypotheses.shifted(track.level - level, false));
+            if Some(index) == home || !track.doubts(since, level) {
+                continue;
             }
+            let (all, _) = given.get_or_insert((Vec::new(), track.noise()));
+            all.extend(track.hypotheses.shifted(track.level - level, false));
+            turned.extend(self.turned(&self.tracks[index], level));
         }
         match (home, given) {
+            _ if is_first => self.tracks.push(self.first(level)),
             (Some(home), Some((given, _))) => self.tracks[home].hypotheses.join(given),
             (None, Some((given, noise))) => {
                 let mut track = Track::new(level, noise, &[]);
@@ -172,12 +167,19 @@ impl Live {
         self.tracks.extend(turned);
     }
 
-    /// The tracks on a level to which the record came at once, in a pulse that has been going on since a time.
-    fn turned(&mut self, level: f64, time: f64) -> Vec<Track> {
-        let turned = self.tracks.iter_mut();
-        let turned = turned.flat_map(|track| track.turned(&self.known, level, time));
-        let is_known = |(_, since): &(Track, f64)| self.recent.goes_back_to(*since);
-        let turned: Vec<(Track, f64)> = turned.filter(is_known).collect();
+    /// The track on this level where nothing is forgotten yet.
+    fn first(&self, level: f64) -> Track {
+        let mut track = Track::new(level, self.recent.white(), &self.begins);
+        if !self.tracks.is_empty() {
+            track.hypotheses.raise(self.latest.least + YOUNG_SHIFT);
+        }
+        self.see(&mut track, f64::NEG_INFINITY);
+        track
+    }
+
+    /// What a track is on a level to which the record may have come at once.
+    fn turned(&self, track: &Track, level: f64) -> Vec<Track> {
+        let turned = track.turned(&self.known, level, self.recent.oldest());
         let turned = turned.into_iter().map(|(mut track, since)| {
             self.see(&mut track, since);
             track

@@ -170,9 +170,11 @@ impl Recent {
         self.count >= 3 * self.part && self.count.is_multiple_of((self.part / 4).max(1))
     }
 
-    /// Whether nothing since a time is forgotten, s.
-    pub fn goes_back_to(&self, time: f64) -> bool {
-        self.smooth.front().is_some_and(|first| first.from <= time)
+    /// Since when nothing is forgotten, s.
+    pub fn oldest(&self) -> f64 {
+        self.smooth
+            .front()
+            .map_or(f64::INFINITY, |first| first.from)
     }
 
     /// Whether nothing since the latest hole is forgotten.

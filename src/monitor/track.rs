@@ -1,6 +1,6 @@
 //! One level of the sensor, the pulses that leave it, and the hypotheses on them.
 
-use super::excursion::{Excursion, FAST, Least, Part};
+use super::excursion::{Excursion, FAST, FOOT, Least, Part};
 use super::hypotheses::Hypotheses;
 use super::hypothesis::Hypothesis;
 use super::noise::Noises;
@@ -54,6 +54,8 @@ pub(super) struct Track {
     noise: Noises,
     /// The latest changes at once that began pulses which are over.
     turns: VecDeque<Turn>,
+    /// Whether the latest pulse ended at once.
+    came_back_at_once: bool,
     /// For how long there has been no pulse, s.
     pub quiet: f64,
 }
@@ -66,6 +68,7 @@ impl Track {
             excursion: Excursion::default(),
             noise,
             turns: VecDeque::with_capacity(MOST_TURNS),
+            came_back_at_once: false,
             quiet: 0.0,
         }
     }
@@ -112,6 +115,10 @@ impl Track {
             let share = (seconds / NOISE_FOLLOWS).min(1.0);
             self.noise.slow += share * (1.25 * off.slow.abs() - self.noise.slow);
         }
+        // A start may take a turned sensor back to the level, but neither for long nor at once.
+        if self.quiet > SETTLED || self.came_back_at_once && self.quiet > FOOT {
+            self.turns.clear();
+        }
         if self.quiet > SETTLED + 1.0 {
             // What is as far away as a shock is not of the level.
             let away = off.settled.clamp(-FAST.1, FAST.1);
@@ -121,9 +128,12 @@ impl Track {
     }
 
     fn end(&mut self, known: &Known, now: f64) {
-        if self.excursion.is_pulse && self.excursion.begins_at_once() {
-            self.turns.truncate(MOST_TURNS - 1);
-            self.turns.push_front(self.turn(known));
+        if self.excursion.is_pulse {
+            self.came_back_at_once = self.excursion.ends_at_once();
+            if self.excursion.begins_at_once() {
+                self.turns.truncate(MOST_TURNS - 1);
+                self.turns.push_front(self.turn(known));
+            }
         }
         if let Some(pulse) = self.pulse(known, &self.excursion.part) {
             self.quiet = 0.0;
@@ -159,20 +169,16 @@ impl Track {
         }
     }
 
-    /// Itself on another level, and since when, s, if the record may have come to it at once, where a pulse has been going on
-    /// since a time. That is not said again.
-    pub fn turned(&mut self, known: &Known, level: f64, time: f64) -> Vec<(Self, f64)> {
-        if !self.is_in_pulse_since(time) {
-            return Vec::new();
-        }
+    /// Itself on another level, to which a change at once that is not older than a time may have brought the record; and since
+    /// when, s.
+    pub fn turned(&self, known: &Known, level: f64, oldest: f64) -> Vec<(Self, f64)> {
         let by = level - self.level;
-        let is_it = |turn: &Turn| turn.by * by > 0.0 && is_at_once(turn.by, by, 0.0);
+        let is_it = |turn: &Turn| {
+            let is_like = turn.by * by > 0.0 && is_at_once(turn.by, by, 0.0);
+            is_like && is_at_once(by, turn.by, 0.0) && turn.over >= oldest
+        };
         let turns = self.turns.iter().cloned().chain([self.turn(known)]);
-        let turns: Vec<Turn> = turns.filter(is_it).collect();
-        if turns.is_empty() || !self.doubts(time, level) {
-            return Vec::new();
-        }
-        let turned = turns.iter().map(|turn| {
+        let turned = turns.filter(is_it).map(|turn| {
             let shifted = turn.before.iter().map(|it| it.shifted(by, true));
             let shifted: Vec<Hypothesis> = shifted.collect();
             (Self::new(level, self.noise, &shifted), turn.over)

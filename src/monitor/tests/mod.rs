@@ -87,13 +87,18 @@ impl Record {
     }
 
     fn watch(&self, monitor: &mut Monitor) -> Vec<Event> {
+        self.watch_with(monitor, |_| None)
+    }
+
+    /// With what is known of the drum at a time, s.
+    fn watch_with(&self, monitor: &mut Monitor, drum: impl Fn(f64) -> Option<bool>) -> Vec<Event> {
         let sample = |(i, a): (usize, &f64)| Sample {
             time: i as f64 / RATE,
             acceleration: *a,
         };
         let samples = self.samples.iter().enumerate().map(sample);
         samples
-            .flat_map(|sample| monitor.step(sample, None).to_vec())
+            .flat_map(|sample| monitor.step(sample, drum(sample.time)).to_vec())
             .collect()
     }
 }
@@ -403,7 +408,7 @@ fn a_shift_of_the_level_is_told_as_doubt() {
 /// has shown itself is not at rest. Only when it is over, a start is told that comes at once.
 #[test]
 fn what_changes_at_once_may_be_the_level() {
-    let turns = [0.1, -0.3, 0.5].map(|by| [1.0, 2.0, 4.0, 30.0].map(|seconds| (by, seconds)));
+    let turns = [0.1, -0.3, 0.5, -0.5].map(|by| [1.0, 2.0, 4.0, 30.0].map(|seconds| (by, seconds)));
     for (by, seconds) in turns.into_iter().flatten() {
         let turned = Record::quiet().rest(30.0).changing(seconds, by, 0.0, 1.0);
         let start = turned.now();

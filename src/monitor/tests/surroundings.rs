@@ -184,6 +184,42 @@ fn a_clock_that_is_set_back_costs_a_gap() {
     assert_eq!(known(&events).last(), Some(&REST), "{events:?}");
 }
 
+/// Somebody knocks against a standing car, its sensor later reads another level, and the drum turns: what is told of that is
+/// what it were without the knock, and the alarm comes.
+#[test]
+fn a_knock_hides_no_slack() {
+    let knocks = [
+        (0.5, 0.3),
+        (-0.5, 0.3),
+        (0.2, 0.3),
+        (0.16, 0.2),
+        (0.9, 0.15),
+    ];
+    let kinds = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 15.0, 50.0]
+        .into_iter()
+        .flat_map(|before| knocks.map(|knock| (before, knock)))
+        .flat_map(|(before, knock)| [0.15, -0.15, 0.3].map(|level| (before, knock, level)));
+    for (before, (by, seconds), level) in kinds {
+        let told = |by: f64| {
+            let knocked = Record::quiet()
+                .rest(90.0 - before)
+                .changing(seconds, by, 0.0, 1.0)
+                .changing(seconds, -2.0 * by, 0.0, 1.0)
+                .changing(before, by, 0.0, 1.0);
+            let start = knocked.now();
+            let record = knocked.changing(30.0, level, 1.0, 1.0);
+            let drum = |time| Some(time > start + 10.0);
+            let mut events = record.watch_with(&mut standing(), drum);
+            events.retain(|event| event.reported > start);
+            (states(&events), alarms(&events))
+        };
+        let (knocked, quiet) = (told(by), told(0.0));
+        let what = format!("{by} for {seconds} s, {before} s before {level}");
+        assert_eq!(knocked, quiet, "{what}");
+        assert_eq!(knocked.1, [Alarm::Slack], "{what}");
+    }
+}
+
 #[test]
 fn a_drum_that_turns_without_the_cage_is_an_alarm() {
     let record = Record::quiet().rest(8.0).trip(-1.0).rest(20.0);
