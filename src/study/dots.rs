@@ -6,8 +6,12 @@ use libm::log10;
 /// The height of each series of a name, points.
 const LINE: f64 = 4.25;
 
-/// How far apart the series of a name are, as a part of its height.
+/// The least height of a name, points.
+const NAME: f64 = 17.0;
+
+/// How far apart the series of a name are, at most, and all of them together, as a part of its height.
 const APART: f64 = 0.17;
+const ALL_APART: f64 = 0.85;
 
 /// Half the thickness of a bar, as a part of that.
 const THICK: f64 = 0.03;
@@ -19,8 +23,10 @@ pub(super) type Named = Vec<(String, Vec<Option<[f64; 3]>>)>;
 pub(super) fn plot(named: &Named, series: Vec<String>, axis: &str, caption: &[String]) -> Plot {
     let names = named.iter().rev().map(|(name, _)| name.clone());
     let y = Axis::names(names.collect());
-    let height = LINE * (named.len() * series.len()) as f64;
-    let mut plot = Plot::of(vec![Panel::new(height, x_axis(named, axis), y)], 1);
+    let height = (LINE * series.len() as f64).max(NAME) * named.len() as f64;
+    let apart = (ALL_APART / series.len() as f64).min(APART);
+    let (least, x) = x_axis(named, axis);
+    let mut plot = Plot::of(vec![Panel::new(height, x, y)], 1);
     plot.margins.left = 130.0;
     plot.add(0, Mark::Grid);
     for place in 0..series.len() {
@@ -29,7 +35,9 @@ pub(super) fn plot(named: &Named, series: Vec<String>, axis: &str, caption: &[St
         let rows = named.iter().rev().zip((0..).map(f64::from));
         let points = rows.filter_map(|((_, estimates), y)| {
             let [low, x, high] = (*estimates.get(place)?)?.map(log10);
-            low.is_finite().then_some((low, (x, y + APART * off), high))
+            // A bar that reaches down to zero begins where the axis does.
+            x.is_finite()
+                .then_some((low.max(least), (x, y + apart * off), high))
         });
         let points: Vec<_> = points.collect();
         let bars = points.iter().map(|(low, at, high)| {
@@ -46,15 +54,17 @@ pub(super) fn plot(named: &Named, series: Vec<String>, axis: &str, caption: &[St
     plot
 }
 
-fn x_axis(named: &Named, label: &str) -> Axis {
+/// The axis, and its low end.
+fn x_axis(named: &Named, label: &str) -> (f64, Axis) {
     let estimates = named
         .iter()
         .flat_map(|(_, estimates)| estimates.iter().flatten());
-    let (low, high) = ends(estimates.map(|[_, value, _]| log10(*value)));
-    let axis = if low > high {
-        Axis::decades(0.0, 1.0)
+    let values = estimates.map(|[_, value, _]| log10(*value));
+    let (low, high) = ends(values.filter(|value| value.is_finite()));
+    let (low, high) = if low > high {
+        (0.0, 1.0)
     } else {
-        Axis::decades(low - 0.1, high + 0.1)
+        (low - 0.1, high + 0.1)
     };
-    axis.labelled(label)
+    (low, Axis::decades(low, high).labelled(label))
 }

@@ -136,7 +136,7 @@ impl Mean {
 
     /// The root of a mean square.
     pub fn root(self) -> Self {
-        self.map(|value| sqrt(value.max(0.0)))
+        self.map(|value| if value < 0.0 { 0.0 } else { sqrt(value) })
     }
 
     /// Over another mean of the same cases, where the mean of their products is known; the relative errors by the delta

@@ -27,6 +27,8 @@ pub enum Condition {
     Start,
     /// The steps of the sensor are 18 mg.
     CoarseSteps,
+    /// They are, and the doors knock.
+    CoarseShocks,
 }
 
 /// Samples of a window, at this rate, Hz.
@@ -54,7 +56,7 @@ impl Condition {
     fn step(self) -> f64 {
         GRAVITY
             * match self {
-                Self::CoarseSteps => 0.018,
+                Self::CoarseSteps | Self::CoarseShocks => 0.018,
                 _ => 1.0 / 16_384.0,
             }
     }
@@ -80,7 +82,7 @@ impl Condition {
                     add(from, up, &swing);
                 }
             }
-            Self::Shocks => {
+            Self::Shocks | Self::CoarseShocks => {
                 for _ in 0..6 {
                     let [from, peak] = [2.0, 9.0].map(|most| most * rng::unit(draws));
                     let knock = |time: f64| if time < 0.01 { 1.0 + peak } else { 0.0 };
