@@ -39,6 +39,12 @@ pub fn largest(v: Vector) -> usize {
     (0..3).max_by(larger).unwrap_or(0)
 }
 
+/// The place of the smallest part.
+pub fn smallest(v: Vector) -> usize {
+    let smaller = |a: &usize, b: &usize| v[*a].abs().total_cmp(&v[*b].abs());
+    (0..3).min_by(smaller).unwrap_or(0)
+}
+
 /// The sum of vectors, each times its number.
 pub fn mix<const N: usize>(parts: [(f64, Vector); N]) -> Vector {
     [0, 1, 2].map(|axis| parts.iter().map(|(share, v)| share * v[axis]).sum())

@@ -61,7 +61,7 @@ impl Detect {
     /// Runs the command.
     pub fn run(self) -> CommandResult {
         let outputs = self.outputs()?;
-        let rides = self.rides.find()?;
+        let rides = self.rides.find(false)?;
         let Rides {
             recording,
             detection,

@@ -18,6 +18,7 @@ mod output;
 mod plan;
 mod plot;
 mod progress;
+mod quality;
 mod reading;
 mod replay;
 mod rides;

@@ -82,10 +82,13 @@ impl RideArguments {
         apart(&self.recording, outputs)
     }
 
-    /// Reads the recording and finds its rides; prints the warnings about it.
-    pub fn find(&self) -> Result<Rides, Failure> {
+    /// Reads the recording, with what is across the vertical or without, and finds its rides; prints the warnings about it.
+    pub fn find(&self, across: bool) -> Result<Rides, Failure> {
         let setup = self.options.setup()?;
-        let reading = self.reading.over(&setup.config.reading)?;
+        let reading = Reading {
+            across,
+            ..self.reading.over(&setup.config.reading)?
+        };
         let recording = self.open(&reading)?;
         let clock = reading.rate.is_some() || reading.time.is_some() || reading.time_unit.is_some();
         let is_told = clock || reading.member.is_some();

@@ -4,6 +4,7 @@ use super::air::{self, AirArguments, Measured};
 use super::floors::{self, Building, FloorArguments};
 use super::found::{self, cell};
 use super::output::Output;
+use super::quality::{self, QualityArguments};
 use super::rides::{RideArguments, Rides};
 use super::rows::{self, Format};
 use super::{CommandResult, Failure, print, table, warn};
@@ -27,10 +28,13 @@ use std::process::ExitCode;
 ///
 /// With `--floors` or `--map` every stop is compared with the floors: at which the car stands, how far off, and an alarm
 /// where that is too much. The trip after it judges it again.
+///
+/// With `--quality` each ride is judged: how hard it speeds up and brakes, and how much it shakes.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     liftsim simulate --out ride.csv && liftsim track ride.csv --figure track.png\n  \
     liftsim track log.csv --time t --acceleration az --unit mg --format csv > rides.csv\n  \
+    liftsim track phone.zip --quality\n  \
     liftsim track ride.csv --floors 0,12 --at 0 --map lift.json")]
 pub struct TrackCommand {
     /// Print it as this.
@@ -46,6 +50,8 @@ pub struct TrackCommand {
     floors: FloorArguments,
     #[command(flatten)]
     air: AirArguments,
+    #[command(flatten)]
+    quality: QualityArguments,
     #[command(flatten)]
     rides: RideArguments,
 }
@@ -76,7 +82,7 @@ impl TrackCommand {
         self.rides.apart(outputs())?;
         self.air.apart(outputs())?;
         let mut building = self.floors.building(self.force)?;
-        let rides = self.rides.find()?;
+        let rides = self.rides.find(self.quality.is_wanted())?;
         let measured = self.air.measure(rides, self.rides.path())?;
         let Measured {
             rides,
@@ -84,6 +90,7 @@ impl TrackCommand {
             heights,
         } = measured;
         rides.warn();
+        let quality = self.quality.judge(&mut track, &rides);
         if let Some(building) = &mut building {
             self.land(&mut track, &rides, building)?;
         }
@@ -113,7 +120,10 @@ impl TrackCommand {
         } = &rides;
         let heights = heights.as_ref().map(|(of, climbs)| (of, climbs));
         let name = self.rides.name();
-        let report = TrackReport::new(name, recording, detection, &track, floors, heights);
+        let report = TrackReport {
+            quality,
+            ..TrackReport::new(name, recording, detection, &track, floors, heights)
+        };
         print(&self.printed(&report))?;
         building.map_or(Ok(()), |building| building.save())?;
         Ok(ExitCode::SUCCESS)
@@ -176,11 +186,19 @@ fn text(report: &TrackReport) -> String {
         found::recording(&report.recording),
         report.barometer.as_ref().map(air::text).unwrap_or_default(),
         trips(report),
+        quality(report),
         floors::text(report),
         found::undecided(report.undecided),
         found::events(report.events),
     ]
     .concat()
+}
+
+fn quality(report: &TrackReport) -> String {
+    let quality = report.quality.as_ref();
+    quality
+        .map(|it| quality::text(report.rides, it))
+        .unwrap_or_default()
 }
 
 fn trips(report: &TrackReport) -> String {

@@ -93,6 +93,7 @@ use windows::Windows;
 #[derive(Clone, Debug)]
 pub struct Recording {
     samples: Vec<Sample>,
+    across: Option<[Vec<Sample>; 2]>,
     rate: f64,
     facts: Facts,
     warnings: Vec<Warning>,
@@ -146,22 +147,22 @@ impl Recording {
         let mut vertical = vertical::find(&columns, &windows, reading.axis, is_reversed)?;
         let along = vertical::project(&columns, &windows, unit, &vertical);
         let coarse_step = vertical::coarse_step(&columns, unit, &vertical);
+        let across = || vertical::project_across(&columns, &windows, unit, &vertical);
+        let across = reading.across.then(across).flatten();
         columns.axes.clear();
         let sign = if reading.invert { -1.0 } else { 1.0 };
         if reading.invert {
             vertical = vertical.inverted();
         }
-        let mut samples: Vec<Sample> = (columns.times.iter().zip(along))
-            .filter(|(_, along)| !along.is_nan())
-            .map(|(&time, along)| Sample {
-                time,
-                acceleration: sign * along,
-            })
-            .collect();
+        let mut samples = sample::series(&columns.times, along, sign);
+        let mut across = across.map(|both| both.map(|it| sample::series(&columns.times, it, 1.0)));
         columns.skipped.blank += (columns.times.len() - samples.len()) as u64;
         columns.times = Vec::new();
         let whole_rows = samples.len() as u64;
         let repeats = spread::spread(&mut samples);
+        across.iter_mut().flatten().for_each(|it| {
+            spread::spread(it);
+        });
         let facts = Facts::of(&samples, windows.has_gravity(), reading.rate)?;
         let facts = Facts {
             clock_offset: columns.parser.clock.offset(),
@@ -176,13 +177,19 @@ impl Recording {
         warnings.extend(warning::of_signal(&facts, &vertical, is_doubtful, is_even));
         if let Some(rate) = reading.resample {
             check_resample(rate, &facts)?;
-            samples = resample::resample(&samples, rate, facts.gap());
+            for series in [&mut samples]
+                .into_iter()
+                .chain(across.iter_mut().flatten())
+            {
+                *series = resample::resample(series, rate, facts.gap());
+            }
         }
         let layout = &columns.parser.layout;
         let names = layout.acceleration_names().into_iter().zip(0..);
         let read = names.filter(|(_, place)| vertical.column.is_none_or(|column| column == *place));
         Ok(Self {
             samples,
+            across,
             rate: reading.resample.unwrap_or(facts.rate),
             facts,
             warnings,
@@ -217,6 +224,11 @@ impl Recording {
     /// The samples, times strictly increasing, after any resampling.
     pub fn samples(&self) -> &[Sample] {
         &self.samples
+    }
+
+    /// What was read across the vertical in two directions, at their own times, with [`Reading::across`] and three axes.
+    pub fn across(&self) -> Option<&[Vec<Sample>; 2]> {
+        self.across.as_ref()
     }
 
     /// The rate of the samples, Hz, after any resampling.

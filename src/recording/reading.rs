@@ -30,6 +30,8 @@ pub struct Reading {
     pub axis: Axis,
     /// Whether to turn the vertical upside down in the end.
     pub invert: bool,
+    /// Whether to keep what three axes read across the vertical.
+    pub across: bool,
     /// Read from this time on, s of the file's clock as printed.
     pub from: Option<f64>,
     /// Read up to this time, s of the file's clock as printed.

@@ -21,6 +21,8 @@ pub(super) struct Columns {
     pub skipped: Skipped,
     /// Rows seen, kept or not.
     rows: u64,
+    /// The memory of a row, bytes: columns may hold twice what is in them while they grow; samples come to them in the end.
+    row_bytes: f64,
     /// The first and the last time seen, kept or not, s.
     seen: Option<(f64, f64)>,
 }
@@ -66,7 +68,9 @@ impl Columns {
         }
         let (parser, mut lines) = Self::begin(source, reading)?;
         let blame = |(line, problem)| source.error(line, problem);
+        let across = if reading.across { 48.0 } else { 0.0 };
         let mut columns = Self {
+            row_bytes: 16.0 * (1.0 + parser.layout.axes.len() as f64) + 24.0 + across,
             times: Vec::new(),
             axes: vec![Vec::new(); parser.layout.axes.len()],
             parser,
@@ -145,9 +149,8 @@ impl Columns {
         self.axes.iter_mut().for_each(|axis| axis.reserve(rows));
     }
 
-    /// Columns may hold twice what is in them while they grow; samples come to them in the end.
     fn check_memory(&self, rows: f64) -> Result<(), RecordingProblem> {
-        check_memory(rows, 16.0 * (1.0 + self.axes.len() as f64) + 24.0)
+        check_memory(rows, self.row_bytes)
     }
 
     /// Checks the rate of the clock. If no unit is stated, seconds are assumed, and a rate that no such sensor has

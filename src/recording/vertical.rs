@@ -16,7 +16,7 @@ use super::steps::{LOOKED_AT, Steps};
 use super::table::Columns;
 use super::unit::Unit;
 use super::windows::{GRAVITATION, Windows};
-use crate::vector::{Vector, angle, dot, largest, length, mix, unit};
+use crate::vector::{Vector, angle, cross, dot, largest, length, mix, smallest, unit};
 use std::fmt;
 
 /// The vertical direction, and how it was found.
@@ -118,6 +118,9 @@ impl fmt::Display for Vertical {
     }
 }
 
+/// An axis with more than this of the vertical in it is no direction across it.
+const STEEP: f64 = 0.9;
+
 /// Windows on each side in the neighbourhood of one: 20 s in all.
 const NEIGHBOURS: usize = 20;
 
@@ -202,22 +205,72 @@ pub(super) fn project(
     unit: Unit,
     vertical: &Vertical,
 ) -> Vec<f64> {
-    let (up, axes) = (vertical.up, &columns.axes);
-    if let Some(place) = vertical.column {
-        let readings = axes[place].iter();
-        return readings
-            .map(|reading| up[place] * unit.convert(*reading))
-            .collect();
+    match vertical.column {
+        Some(place) => alone(&columns.axes[place], vertical.up[place], unit),
+        None => along(columns, windows, unit, vertical, |up| up),
     }
+}
+
+/// The accelerations across it in two directions, row by row; none if three axes were not read. Where one column is the
+/// vertical they are the two others; else the first is as near as can be to the axis that is least vertical.
+pub(super) fn project_across(
+    columns: &Columns,
+    windows: &Windows,
+    unit: Unit,
+    vertical: &Vertical,
+) -> Option<[Vec<f64>; 2]> {
+    if columns.axes.len() != 3 {
+        return None;
+    }
+    if let Some(place) = vertical.column {
+        let others = [(place + 1) % 3, (place + 2) % 3];
+        return Some(others.map(|place| alone(&columns.axes[place], 1.0, unit)));
+    }
+    let level = smallest(vertical.up);
+    let first = move |up: Vector| {
+        // It may be turned until it is.
+        let level = if up[level].abs() < STEEP {
+            level
+        } else {
+            smallest(up)
+        };
+        let mut axis = [0.0; 3];
+        axis[level] = 1.0;
+        let across = mix([(1.0, axis), (-up[level], up)]);
+        across.map(|along| along / length(across))
+    };
+    let second = move |up: Vector| cross(up, first(up));
+    Some([
+        along(columns, windows, unit, vertical, first),
+        along(columns, windows, unit, vertical, second),
+    ])
+}
+
+fn alone(axis: &[f64], sign: f64, unit: Unit) -> Vec<f64> {
+    let readings = axis.iter();
+    readings
+        .map(|reading| sign * unit.convert(*reading))
+        .collect()
+}
+
+/// The acceleration along a direction that follows from what is up, row by row.
+fn along(
+    columns: &Columns,
+    windows: &Windows,
+    unit: Unit,
+    vertical: &Vertical,
+    direction: impl Fn(Vector) -> Vector,
+) -> Vec<f64> {
     let path = match vertical.reason {
-        Reason::Gravity { .. } => path(windows, up),
+        Reason::Gravity { .. } => path(windows, vertical.up),
         _ => Vec::new(),
     };
     let mut node = 0;
     let rows = columns.times.iter().enumerate();
     rows.map(|(row, time)| {
-        let up = local(&path, &mut node, *time).unwrap_or(up);
-        dot([0, 1, 2].map(|axis| unit.convert(axes[axis][row])), up)
+        let up = local(&path, &mut node, *time).unwrap_or(vertical.up);
+        let reading = [0, 1, 2].map(|axis| unit.convert(columns.axes[axis][row]));
+        dot(reading, direction(up))
     })
     .collect()
 }

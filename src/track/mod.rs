@@ -42,6 +42,7 @@ mod live;
 pub mod map;
 mod noise;
 mod phases;
+pub mod quality;
 mod record;
 mod report;
 mod rides;

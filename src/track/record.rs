@@ -6,6 +6,7 @@ use super::filter::Uncertain;
 use super::floors::Stop;
 use super::level::Level;
 use super::phases::Phases;
+use super::quality::Quality;
 use super::rides::Surroundings;
 use super::settings::TrackSettings;
 use super::steps::HOLE;
@@ -36,6 +37,9 @@ pub struct Tracked {
     /// Its height by a barometer, where there is one.
     #[serde(flatten)]
     pub climb: Option<Climb>,
+    /// How smooth it was, where that is asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub quality: Option<Quality>,
     /// Why there is no distance.
     #[serde(skip)]
     pub unknown: Option<Unknown>,
@@ -172,6 +176,7 @@ impl Tracked {
             widened: (travelled.widened > 0.0).then_some(travelled.widened),
             landing: None,
             climb: None,
+            quality: None,
             unknown: None,
         }
     }
@@ -185,13 +190,14 @@ impl Tracked {
             widened: None,
             landing: None,
             climb: None,
+            quality: None,
             unknown: Some(unknown),
         }
     }
 }
 
 /// From when to when a record has no holes, s.
-fn stretches(samples: &[Sample]) -> Vec<Range<f64>> {
+pub(super) fn stretches(samples: &[Sample]) -> Vec<Range<f64>> {
     let stretches = samples.chunk_by(|one, next| next.time - one.time <= 2.0 * HOLE);
     let stretches = stretches.map(|part| part[0].time..part[part.len() - 1].time);
     stretches.collect()

@@ -7,6 +7,7 @@ use super::floors::{Floor, Floors};
 use super::height::{Air, Climbs};
 use super::landing;
 use super::level::Level;
+use super::quality::{Measure, QualityReport};
 use super::record::{Track, Tracked};
 use super::settings::TrackSettings;
 use crate::detection::{Detection, Event, Recorded, Undecided, cell, columns};
@@ -28,6 +29,9 @@ pub struct TrackReport<'a> {
     /// The barometer, where there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub barometer: Option<Barometric<'a>>,
+    /// How the rides were judged, where that is asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub quality: Option<QualityReport>,
     pub rides: &'a [Tracked],
     pub undecided: &'a [Undecided],
     pub events: &'a [Event],
@@ -85,6 +89,7 @@ impl<'a> TrackReport<'a> {
             level: track.level,
             floors: floors.map(Floors::floors),
             barometer: barometer.map(|(of, climbs)| Barometric::new(of, climbs)),
+            quality: None,
             rides: &track.trips,
             undecided: &detection.undecided,
             events: &detection.events,
@@ -101,7 +106,12 @@ impl<'a> TrackReport<'a> {
         let measured = MEASURED.iter().map(|name| (*name).to_owned());
         let landing = self.floors.iter().flat_map(|_| landing::columns());
         let climb = self.barometer.iter().flat_map(|_| CLIMB);
-        let measured = measured.chain(landing).chain(climb.map(str::to_owned));
+        let quality = self.quality.iter().flat_map(|_| Measure::ALL);
+        let quality = quality.map(|it| it.name().to_owned());
+        let measured = measured
+            .chain(landing)
+            .chain(climb.map(str::to_owned))
+            .chain(quality);
         columns().into_iter().chain(measured).collect()
     }
 
@@ -130,6 +140,13 @@ impl Tracked {
             "height_deviation" => self.climb.map(|it| it.height_deviation),
             "height_printed" => self.climb.map(|it| it.height_printed),
             _ => {
+                if let Some(measure) = Measure::ALL.into_iter().find(|it| it.name() == name) {
+                    return self
+                        .quality
+                        .and_then(|it| it.figure(measure))
+                        .map(|it| it.value)
+                        .into();
+                }
                 let landing = self.landing_column(name);
                 return landing.unwrap_or_else(|| self.trip.column(name));
             }

@@ -556,3 +556,87 @@ fn a_barometer_that_cannot_be_used() {
         "{err}"
     );
 }
+
+/// The quality of rides whose acceleration, jerk and speed are known.
+#[test]
+fn quality_is_that_of_the_ride() {
+    let directory = recorded(&[
+        "--acceleration",
+        "0.8",
+        "--jerk",
+        "1",
+        "--speed",
+        "1.6",
+        "--trip",
+        "up:20",
+    ]);
+    let path = directory.path();
+    let said = track(path, &["ride.csv", "--quality", "--format", "json"]);
+    let ride = &rides(&said.1)[0];
+    for (figure, expected) in [
+        ("acceleration", 0.8),
+        ("acceleration_95", 0.8),
+        ("deceleration", 0.8),
+        ("top_speed", 1.6),
+        ("speed_95", 1.6),
+        ("jerk", 1.0),
+    ] {
+        let found = ride["quality"][figure]["value"].as_f64().unwrap();
+        assert!((found / expected - 1.0).abs() < 0.15, "{figure}: {found}");
+    }
+    let rest = ride["quality"]["horizontal"]["at_rest"].as_f64().unwrap();
+    assert!((0.001..0.1).contains(&rest), "{rest}");
+    let recorded = fs::read_to_string(path.join("ride.csv")).unwrap();
+    let of_row = |line: &str| {
+        [0, 3]
+            .map(|at| line.split(',').nth(at).unwrap().to_owned())
+            .join(",")
+    };
+    let one: Vec<String> = recorded.lines().map(of_row).collect();
+    fs::write(path.join("one.csv"), one.join("\n")).unwrap();
+    let said = track(path, &["one.csv", "--quality", "--format", "json"]);
+    assert!(
+        said.2.contains("horizontal vibration is not judged"),
+        "{}",
+        said.2
+    );
+    let one = &rides(&said.1)[0]["quality"];
+    assert!(one["horizontal"].is_null());
+    let [alone, projected] =
+        [one, &ride["quality"]].map(|it| it["vertical"]["value"].as_f64().unwrap());
+    assert!(
+        (alone / projected - 1.0).abs() < 1e-3,
+        "{alone} {projected}"
+    );
+    let csv = track(path, &["ride.csv", "--quality", "--format", "csv"]).1;
+    assert!(
+        csv.lines()
+            .next()
+            .unwrap()
+            .ends_with(",horizontal,horizontal_95"),
+        "{csv}"
+    );
+    let table = track(path, &["ride.csv", "--quality"]).1;
+    assert!(table.contains("the limits at 1.6"), "{table}");
+    assert!(!track(path, &["ride.csv"]).1.contains("quality"));
+}
+
+/// What cannot be judged is said, with the remedy.
+#[test]
+fn quality_that_is_not_in_the_record() {
+    let directory = recorded(&["--rate", "10"]);
+    let said = track(directory.path(), &["ride.csv", "--quality"]);
+    assert!(
+        said.2.contains("no ride is judged: at 10.0 Hz"),
+        "{}",
+        said.2
+    );
+    assert!(said.1.contains("no ride is judged"), "{}", said.1);
+    for flags in [
+        &["--rated-speed", "1"][..],
+        &["--quality", "--rated-speed", "0"],
+    ] {
+        let refused = track(directory.path(), &[&["ride.csv"], flags].concat());
+        assert_eq!(refused.0, 2, "{flags:?}");
+    }
+}

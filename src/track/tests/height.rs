@@ -124,6 +124,7 @@ impl Building {
             widened: None,
             landing: None,
             climb: None,
+            quality: None,
             unknown: None,
         });
         trips.collect()
