@@ -3,8 +3,8 @@
 use super::rides::Rides;
 use super::{table, warn};
 use clap::Args;
-use liftsim::track::quality::{LEAST_RATE, Limits, Measure, QualityReport, Verdict};
-use liftsim::track::{Track, Tracked};
+use liftsim::track::quality::{LEAST_RATE, Limits, Measure, Verdict};
+use liftsim::track::{QualityReport, Track, Tracked};
 use std::iter;
 
 /// How rides are judged.

@@ -5,9 +5,10 @@
 use super::climb::CLIMB;
 use super::floors::{Floor, Floors};
 use super::height::{Air, Climbs};
+use super::judged::QualityReport;
 use super::landing;
 use super::level::Level;
-use super::quality::{Measure, QualityReport};
+use super::quality::Measure;
 use super::record::{Track, Tracked};
 use super::settings::TrackSettings;
 use crate::detection::{Detection, Event, Recorded, Undecided, cell, columns};

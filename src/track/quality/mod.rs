@@ -20,22 +20,16 @@
 
 mod limits;
 mod peaks;
-mod report;
 #[cfg(test)]
 mod tests;
 mod weighting;
 
 pub use limits::{Limit, Limits, Verdict};
-pub use report::{Beyond, QualityReport};
 pub use weighting::Weighting;
 
 use super::phases::Phases;
-use super::record::Track;
-use super::rides::Surroundings;
 use super::steps::HOLE;
-use crate::detection::Detection;
-use crate::monitor::Direction;
-use crate::recording::{Recording, Sample};
+use crate::recording::Sample;
 use peaks::{greatest, peak_to_peak};
 use serde::{Serialize, Serializer};
 use std::ops::Range;
@@ -161,10 +155,15 @@ impl Quality {
 
     /// Of a ride in these phases, from the vertical and, if it was read, from two directions across it; none if a hole is
     /// in it.
-    fn of(vertical: &[Sample], across: &[Vec<Sample>], rate: f64, ride: Ride) -> Option<Self> {
+    pub(super) fn of(
+        vertical: &[Sample],
+        across: &[Vec<Sample>],
+        rate: f64,
+        ride: &Ride,
+    ) -> Option<Self> {
         let vertical = Signal::of(vertical, rate, &ride.phases)?;
         let mut quality = Self::default();
-        quality.accelerate(&vertical, &ride);
+        quality.accelerate(&vertical, ride);
         let uniform = &ride.phases.uniform[0];
         quality.vibrate(
             [Measure::Vertical, Measure::Vertical95],
@@ -296,10 +295,10 @@ impl Serialize for Quality {
 }
 
 /// A ride to be judged.
-struct Ride {
-    phases: Phases,
+pub(super) struct Ride {
+    pub phases: Phases,
     /// 1 if it goes up, −1 if down.
-    sign: f64,
+    pub sign: f64,
 }
 
 /// One direction of the record around a ride, even in time, without what rest reads.
@@ -388,31 +387,5 @@ impl Signal {
             Some(*speed)
         });
         steps.collect()
-    }
-}
-
-impl Track {
-    /// Judges the quality of its whole rides, as far as the recording shows it. [`Reading::across`](crate::recording::Reading)
-    /// adds horizontal vibration.
-    pub fn judge(&mut self, recording: &Recording, detection: &Detection) {
-        let (samples, rate) = (recording.samples(), recording.rate());
-        let is_filtered = detection.filter.time_constant().is_some();
-        if is_filtered || rate < LEAST_RATE || samples.is_empty() {
-            return;
-        }
-        let across: &[Vec<Sample>] = recording.across().map_or(&[], |both| both);
-        let surroundings = Surroundings::new(detection, super::record::stretches(samples));
-        for tracked in &mut self.trips {
-            let trip = &tracked.trip;
-            let phases = trip
-                .stop
-                .and_then(|_| surroundings.phases(trip, &self.settings));
-            let sign = match trip.direction {
-                Direction::Up => 1.0,
-                Direction::Down => -1.0,
-            };
-            let ride = phases.map(|phases| Ride { phases, sign });
-            tracked.quality = ride.and_then(|ride| Quality::of(samples, across, rate, ride));
-        }
     }
 }

@@ -54,7 +54,7 @@ fn figure(quality: &Quality, measure: Measure) -> f64 {
 
 #[test]
 fn figures_of_a_smooth_ride() {
-    let quality = Quality::of(&samples(|time| 9.8 + smooth(time)), &[], RATE, ride()).unwrap();
+    let quality = Quality::of(&samples(|time| 9.8 + smooth(time)), &[], RATE, &ride()).unwrap();
     let expected = [
         (Measure::Acceleration, 1.0),
         (Measure::Acceleration95, 1.0),
@@ -85,7 +85,7 @@ fn figures_of_vibration() {
     };
     let vertical = samples(|time| smooth(time) + swing(time));
     let across = [1.0, 0.2].map(|share| samples(|time| share * 0.05 * sin(TAU * time)));
-    let quality = Quality::of(&vertical, &across, RATE, ride()).unwrap();
+    let quality = Quality::of(&vertical, &across, RATE, &ride()).unwrap();
     let expected = [
         (
             Measure::Vertical,
@@ -112,7 +112,7 @@ fn figures_of_vibration() {
 fn a_hole_leaves_nothing() {
     let mut holed = samples(smooth);
     holed.retain(|it| !(9.0..9.5).contains(&it.time));
-    assert_eq!(Quality::of(&holed, &[], RATE, ride()), None);
+    assert_eq!(Quality::of(&holed, &[], RATE, &ride()), None);
 }
 
 /// Each limit is kept, broken, or broken by what may be noise.

@@ -1,9 +1,36 @@
-//! What a report says of the quality of all rides.
+//! The quality of the rides of a record, judged, and what a report says of it.
 
-use super::limits::{Limits, Verdict};
-use super::{Measure, Quality};
-use crate::track::Tracked;
+use super::quality::{LEAST_RATE, Limits, Measure, Quality, Ride, Verdict};
+use super::record::{Track, Tracked, stretches};
+use super::rides::Surroundings;
+use crate::detection::Detection;
+use crate::explain::Faults;
+use crate::recording::{Recording, Sample};
 use serde::Serialize;
+
+impl Track {
+    /// Judges the quality of its whole rides, as far as the recording shows it. [`Reading::across`](crate::recording::Reading)
+    /// adds horizontal vibration.
+    pub fn judge(&mut self, recording: &Recording, detection: &Detection) {
+        let (sound, _) = Faults::removed(recording.samples());
+        let (samples, rate) = (&sound[..], recording.rate());
+        let is_filtered = detection.filter.time_constant().is_some();
+        if is_filtered || rate < LEAST_RATE || samples.is_empty() {
+            return;
+        }
+        let across: &[Vec<Sample>] = recording.across().map_or(&[], |both| both);
+        let surroundings = Surroundings::new(detection, stretches(samples));
+        for tracked in &mut self.trips {
+            let trip = &tracked.trip;
+            let phases = trip
+                .stop
+                .and_then(|_| surroundings.phases(trip, &self.settings));
+            let sign = trip.direction.sign();
+            let ride = phases.map(|phases| Ride { phases, sign });
+            tracked.quality = ride.and_then(|ride| Quality::of(samples, across, rate, &ride));
+        }
+    }
+}
 
 /// The norm, and what is beyond it.
 #[derive(Clone, Debug, Serialize)]
