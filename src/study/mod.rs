@@ -20,6 +20,7 @@ pub(crate) mod layout;
 mod loaded;
 pub(crate) mod operating_point;
 mod outcomes;
+pub mod quality;
 pub mod records;
 pub mod reference;
 pub(crate) mod region;
@@ -55,6 +56,7 @@ pub const STUDIES: &[Entry] = &[
     Entry::of::<outcomes::Of<floors::Table>>(),
     Entry::of::<outcomes::Of<trips::Trips>>(),
     Entry::of::<outcomes::Of<gravity::Windows>>(),
+    Entry::of::<outcomes::Of<quality::Rides>>(),
 ];
 
 /// An entry of the list of studies.

@@ -2,6 +2,7 @@
 
 use crate::lift::{Braking, Drive, Ending, Ride, Trip};
 use crate::recording::GRAVITY;
+use crate::rule::OutOfRange;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -39,7 +40,7 @@ pub enum Condition {
 
 /// A condition in numbers.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Numbers {
+pub struct Numbers {
     pub drive: Drive,
     pub braking: Braking,
     /// Hz.
@@ -61,7 +62,20 @@ impl fmt::Display for Condition {
 }
 
 impl Condition {
-    pub(super) fn numbers(self) -> Numbers {
+    /// Refuses a condition that is there twice.
+    pub fn check_once(key: &str, conditions: &[Self]) -> Result<(), OutOfRange> {
+        let mut conditions = conditions.to_vec();
+        conditions.sort_unstable();
+        match conditions.windows(2).find(|pair| pair[0] == pair[1]) {
+            Some(pair) => {
+                let got = format!("{} twice", pair[0]);
+                Err(OutOfRange::new(key, "name each condition once", got))
+            }
+            None => Ok(()),
+        }
+    }
+
+    pub fn numbers(self) -> Numbers {
         let drive = Drive {
             speed: 1.6,
             acceleration: 1.1,
@@ -140,6 +154,11 @@ impl Condition {
 }
 
 impl Numbers {
+    /// Whether the same drive moves both.
+    pub fn is_driven_like(&self, other: &Self) -> bool {
+        (self.drive, self.braking) == (other.drive, other.braking)
+    }
+
     /// A trip of so many metres, up positive, between two rests, s.
     pub fn ride(&self, distance: f64, rests: [f64; 2]) -> Ride {
         let trip = Trip {

@@ -26,6 +26,7 @@ mod table;
 mod tests;
 mod trial;
 
+pub(super) use condition::{Condition, Numbers};
 pub use row::Row;
 
 use crate::counts::{Shape, Sums};

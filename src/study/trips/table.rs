@@ -40,15 +40,7 @@ impl Table {
             let got = format!("{} before {}", pair[0], pair[1]);
             return refuse("trips.distance", "name lengths in ascending order", got);
         }
-        let mut conditions = self.condition.clone();
-        conditions.sort_unstable();
-        match conditions.windows(2).find(|pair| pair[0] == pair[1]) {
-            Some(pair) => {
-                let got = format!("{} twice", pair[0]);
-                refuse("trips.condition", "name each condition once", got)
-            }
-            None => Ok(()),
-        }
+        Condition::check_once("trips.condition", &self.condition)
     }
 
     /// Condition by condition.

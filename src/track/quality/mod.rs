@@ -155,7 +155,7 @@ impl Quality {
 
     /// Of a ride in these phases, from the vertical and, if it was read, from two directions across it; none if a hole is
     /// in it.
-    pub(super) fn of(
+    pub(crate) fn of(
         vertical: &[Sample],
         across: &[Vec<Sample>],
         rate: f64,
@@ -253,21 +253,18 @@ impl Quality {
         if within.end - within.start < SHORTEST {
             return;
         }
-        let each = weighted.iter().filter_map(|signal| {
-            let found = greatest(peak_to_peak(signal.at(within)))?;
-            let rest = greatest(peak_to_peak(signal.at(&signal.rest)));
-            Some((found, rest))
+        // What never crosses zero does not vibrate.
+        let shakes = |part: &[f64]| greatest(peak_to_peak(part)).unwrap_or_default();
+        let each = weighted.iter().map(|signal| {
+            let [found, rest] = [within, &signal.rest].map(|part| shakes(signal.at(part)));
+            (found, rest)
         });
         let largest = |all: Vec<(f64, f64)>| {
             let larger = |a: (f64, f64), b: (f64, f64)| (a.0.max(b.0), a.1.max(b.1));
             all.into_iter().reduce(larger)
         };
         let (found, rests): (Vec<_>, Vec<_>) = each.unzip();
-        self.pair(
-            measures,
-            largest(found),
-            largest(rests.into_iter().flatten().collect()),
-        );
+        self.pair(measures, largest(found), largest(rests));
     }
 
     fn pair(
@@ -295,7 +292,7 @@ impl Serialize for Quality {
 }
 
 /// A ride to be judged.
-pub(super) struct Ride {
+pub(crate) struct Ride {
     pub phases: Phases,
     /// 1 if it goes up, −1 if down.
     pub sign: f64,
