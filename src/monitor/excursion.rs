@@ -71,8 +71,8 @@ pub(super) struct Excursion {
     since_shock: f64,
     /// The largest change at once.
     pub jump: Jump,
-    /// The largest towards the level, m/s².
-    jump_back: f64,
+    /// The largest towards the level, m/s², and when, s.
+    jump_back: (f64, f64),
     /// The largest smoothed value.
     most: f64,
     is_up: bool,
@@ -190,7 +190,9 @@ impl Excursion {
                 before: self.part,
             };
         }
-        self.jump_back = self.jump_back.max(-sign * off.jump);
+        if -sign * off.jump > self.jump_back.0 {
+            self.jump_back = (-sign * off.jump, off.to);
+        }
         self.part.change += off.mean * off.seconds;
         self.part.seconds += off.seconds;
         self.part.peak = self.part.peak.max(off.mean.abs());
@@ -212,7 +214,8 @@ impl Excursion {
 
     /// Whether it changes towards the level at once, as after a knock.
     pub fn ends_at_once(&self) -> bool {
-        is_at_once(self.jump_back, self.most, 0.0)
+        let (by, at) = self.jump_back;
+        is_at_once(by, self.most, 0.0) && at > self.part.to - FOOT
     }
 
     /// It, or a part of it, as a pulse, if it is more than noise of this deviation over the longer time.

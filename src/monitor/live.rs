@@ -155,7 +155,12 @@ impl Live {
             turned.extend(self.turned(&self.tracks[index], level));
         }
         match (home, given) {
-            _ if is_first => self.tracks.push(self.first(level)),
+            (_, given) if is_first => {
+                let mut track = self.first(level);
+                let given = given.into_iter().flat_map(|(given, _)| given);
+                track.hypotheses.join(given);
+                self.tracks.push(track);
+            }
             (Some(home), Some((given, _))) => self.tracks[home].hypotheses.join(given),
             (None, Some((given, noise))) => {
                 let mut track = Track::new(level, noise, &[]);

@@ -25,6 +25,9 @@ const OFF: f64 = 1.0;
 /// So many changes at once are remembered.
 const MOST_TURNS: usize = 3;
 
+/// A hand that turns a sensor overshoots: of the largest change at once so much may remain.
+const OVERSHOT: f64 = 0.3;
+
 /// A change at once that may be one of the level.
 #[derive(Clone, Debug)]
 struct Turn {
@@ -54,8 +57,8 @@ pub(super) struct Track {
     noise: Noises,
     /// The latest changes at once that began pulses which are over.
     turns: VecDeque<Turn>,
-    /// Whether the latest pulse ended at once.
-    came_back_at_once: bool,
+    /// Where the latest pulse ended at once, since when it was all a knock, s.
+    knocked: Option<f64>,
     /// For how long there has been no pulse, s.
     pub quiet: f64,
 }
@@ -68,7 +71,7 @@ impl Track {
             excursion: Excursion::default(),
             noise,
             turns: VecDeque::with_capacity(MOST_TURNS),
-            came_back_at_once: false,
+            knocked: None,
             quiet: 0.0,
         }
     }
@@ -116,8 +119,10 @@ impl Track {
             self.noise.slow += share * (1.25 * off.slow.abs() - self.noise.slow);
         }
         // A start may take a turned sensor back to the level, but neither for long nor at once.
-        if self.quiet > SETTLED || self.came_back_at_once && self.quiet > FOOT {
+        if self.quiet > SETTLED {
             self.turns.clear();
+        } else if let Some(since) = self.knocked.filter(|_| self.quiet > FOOT) {
+            self.turns.retain(|turn| turn.over < since);
         }
         if self.quiet > SETTLED + 1.0 {
             // What is as far away as a shock is not of the level.
@@ -129,7 +134,8 @@ impl Track {
 
     fn end(&mut self, known: &Known, now: f64) {
         if self.excursion.is_pulse {
-            self.came_back_at_once = self.excursion.ends_at_once();
+            let since = self.excursion.part.from - 2.0 * FOOT;
+            self.knocked = self.excursion.ends_at_once().then_some(since);
             if self.excursion.begins_at_once() {
                 self.turns.truncate(MOST_TURNS - 1);
                 self.turns.push_front(self.turn(known));
@@ -175,7 +181,7 @@ impl Track {
         let by = level - self.level;
         let is_it = |turn: &Turn| {
             let is_like = turn.by * by > 0.0 && is_at_once(turn.by, by, 0.0);
-            is_like && is_at_once(by, turn.by, 0.0) && turn.over >= oldest
+            is_like && by.abs() > OVERSHOT * turn.by.abs() && turn.over >= oldest
         };
         let turns = self.turns.iter().cloned().chain([self.turn(known)]);
         let turned = turns.filter(is_it).map(|turn| {

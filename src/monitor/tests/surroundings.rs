@@ -220,6 +220,59 @@ fn a_knock_hides_no_slack() {
     }
 }
 
+/// The level shifts soon after the beginning, and the drum turns: the alarm comes.
+#[test]
+fn a_level_that_shifts_early_hides_no_slack() {
+    for (rest, level) in [5.0, 8.0, 12.0, 16.0]
+        .into_iter()
+        .flat_map(|it| [0.15, 0.2, -0.3].map(|by| (it, by)))
+    {
+        let record = Record::quiet().rest(rest).changing(45.0, level, 1.0, 1.0);
+        let drum = |time| Some(time > rest + 10.0);
+        let events = record.watch_with(&mut standing(), drum);
+        assert_eq!(alarms(&events), [Alarm::Slack], "{level} at {rest} s");
+    }
+}
+
+/// A hand that turns the sensor overshoots, or knocks against it first. The rides after it are no rest.
+#[test]
+fn a_sensor_turned_roughly_hides_no_ride() {
+    let ride = |record: Record, by: f64, ramp: f64| {
+        let start = record
+            .changing(2.0, by, ramp, 1.0)
+            .changing(10.0, -by, ramp, 2.0);
+        start
+            .changing(2.0, -by, ramp, 1.0)
+            .changing(12.0, by, ramp, 1.0)
+    };
+    let overshoots = [0.6, 1.0, 1.6].map(|over| (over, 0.1));
+    let knocks = [(1.0, 0.3), (2.0, 0.1)];
+    for (over, seconds) in overshoots.into_iter().chain(knocks) {
+        for turn in [0.5, -0.5, 0.3] {
+            let past = over * turn;
+            let turned = Record::quiet()
+                .rest(30.0)
+                .changing(seconds, turn + past, 0.0, 1.0)
+                .changing(0.2, -turn - past, 0.0, 1.0)
+                .changing(3.0, turn, 0.0, 1.0);
+            let start = turned.now();
+            let record = ride(ride(turned, -0.4, 0.8), 0.4, 0.8);
+            let events = record.watch(&mut standing());
+            let cruises =
+                [3.0, 29.0].map(|from| (0..9).map(move |second| start + from + f64::from(second)));
+            for time in cruises.into_iter().flatten() {
+                let told: Vec<Event> = events
+                    .iter()
+                    .filter(|it| it.reported <= time)
+                    .copied()
+                    .collect();
+                let what = format!("{turn}, {over} for {seconds} s, at {time}: {events:?}");
+                assert_ne!(states(&told).last(), Some(&REST), "{what}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_drum_that_turns_without_the_cage_is_an_alarm() {
     let record = Record::quiet().rest(8.0).trip(-1.0).rest(20.0);
