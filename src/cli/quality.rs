@@ -83,7 +83,8 @@ const LEGEND: &str = "the largest, in brackets what 95 % do not exceed; m/s², s
 pub fn text(rides: &[Tracked], report: &QualityReport) -> String {
     let title = "\nride quality\n";
     let Some(rated_speed) = report.rated_speed else {
-        return title.to_owned() + "no ride is judged: none is wholly in the record\n";
+        return title.to_owned()
+            + "no ride is judged: none is in the record with a second of rest around it, and no hole\n";
     };
     let limits = Limits::gb_t_10058(rated_speed);
     let judged = rides
@@ -127,7 +128,7 @@ pub fn text(rides: &[Tracked], report: &QualityReport) -> String {
     if !others.is_empty() {
         let others = others.join(", ");
         lines.push(format!(
-            "not judged, since it has a hole or is not wholly in the record: ride {others}"
+            "not judged, since it has a hole, or is not in the record with a second of rest around it: ride {others}"
         ));
     }
     let lines = lines

@@ -50,7 +50,7 @@ const BOUNDARY: f64 = 0.5;
 /// For so long the band limit remembers a change of the acceleration, s.
 const REMEMBERS: f64 = 1.2;
 
-/// The shortest stretch in which vibration is looked at, s.
+/// The shortest stretch in which vibration is looked at, and the least rest around a ride, s.
 const SHORTEST: f64 = 1.0;
 
 /// The shares of the highest speed between which a cage speeds up, and brakes.
@@ -126,13 +126,6 @@ pub struct Figure {
 }
 
 impl Figure {
-    fn exact(value: f64) -> Self {
-        Self {
-            value,
-            at_rest: None,
-        }
-    }
-
     /// Whether it may be the noise of the sensor.
     pub fn is_noise(&self) -> bool {
         self.at_rest.is_some_and(|rest| self.value <= NOISE * rest)
@@ -154,7 +147,7 @@ impl Quality {
     }
 
     /// Of a ride in these phases, from the vertical and, if it was read, from two directions across it; none if a hole is
-    /// in it.
+    /// in it, or too little rest around it to know what rest reads.
     pub(crate) fn of(
         vertical: &[Sample],
         across: &[Vec<Sample>],
@@ -256,14 +249,16 @@ impl Quality {
         // What never crosses zero does not vibrate.
         let shakes = |part: &[f64]| greatest(peak_to_peak(part)).unwrap_or_default();
         let each = weighted.iter().map(|signal| {
-            let [found, rest] = [within, &signal.rest].map(|part| shakes(signal.at(part)));
-            (found, rest)
+            let rest = signal.rest.end - signal.rest.start >= SHORTEST;
+            let rest = rest.then(|| shakes(signal.at(&signal.rest)));
+            (shakes(signal.at(within)), rest)
         });
         let largest = |all: Vec<(f64, f64)>| {
             let larger = |a: (f64, f64), b: (f64, f64)| (a.0.max(b.0), a.1.max(b.1));
             all.into_iter().reduce(larger)
         };
         let (found, rests): (Vec<_>, Vec<_>) = each.unzip();
+        let rests = rests.into_iter().flatten().collect();
         self.pair(measures, largest(found), largest(rests));
     }
 
@@ -276,12 +271,9 @@ impl Quality {
         let Some((most, usual)) = found else {
             return;
         };
-        let figure = |value, at_rest| Figure {
-            at_rest,
-            ..Figure::exact(value)
-        };
-        self.set(measures[0], Some(figure(most, rest.map(|it| it.0))));
-        self.set(measures[1], Some(figure(usual, rest.map(|it| it.1))));
+        let figure = |value, at_rest| Some(Figure { value, at_rest });
+        self.set(measures[0], figure(most, rest.map(|it| it.0)));
+        self.set(measures[1], figure(usual, rest.map(|it| it.1)));
     }
 }
 
@@ -308,7 +300,7 @@ struct Signal {
 }
 
 impl Signal {
-    /// Samples joined by straight lines; none if there is a hole.
+    /// Samples joined by straight lines; none if there is a hole, or too little rest.
     fn of(samples: &[Sample], rate: f64, phases: &Phases) -> Option<Self> {
         let (from, to) = (phases.before.start, phases.after.end);
         let first = samples
@@ -350,7 +342,10 @@ impl Signal {
             rest: phases.before.clone(),
         };
         let rests = [&phases.before, &phases.after].map(|it| signal.at(it));
-        let number = rests.iter().map(|it| it.len()).sum::<usize>().max(1);
+        let number = rests.iter().map(|it| it.len()).sum::<usize>();
+        if (number as f64) < SHORTEST * rate {
+            return None;
+        }
         let level = rests.iter().flat_map(|it| it.iter()).sum::<f64>() / number as f64;
         signal.values.iter_mut().for_each(|it| *it -= level);
         Some(signal)

@@ -108,6 +108,20 @@ fn figures_of_vibration() {
     }
 }
 
+/// Where hardly any rest is recorded before a ride, nothing is said to be noise; and of none at all nothing is said.
+#[test]
+fn without_rest_nothing_is_compared() {
+    let short = |before: f64, after: f64| {
+        let mut ride = ride();
+        ride.phases.before.start = ride.phases.before.end - before;
+        ride.phases.after.end = ride.phases.after.start + after;
+        Quality::of(&samples(smooth), &[], RATE, &ride)
+    };
+    let vertical = short(0.5, 1.0).unwrap().figure(Measure::Vertical);
+    assert_eq!(vertical.unwrap().at_rest, None);
+    assert_eq!(short(0.0, 0.05), None);
+}
+
 #[test]
 fn a_hole_leaves_nothing() {
     let mut holed = samples(smooth);
