@@ -48,6 +48,7 @@ mod record;
 mod report;
 mod rides;
 mod settings;
+mod settled;
 mod steps;
 #[cfg(test)]
 mod tests;

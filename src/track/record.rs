@@ -9,6 +9,7 @@ use super::phases::Phases;
 use super::quality::Quality;
 use super::rides::Surroundings;
 use super::settings::TrackSettings;
+use super::settled::settled;
 use super::steps::HOLE;
 use super::travelled::Travelled;
 use crate::detection::{Detection, Trip};
@@ -133,6 +134,7 @@ impl Track {
         }
         let phases = surroundings.phases(trip, &self.settings);
         let phases = phases.ok_or(Unknown::Start)?;
+        let phases = self.settled(phases, samples);
         let hidden = phases.changes().iter().any(|part| has_hole(samples, part));
         if hidden {
             Err(Unknown::Hole)
@@ -141,11 +143,35 @@ impl Track {
         }
     }
 
-    fn measure(&mut self, trip: &Trip, phases: &Phases, samples: &[Sample]) -> Tracked {
-        let bias = Uncertain {
+    /// Without the ends of the uniform motion that seem to change the speed still, if less speed is left at the stop then.
+    fn settled(&self, phases: Phases, samples: &[Sample]) -> Phases {
+        let [uniform, levelling] = &phases.uniform;
+        let shorter = Phases {
+            uniform: [settled(samples, uniform), levelling.clone()],
+            ..phases.clone()
+        };
+        if shorter == phases {
+            return phases;
+        }
+        let left = |phases: &Phases| {
+            let travelled = phases.measure(samples, self.bias(), &self.settings, |_, _, _| {});
+            travelled.closing_speed.map(f64::abs)
+        };
+        match (left(&phases), left(&shorter)) {
+            (Some(before), Some(after)) if after < before => shorter,
+            _ => phases,
+        }
+    }
+
+    fn bias(&self) -> Uncertain {
+        Uncertain {
             mean: self.level.bias,
             ..Uncertain::error(self.settings.bias_error)
-        };
+        }
+    }
+
+    fn measure(&mut self, trip: &Trip, phases: &Phases, samples: &[Sample]) -> Tracked {
+        let bias = self.bias();
         let course = &mut self.course;
         let mut travelled =
             phases.measure(samples, bias, &self.settings, |step, update, filter| {
