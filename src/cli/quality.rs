@@ -3,7 +3,7 @@
 use super::rides::Rides;
 use super::{table, warn};
 use clap::Args;
-use liftsim::track::quality::{LEAST_RATE, Limits, Measure, Verdict};
+use liftsim::track::quality::{LEAST_RATE, Measure, Verdict};
 use liftsim::track::{QualityReport, Track, Tracked};
 use std::iter;
 
@@ -86,7 +86,7 @@ pub fn text(rides: &[Tracked], report: &QualityReport) -> String {
         return title.to_owned()
             + "no ride is judged: none is in the record with a second of rest around it, and no hole\n";
     };
-    let limits = Limits::gb_t_10058(rated_speed);
+    let limits = &report.limits;
     let judged = rides
         .iter()
         .filter_map(|it| Some((it.trip.ride, it.quality?)));

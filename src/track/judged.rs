@@ -39,6 +39,9 @@ pub struct QualityReport {
     pub norm: &'static str,
     /// The speed that they are for, m/s: as given, or of the fastest ride; none if no ride was judged.
     pub rated_speed: Option<f64>,
+    /// They themselves.
+    #[serde(skip)]
+    pub limits: Limits,
     /// The figures that are beyond them.
     pub beyond: Vec<Beyond>,
     /// What to know of the figures.
@@ -87,6 +90,7 @@ impl QualityReport {
             });
             of_ride.into_iter().flatten()
         });
+        let beyond: Vec<Beyond> = beyond.collect();
         let rate_note = format!(
             "vibration above {:.0} Hz is not in a record of {rate:.0} Hz",
             rate / 2.0
@@ -100,7 +104,8 @@ impl QualityReport {
         Self {
             norm: "GB/T 10058-2009, from memory",
             rated_speed,
-            beyond: beyond.collect(),
+            beyond,
+            limits,
             notes,
         }
     }

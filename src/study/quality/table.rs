@@ -2,7 +2,7 @@
 
 use crate::rule::{OutOfRange, Rule};
 use crate::run::Identity;
-use crate::study::trips::Condition;
+use crate::study::trips::{Condition, Grid};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -23,35 +23,28 @@ pub struct Point {
     pub vibration: f64,
 }
 
+const GRID: Grid = Grid {
+    table: "quality",
+    key: "vibration",
+    values: "vibrations",
+    rule: Rule::Within(0.0, 1.0, "m/s²"),
+};
+
 impl Table {
     /// Checks that there are points, and each but once.
     ///
     /// # Errors
     /// If there are none, one is there twice, or a vibration breaks its rule.
     pub fn check(&self) -> Result<(), OutOfRange> {
-        if self.condition.is_empty() || self.vibration.is_empty() {
-            let rule = "name a condition and a vibration";
-            return Err(OutOfRange::new("quality", rule, "none"));
-        }
-        for vibration in &self.vibration {
-            Rule::Within(0.0, 1.0, "m/s²").check("quality.vibration", vibration)?;
-        }
-        if let Some(pair) = self.vibration.windows(2).find(|pair| pair[0] >= pair[1]) {
-            let got = format!("{} before {}", pair[0], pair[1]);
-            let rule = "name vibrations in ascending order";
-            return Err(OutOfRange::new("quality.vibration", rule, got));
-        }
-        Condition::check_once("quality.condition", &self.condition)
+        GRID.check(&self.condition, &self.vibration)
     }
 
     /// Condition by condition.
-    pub fn points(&self) -> impl Iterator<Item = Point> + '_ {
-        self.condition.iter().flat_map(|&condition| {
-            let vibrations = self.vibration.iter();
-            vibrations.map(move |&vibration| Point {
-                condition,
-                vibration,
-            })
+    pub fn points(&self) -> impl Iterator<Item = Point> {
+        let points = Grid::points(&self.condition, &self.vibration).into_iter();
+        points.map(|(condition, vibration)| Point {
+            condition,
+            vibration,
         })
     }
 }
@@ -59,11 +52,6 @@ impl Table {
 impl Point {
     /// Every parameter of a point.
     pub fn identity(&self) -> Identity {
-        let numbers = format!("{:?}", self.condition.numbers());
-        Identity::new([
-            ("condition", self.condition.to_string()),
-            ("numbers", numbers),
-            ("vibration", self.vibration.to_string()),
-        ])
+        GRID.identity(self.condition, self.vibration)
     }
 }

@@ -2,7 +2,8 @@
 
 use crate::lift::{Braking, Drive, Ending, Ride, Trip};
 use crate::recording::GRAVITY;
-use crate::rule::OutOfRange;
+use crate::rule::{OutOfRange, Rule};
+use crate::run::Identity;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -62,19 +63,6 @@ impl fmt::Display for Condition {
 }
 
 impl Condition {
-    /// Refuses a condition that is there twice.
-    pub fn check_once(key: &str, conditions: &[Self]) -> Result<(), OutOfRange> {
-        let mut conditions = conditions.to_vec();
-        conditions.sort_unstable();
-        match conditions.windows(2).find(|pair| pair[0] == pair[1]) {
-            Some(pair) => {
-                let got = format!("{} twice", pair[0]);
-                Err(OutOfRange::new(key, "name each condition once", got))
-            }
-            None => Ok(()),
-        }
-    }
-
     pub fn numbers(self) -> Numbers {
         let drive = Drive {
             speed: 1.6,
@@ -167,5 +155,70 @@ impl Numbers {
             ending: Ending::Braked(self.braking),
         };
         Ride::new(self.rate, rests.to_vec(), vec![trip]).expect("every limit here is positive")
+    }
+}
+
+/// The conditions of a study, each with every value of a key.
+pub struct Grid {
+    /// The study's table, and the key in it.
+    pub table: &'static str,
+    pub key: &'static str,
+    /// What its values are called together, and what each must be.
+    pub values: &'static str,
+    pub rule: Rule,
+}
+
+impl Grid {
+    /// Checks that there are points, and each but once.
+    ///
+    /// # Errors
+    /// If there are none, one is there twice, or a value breaks its rule.
+    pub fn check(&self, conditions: &[Condition], values: &[f64]) -> Result<(), OutOfRange> {
+        let Self { table, key, .. } = self;
+        let of = |key: &str| format!("{table}.{key}");
+        if conditions.is_empty() || values.is_empty() {
+            let rule = format!("name a condition and a {key}");
+            return Err(OutOfRange::new(*table, rule, "none"));
+        }
+        for value in values {
+            self.rule.check(&of(key), value)?;
+        }
+        if let Some(pair) = values.windows(2).find(|pair| pair[0] >= pair[1]) {
+            let got = format!("{} before {}", pair[0], pair[1]);
+            let rule = format!("name {} in ascending order", self.values);
+            return Err(OutOfRange::new(of(key), rule, got));
+        }
+        let mut conditions = conditions.to_vec();
+        conditions.sort_unstable();
+        match conditions.windows(2).find(|pair| pair[0] == pair[1]) {
+            Some(pair) => {
+                let got = format!("{} twice", pair[0]);
+                Err(OutOfRange::new(
+                    of("condition"),
+                    "name each condition once",
+                    got,
+                ))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Condition by condition.
+    pub fn points(conditions: &[Condition], values: &[f64]) -> Vec<(Condition, f64)> {
+        let of = |condition: &Condition| values.iter().map(|value| (*condition, *value)).collect();
+        conditions
+            .iter()
+            .flat_map(|it| -> Vec<_> { of(it) })
+            .collect()
+    }
+
+    /// Every parameter of a point.
+    pub fn identity(&self, condition: Condition, value: f64) -> Identity {
+        let numbers = format!("{:?}", condition.numbers());
+        Identity::new([
+            ("condition", condition.to_string()),
+            ("numbers", numbers),
+            (self.key, value.to_string()),
+        ])
     }
 }

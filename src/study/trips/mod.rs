@@ -26,7 +26,7 @@ mod table;
 mod tests;
 mod trial;
 
-pub(super) use condition::{Condition, Numbers};
+pub(super) use condition::{Condition, Grid, Numbers};
 pub use row::Row;
 
 use crate::counts::{Shape, Sums};

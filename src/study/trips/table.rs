@@ -1,6 +1,6 @@
 //! `[trips]`: which trips are simulated.
 
-use super::condition::Condition;
+use super::condition::{Condition, Grid};
 use crate::rule::{OutOfRange, Rule};
 use crate::run::Identity;
 use schemars::JsonSchema;
@@ -23,34 +23,28 @@ pub struct Point {
     pub distance: f64,
 }
 
+const GRID: Grid = Grid {
+    table: "trips",
+    key: "distance",
+    values: "lengths",
+    rule: Rule::Within(1.0, 200.0, "m"),
+};
+
 impl Table {
     /// Checks that there are points, and each but once.
     ///
     /// # Errors
-    /// If there are none, one is there twice, or a length breaks its rule.
+    /// If there are none, one is there twice, or a distance breaks its rule.
     pub fn check(&self) -> Result<(), OutOfRange> {
-        let refuse = |key, rule, got: String| Err(OutOfRange::new(key, rule, got));
-        if self.condition.is_empty() || self.distance.is_empty() {
-            return refuse("trips", "name a condition and a distance", "none".into());
-        }
-        for distance in &self.distance {
-            Rule::Within(1.0, 200.0, "m").check("trips.distance", distance)?;
-        }
-        if let Some(pair) = self.distance.windows(2).find(|pair| pair[0] >= pair[1]) {
-            let got = format!("{} before {}", pair[0], pair[1]);
-            return refuse("trips.distance", "name lengths in ascending order", got);
-        }
-        Condition::check_once("trips.condition", &self.condition)
+        GRID.check(&self.condition, &self.distance)
     }
 
     /// Condition by condition.
-    pub fn points(&self) -> impl Iterator<Item = Point> + '_ {
-        self.condition.iter().flat_map(|&condition| {
-            let distances = self.distance.iter();
-            distances.map(move |&distance| Point {
-                condition,
-                distance,
-            })
+    pub fn points(&self) -> impl Iterator<Item = Point> {
+        let points = Grid::points(&self.condition, &self.distance).into_iter();
+        points.map(|(condition, distance)| Point {
+            condition,
+            distance,
         })
     }
 }
@@ -58,11 +52,6 @@ impl Table {
 impl Point {
     /// Every parameter of a point.
     pub fn identity(&self) -> Identity {
-        let numbers = format!("{:?}", self.condition.numbers());
-        Identity::new([
-            ("condition", self.condition.to_string()),
-            ("numbers", numbers),
-            ("distance", self.distance.to_string()),
-        ])
+        GRID.identity(self.condition, self.distance)
     }
 }

@@ -20,6 +20,7 @@
 
 mod limits;
 mod peaks;
+mod signal;
 #[cfg(test)]
 mod tests;
 mod weighting;
@@ -28,10 +29,10 @@ pub use limits::{Limit, Limits, Verdict};
 pub use weighting::Weighting;
 
 use super::phases::Phases;
-use super::steps::HOLE;
 use crate::recording::Sample;
 use peaks::{greatest, peak_to_peak};
 use serde::{Serialize, Serializer};
+use signal::{SHORTEST, Signal};
 use std::ops::Range;
 use weighting::slopes;
 
@@ -49,9 +50,6 @@ const BOUNDARY: f64 = 0.5;
 
 /// For so long the band limit remembers a change of the acceleration, s.
 const REMEMBERS: f64 = 1.2;
-
-/// The shortest stretch in which vibration is looked at, and the least rest around a ride, s.
-const SHORTEST: f64 = 1.0;
 
 /// The shares of the highest speed between which a cage speeds up, and brakes.
 const SPEEDS: (f64, f64) = (0.05, 0.95);
@@ -288,96 +286,4 @@ pub(crate) struct Ride {
     pub phases: Phases,
     /// 1 if it goes up, −1 if down.
     pub sign: f64,
-}
-
-/// One direction of the record around a ride, even in time, without what rest reads.
-struct Signal {
-    from: f64,
-    rate: f64,
-    values: Vec<f64>,
-    /// Before the ride.
-    rest: Range<f64>,
-}
-
-impl Signal {
-    /// Samples joined by straight lines; none if there is a hole, or too little rest.
-    fn of(samples: &[Sample], rate: f64, phases: &Phases) -> Option<Self> {
-        let (from, to) = (phases.before.start, phases.after.end);
-        let first = samples
-            .partition_point(|it| it.time <= from)
-            .saturating_sub(1);
-        let part = &samples[first..];
-        let part = &part[..(part.partition_point(|it| it.time < to) + 1).min(part.len())];
-        if part
-            .windows(2)
-            .any(|pair| pair[1].time - pair[0].time > HOLE)
-        {
-            return None;
-        }
-        let mut next = 0;
-        let number = ((to - from) * rate).floor() as usize + 1;
-        let value = |place: usize| {
-            let time = from + place as f64 / rate;
-            while next < part.len() && part[next].time < time {
-                next += 1;
-            }
-            let [last, next] =
-                [next.saturating_sub(1), next].map(|at| part.get(at).or(part.last()));
-            let (last, next) = last.zip(next)?;
-            let seconds = next.time - last.time;
-            let share = if seconds > 0.0 {
-                (time - last.time) / seconds
-            } else {
-                0.0
-            };
-            Some(
-                last.acceleration + share.clamp(0.0, 1.0) * (next.acceleration - last.acceleration),
-            )
-        };
-        let values: Option<Vec<f64>> = (0..number).map(value).collect();
-        let mut signal = Self {
-            from,
-            rate,
-            values: values?,
-            rest: phases.before.clone(),
-        };
-        let rests = [&phases.before, &phases.after].map(|it| signal.at(it));
-        let number = rests.iter().map(|it| it.len()).sum::<usize>();
-        if (number as f64) < SHORTEST * rate {
-            return None;
-        }
-        let level = rests.iter().flat_map(|it| it.iter()).sum::<f64>() / number as f64;
-        signal.values.iter_mut().for_each(|it| *it -= level);
-        Some(signal)
-    }
-
-    fn places(&self, part: &Range<f64>) -> Range<usize> {
-        let place = |time: f64| {
-            (((time - self.from) * self.rate).ceil().max(0.0) as usize).min(self.values.len())
-        };
-        place(part.start)..place(part.end).max(place(part.start))
-    }
-
-    fn at(&self, part: &Range<f64>) -> &[f64] {
-        &self.values[self.places(part)]
-    }
-
-    fn weighted(&self, weighting: Weighting) -> Self {
-        Self {
-            values: weighting.apply(&self.values, self.rate),
-            rest: self.rest.clone(),
-            ..*self
-        }
-    }
-
-    /// The speeds of a cage that stands at both ends, m/s.
-    fn speeds(&self, trip: &Range<usize>) -> Vec<f64> {
-        let values = &self.values[trip.clone()];
-        let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
-        let steps = values.iter().scan(0.0, |speed, value| {
-            *speed += (value - mean) / self.rate;
-            Some(*speed)
-        });
-        steps.collect()
-    }
 }
