@@ -12,7 +12,7 @@ use anyhow::anyhow;
 use clap::Args;
 use liftsim::figure::{self, FigureError};
 use liftsim::track::floors::Floors;
-use liftsim::track::{Track, TrackReport, Tracked};
+use liftsim::track::{ByRules, Move, Track, TrackReport, Tracked};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -30,6 +30,9 @@ use std::process::ExitCode;
 /// where that is too much. The trip after it judges it again.
 ///
 /// With `--quality` each ride is judged: how hard it speeds up and brakes, and how much it shakes.
+///
+/// With `--rules` the trips by a published filter and its zero rules stand beside them, for comparison: it needs a record
+/// that begins with two seconds of rest, and is the worse of the two.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     liftsim simulate --out ride.csv && liftsim track ride.csv --figure track.png\n  \
@@ -43,6 +46,10 @@ pub struct TrackCommand {
     /// Draw the record, the speed, and the position within two deviations.
     #[arg(long, value_name = "FILE.png|FILE.svg")]
     figure: Option<PathBuf>,
+    /// Find the trips by published rules too: nothing changes the speed while all readings of 0.25 s are below a
+    /// threshold, m/s² [default: 5 deviations of a reading at rest].
+    #[arg(long, value_name = "THRESHOLD", num_args = 0..=1, value_parser = threshold)]
+    rules: Option<Option<f64>>,
     /// Replace files that exist.
     #[arg(long)]
     force: bool,
@@ -120,8 +127,13 @@ impl TrackCommand {
         } = &rides;
         let heights = heights.as_ref().map(|(of, climbs)| (of, climbs));
         let name = self.rides.name();
+        let by_rules = |threshold| {
+            let (samples, rate) = (recording.samples(), recording.rate());
+            ByRules::new(samples, rate, &track.level, threshold)
+        };
         let report = TrackReport {
             quality,
+            rules: self.rules.map(by_rules),
             ..TrackReport::new(name, recording, detection, &track, floors, heights)
         };
         print(&self.printed(&report))?;
@@ -186,12 +198,36 @@ fn text(report: &TrackReport) -> String {
         found::recording(&report.recording),
         report.barometer.as_ref().map(air::text).unwrap_or_default(),
         trips(report),
+        report.rules.as_ref().map(rules).unwrap_or_default(),
         quality(report),
         floors::text(report),
         found::undecided(report.undecided),
         found::events(report.events),
     ]
     .concat()
+}
+
+fn threshold(text: &str) -> Result<f64, String> {
+    let threshold = text.parse().ok().filter(|it| *it > 0.0 && *it <= 5.0);
+    threshold.ok_or_else(|| "must be an acceleration above 0 and up to 5 m/s^2".to_owned())
+}
+
+/// The trips by the published rules.
+fn rules(of: &ByRules) -> String {
+    let title = format!(
+        "\nby the published rules, with a threshold of {:.3} m/s²:",
+        of.threshold
+    );
+    if of.trips.is_empty() {
+        return title + " no trip from rest to rest\n";
+    }
+    let row = |it: &Move| {
+        let numbers = [it.start, it.stop, it.distance].map(|it| cell(&it.into()));
+        let direction = cell(&serde_json::json!(it.direction));
+        [vec![direction], numbers.to_vec()].concat()
+    };
+    let rows: Vec<Vec<String>> = of.trips.iter().map(row).collect();
+    title + "\n" + &table(&["direction", "start", "stop", "distance"], &rows)
 }
 
 fn quality(report: &TrackReport) -> String {

@@ -13,6 +13,7 @@ mod dots;
 mod estimate;
 pub mod floors;
 pub mod gravity;
+pub mod height;
 pub(crate) mod impulse_law;
 pub(crate) mod independence;
 mod kind;
@@ -20,6 +21,7 @@ pub(crate) mod layout;
 mod loaded;
 pub(crate) mod operating_point;
 mod outcomes;
+pub mod phases;
 pub mod quality;
 pub mod records;
 pub mod reference;
@@ -57,6 +59,8 @@ pub const STUDIES: &[Entry] = &[
     Entry::of::<outcomes::Of<trips::Trips>>(),
     Entry::of::<outcomes::Of<gravity::Windows>>(),
     Entry::of::<outcomes::Of<quality::Rides>>(),
+    Entry::of::<outcomes::Of<phases::Phases>>(),
+    Entry::of::<outcomes::Of<height::Heights>>(),
 ];
 
 /// An entry of the list of studies.

@@ -11,6 +11,7 @@ use super::level::Level;
 use super::quality::Measure;
 use super::record::{Track, Tracked};
 use super::settings::TrackSettings;
+use super::vertical::ByRules;
 use crate::detection::{Detection, Event, Recorded, Undecided, cell, columns};
 use crate::recording::{Barometer, Recording};
 use serde::Serialize;
@@ -33,6 +34,9 @@ pub struct TrackReport<'a> {
     /// How the rides were judged, where that is asked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub quality: Option<QualityReport>,
+    /// The trips by the published rules, where that is asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rules: Option<ByRules>,
     pub rides: &'a [Tracked],
     pub undecided: &'a [Undecided],
     pub events: &'a [Event],
@@ -91,6 +95,7 @@ impl<'a> TrackReport<'a> {
             floors: floors.map(Floors::floors),
             barometer: barometer.map(|(of, climbs)| Barometric::new(of, climbs)),
             quality: None,
+            rules: None,
             rides: &track.trips,
             undecided: &detection.undecided,
             events: &detection.events,

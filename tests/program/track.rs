@@ -640,3 +640,35 @@ fn quality_that_is_not_in_the_record() {
         assert_eq!(refused.0, 2, "{flags:?}");
     }
 }
+
+/// The published rules find the same ride, to a few centimetres, and stand beside it.
+#[test]
+fn published_rules_for_comparison() {
+    let directory = recorded(&["--trip", "up:20"]);
+    let path = directory.path();
+    let said = track(path, &["ride.csv", "--rules", "--format", "json"]).1;
+    let said: serde_json::Value = serde_json::from_str(&said).unwrap();
+    let rules = &said["rules"];
+    let [trip] = &rules["trips"].as_array().unwrap()[..] else {
+        panic!("{rules}");
+    };
+    assert!(
+        (trip["distance"].as_f64().unwrap() - 20.0).abs() < 0.5,
+        "{trip}"
+    );
+    assert_eq!(trip["direction"], "up");
+    assert!(rules["threshold"].as_f64().unwrap() > 3.0 * rules["noise"].as_f64().unwrap());
+    let table = track(path, &["ride.csv", "--rules", "0.3"]).1;
+    assert!(
+        table.contains("by the published rules, with a threshold of 0.300 m/s²"),
+        "{table}"
+    );
+    assert!(!track(path, &["ride.csv"]).1.contains("published"));
+    let refused = track(path, &["ride.csv", "--rules", "0"]);
+    assert_eq!(refused.0, 2);
+    assert!(
+        refused.2.contains("above 0 and up to 5 m/s^2"),
+        "{}",
+        refused.2
+    );
+}

@@ -7,8 +7,8 @@ use crate::recording::Sample;
 use crate::rng::{self, Generator, Stream};
 use crate::signal::{Law, Noise};
 use crate::study::trips::Numbers;
+use crate::track::Phases;
 use crate::track::quality::{Measure, Quality, Ride};
-use crate::track::{Densities, Phases};
 use libm::{fabs, round, sin, sqrt};
 use std::f64::consts::TAU;
 
@@ -139,13 +139,7 @@ impl Record {
 
     /// As the sensor reads it.
     fn sensed(mut self, draws: &mut Generator) -> Self {
-        let Numbers {
-            rate,
-            density,
-            step,
-            ..
-        } = self.numbers;
-        let sigma = sqrt(Densities::of_sheet(density) * rate);
+        let (sigma, step) = (self.numbers.sigma(), self.numbers.step);
         let normal = Noise::new(Law::Normal).expect("the normal law has no parameter");
         for samples in &mut self.directions {
             let offset = rng::unit(draws) - 0.5;

@@ -4,6 +4,8 @@ use crate::lift::{Braking, Drive, Ending, Ride, Trip};
 use crate::recording::GRAVITY;
 use crate::rule::{OutOfRange, Rule};
 use crate::run::Identity;
+use crate::track::Densities;
+use libm::sqrt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -142,6 +144,11 @@ impl Condition {
 }
 
 impl Numbers {
+    /// The deviation of a reading, m/s².
+    pub fn sigma(&self) -> f64 {
+        sqrt(Densities::of_sheet(self.density) * self.rate)
+    }
+
     /// Whether the same drive moves both.
     pub fn is_driven_like(&self, other: &Self) -> bool {
         (self.drive, self.braking) == (other.drive, other.braking)

@@ -20,6 +20,7 @@
 mod condition;
 mod estimate;
 mod picture;
+mod recorded;
 mod row;
 mod table;
 #[cfg(test)]
@@ -27,6 +28,7 @@ mod tests;
 mod trial;
 
 pub(super) use condition::{Condition, Grid, Numbers};
+pub(super) use recorded::Recorded;
 pub use row::Row;
 
 use crate::counts::{Shape, Sums};

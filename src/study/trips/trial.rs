@@ -1,18 +1,14 @@
 //! One trip, and its distance by every method.
 
-use super::condition::Numbers;
+use super::recorded::Recorded;
 use super::table::Point;
 use crate::counts::{Fixed, Shape, Sums, Values};
 use crate::detection::Detection;
-use crate::lift::Journey;
 use crate::monitor;
 use crate::recording::{Facts, Sample};
-use crate::rng::{self, Stream};
-use crate::signal::{Law, Noise};
-use crate::track::{
-    Densities, LiveTrips, Method, Phases, Steps, Track, TrackSettings, Uncertain, moments,
-};
-use libm::{fabs, round, sqrt};
+use crate::rng::Stream;
+use crate::track::{LiveTrips, Method, Track, TrackSettings, Uncertain};
+use libm::{fabs, round};
 
 /// How a distance is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,28 +69,16 @@ pub(super) fn shape() -> Shape {
     }
 }
 
-/// At rest before the trip and after it, s.
-const RESTS: [f64; 2] = [5.0, 5.0];
-
-/// Before and after the trip the rest of those who are told when it begins, s.
-const MARGIN: f64 = 0.3;
-
 /// Of 95 %, in deviations.
 const WITHIN: f64 = 1.96;
 
 /// Errors are counted in steps of this, m.
 const STEP: f64 = 1e-4;
 
-/// A recorded trip.
-struct Recorded {
-    samples: Vec<Sample>,
-    journey: Journey,
-    numbers: Numbers,
-}
-
 /// The sums of one trial.
 pub(super) fn run(point: &Point, seed: u64, trial: u64) -> Sums {
-    let recorded = Recorded::new(point, seed, trial);
+    let mut draws = Stream::new(seed, "trips", "").at(trial);
+    let recorded = Recorded::new(point.condition.numbers(), point.distance, &mut draws);
     let settings = TrackSettings::default();
     let design = monitor::Settings::default().at(recorded.numbers.rate);
     let design = design.expect("every rate here fits the defaults");
@@ -168,72 +152,5 @@ fn live(samples: &[Sample], settings: TrackSettings, bias: f64) -> Option<Uncert
     match told[..] {
         [trip] => Some(trip.travelled.distance),
         _ => None,
-    }
-}
-
-impl Recorded {
-    fn new(point: &Point, seed: u64, trial: u64) -> Self {
-        let (numbers, distance) = (point.condition.numbers(), point.distance);
-        let mut draws = Stream::new(seed, "trips", "").at(trial);
-        let bias = rng::unit(&mut draws) - 0.5;
-        let start = RESTS[0] + rng::unit(&mut draws);
-        let ride = numbers.ride(distance, [start, RESTS[1]]);
-        let truth = ride.acceleration();
-        let sigma = sqrt(Densities::of_sheet(numbers.density) * numbers.rate);
-        let mut noise = vec![0.0; 2 * truth.len()];
-        let normal = Noise::new(Law::Normal).expect("the normal law has no parameter");
-        normal.fill(&mut draws, &mut noise);
-        let mut speed = 0.0;
-        let samples = truth.into_iter().zip(noise.chunks(2)).enumerate();
-        let samples = samples.map(|(place, (acceleration, noise))| {
-            speed += acceleration / numbers.rate;
-            let shaken = numbers.shaken * fabs(speed) / numbers.drive.speed;
-            let gain = if acceleration > 0.0 {
-                numbers.gain
-            } else {
-                1.0
-            };
-            let read = gain * acceleration + bias + sigma * (noise[0] + shaken * noise[1]);
-            Sample {
-                time: place as f64 / numbers.rate,
-                acceleration: numbers.step * round(read / numbers.step),
-            }
-        });
-        Self {
-            samples: samples.collect(),
-            journey: ride.journeys()[0],
-            numbers,
-        }
-    }
-
-    /// The phases, each known to a sample.
-    fn phases(&self, margin: f64) -> Phases {
-        let Journey {
-            start,
-            uniform,
-            braking,
-            levelling,
-            stop,
-            ..
-        } = self.journey;
-        let creeps = self.numbers.braking.seconds;
-        let creep = levelling.map_or(stop..stop, |from| from..from + creeps);
-        let (before, after) = (start - margin, stop + margin);
-        Phases {
-            before: before - 2.0..before,
-            uniform: [uniform..braking, creep],
-            after: after..after + 1.0,
-        }
-    }
-
-    /// The trip for those who know only when it begins and ends.
-    fn told(&self) -> Phases {
-        self.phases(MARGIN)
-    }
-
-    fn bound(&self) -> Uncertain {
-        let steps: Vec<_> = Steps::of(&self.samples).collect();
-        let density = Densities::of_sheet(self.numbers.density);
-        moments(&steps, &self.phases(0.0).changes(), density)
     }
 }

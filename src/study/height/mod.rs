@@ -1,0 +1,148 @@
+//! Where the car is by accelerometer and barometer ([`crate::track::fusion`]) in every way there is, against the truth, as the
+//! weather changes.
+//!
+//! A trial is a lift of ten floors, 4 m apart, that goes from floor to floor and rests 15 to 45 s at each, recorded by an
+//! MPU-6050 at 200 Hz and a BMP180 at 39.2 Hz (0.25 m a reading). The weather moves the barometer's height steadily, up in
+//! half of the trials. All points of one index are one lift.
+//!
+//! | outcome | of | is |
+//! |---|---|---|
+//! | `error_…` | trials | mean size of the error of the height over time, m |
+//! | `rms_…` | trials | root of its mean square, m |
+//! | `error_95_…` | moments | the error that it stays within in 95 % of the time, m |
+//!
+//! The ways: `ukf`, the published filter alone; `calibrated`, with the barometer calibrated at each rest; `map`, which knows the
+//! floors too; `map_printed_q` and `map_mended_q`, which adapt Q; `trips`, the distances of `liftsim track`; `slow`, with the
+//! barometer as a slow height; `slow_map`, which knows the floors too.
+
+mod picture;
+mod row;
+mod table;
+#[cfg(test)]
+mod tests;
+mod trial;
+mod watched;
+mod way;
+
+pub use row::Row;
+
+use crate::counts::{Shape, Sums};
+use crate::experiment::Experiment;
+use crate::figure::FigureError;
+use crate::plot::Plot;
+use crate::results::Quantity;
+use crate::rule::OutOfRange;
+use crate::run::{Identity, StudyError};
+use crate::study::estimate::{Estimate, Mean, quantile};
+use crate::study::kind::Context;
+use crate::study::outcomes::Outcomes;
+use schemars::{JsonSchema, SchemaGenerator};
+use serde_json::Value;
+use table::{Point, Table};
+use way::Way;
+
+/// A lift under several weathers.
+pub(super) struct Heights {
+    points: Vec<Point>,
+}
+
+impl Outcomes for Heights {
+    const NAME: &'static str = "height";
+    /// One takes a second.
+    const BLOCK: u64 = 1;
+    type Point = Point;
+    type Row = Row;
+
+    fn read(experiment: &Experiment) -> Result<Self, StudyError> {
+        let table: Table = experiment.read()?;
+        table.check().map_err(|error| experiment.refuse(error))?;
+        let points = table.points();
+        Ok(Self { points })
+    }
+
+    fn schema(generator: &mut SchemaGenerator) -> Value {
+        Table::json_schema(generator).to_value()
+    }
+
+    fn points(&self) -> &[Point] {
+        &self.points
+    }
+
+    fn identity(&self, point: &Point) -> Identity {
+        point.identity()
+    }
+
+    /// The weather changes nothing but the barometer.
+    fn family(&self, point: &Point) -> Identity {
+        point.recorded()
+    }
+
+    fn shape(&self) -> Shape {
+        trial::shape()
+    }
+
+    fn trials(&self, points: &[&Point], seed: u64, trial: u64) -> Vec<Sums> {
+        trial::run(points, seed, trial)
+    }
+
+    fn check(&self, _: &Point, _: &Sums, _: u64) -> Result<(), OutOfRange> {
+        Ok(())
+    }
+
+    fn estimates(&self, _: &Point, sums: &Sums, trials: u64, confidence: f64) -> Vec<Estimate> {
+        let each = Way::ALL.into_iter().enumerate();
+        let estimates = each.flat_map(|(place, way)| {
+            let name = |outcome: &str| format!("{outcome}_{}", way.name());
+            let mean = |at| Mean::new(sums, 2 * place + at, trials, confidence);
+            let within = quantile(&name("error_95"), &sums.values[place], 0.95, confidence);
+            [
+                mean(0).named(&name("error"), trials, "trials"),
+                mean(1).root().named(&name("rms"), trials, "trials"),
+                // Moments of one lift tell nothing of others, so there is no interval.
+                Estimate {
+                    unit: "moments",
+                    low: within.value,
+                    high: within.value,
+                    ..within
+                },
+            ]
+        });
+        estimates.collect()
+    }
+
+    fn row(&self, point: &Point, estimate: Estimate, context: &Context) -> Row {
+        Row::new(point, estimate, context)
+    }
+
+    fn name(&self, row: &Row) -> String {
+        row.drift.to_string().replace('.', "_")
+    }
+
+    /// The drift from which on calibration helps.
+    fn extremes(&self, rows: &[Row]) -> Vec<Quantity> {
+        let of = |way: Way| {
+            let outcome = format!("error_{}", way.name());
+            let rows = rows.iter().filter(move |row| row.outcome == outcome);
+            rows.map(|row| (row.drift, row.estimate))
+        };
+        let gains: Vec<(f64, f64)> = of(Way::Ukf)
+            .zip(of(Way::Calibrated))
+            .map(|((drift, alone), (_, calibrated))| (drift, alone - calibrated))
+            .collect();
+        let crossing = gains.windows(2).find_map(|pair| {
+            let [(from, loss), (to, gain)] = [pair[0], pair[1]];
+            (loss < 0.0 && gain >= 0.0).then(|| from + (to - from) * loss / (loss - gain))
+        });
+        let quantity = |value: f64| Quantity {
+            name: "break_even".to_owned(),
+            value,
+            low: value,
+            high: value,
+        };
+        crossing.map(quantity).into_iter().collect()
+    }
+
+    fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
+        Ok(picture::plot(rows, seed))
+    }
+}

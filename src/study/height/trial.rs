@@ -1,0 +1,221 @@
+//! One lift, followed in every way.
+
+use super::table::Point;
+use super::watched::{NOISE, Watched};
+use super::way::{Published, Way};
+use crate::counts::{Fixed, Shape, Sums, Values};
+use crate::detection::Detection;
+use crate::monitor;
+use crate::track::fusion::{Drift, Fusion, Position, Reference, SlowHeight};
+use crate::track::{
+    Motion, Place, Rules, Track, TrackSettings, Uncertain, Vertical, VerticalFilter,
+};
+use libm::{fabs, round};
+
+/// The sums and the sums of squares of the mean size of the error and of its mean square.
+pub(super) fn shape() -> Shape {
+    let ways = Way::ALL.len();
+    Shape {
+        most: vec![],
+        lengths: 4 * ways,
+        values: vec![500; ways],
+    }
+}
+
+/// The threshold of the published filter, m/s²: of those that were tried the best.
+const THRESHOLD: f64 = 0.15;
+
+/// The level of rest is learnt first from so many seconds.
+const LEARNT: f64 = 2.0;
+
+/// What a hectopascal more is in the height, m.
+const METRES: f64 = 8.32;
+
+/// Errors are counted in steps of this, m, each so many seconds, and of those so many.
+const STEP: f64 = 1e-3;
+const EVERY: f64 = 0.1;
+const COUNTED: usize = 500;
+
+/// Beside a trip a rest is left out for so long, s.
+const LAG: f64 = 1.0;
+
+/// A car that is within this of a floor is at it, m, but for so much.
+const NEAR: f64 = 1.0;
+const LEVEL: f64 = 0.005;
+
+/// The sums of these points, whose lifts are the same.
+pub(super) fn run(points: &[&Point], seed: u64, trial: u64) -> Vec<Sums> {
+    let watched = Watched::new(points[0].trips, seed, trial);
+    let verticals = verticals(&watched);
+    let track = track(&watched);
+    let each = points.iter().map(|point| {
+        let barometer = watched.barometer(METRES * point.drift / 3600.0);
+        let mut sums = shape().empty().sums;
+        for (place, way) in Way::ALL.into_iter().enumerate() {
+            let heights = match way.published() {
+                Some(published) => follow(&watched, &verticals, &barometer, published),
+                None => carried(&watched, &track, &barometer, way),
+            };
+            add(&mut sums, place, &heights, &watched);
+        }
+        sums
+    });
+    each.collect()
+}
+
+fn add(sums: &mut Sums, place: usize, heights: &[f64], watched: &Watched) {
+    let pitch = (EVERY * watched.numbers.rate) as usize;
+    let both = heights.iter().zip(&watched.truth).step_by(pitch);
+    let errors: Vec<f64> = both.map(|(found, truth)| fabs(found - truth)).collect();
+    let number = errors.len() as f64;
+    let mean = errors.iter().sum::<f64>() / number;
+    let square = errors.iter().map(|it| it * it).sum::<f64>() / number;
+    let at = 4 * place;
+    let lengths = [mean, mean * mean, square, square * square].map(Fixed::new);
+    sums.lengths[at..][..4].copy_from_slice(&lengths);
+    let mut values = Values::default();
+    for count in 0..COUNTED {
+        let error = errors[count * errors.len() / COUNTED];
+        values.push(STEP * round(error / STEP));
+    }
+    sums.values[place] = values;
+}
+
+/// By the published filter of speed and acceleration.
+fn verticals(watched: &Watched) -> Vec<Vertical> {
+    let samples = &watched.samples;
+    let first = &samples[..samples.partition_point(|it| it.time < LEARNT)];
+    let level = first.iter().map(|it| it.acceleration).sum::<f64>() / first.len() as f64;
+    let rules = Rules::printed(watched.numbers.sigma(), THRESHOLD);
+    let mut filter = VerticalFilter::new(rules, level);
+    samples.iter().map(|it| filter.step(*it)).collect()
+}
+
+/// The height at each sample by the published filter of the position.
+fn follow(
+    watched: &Watched,
+    verticals: &[Vertical],
+    barometer: &[(f64, f64)],
+    way: Published,
+) -> Vec<f64> {
+    let floors: &[f64] = if way.knows_floors {
+        &watched.floors
+    } else {
+        &[]
+    };
+    let fusion = Fusion {
+        adapts: way.adapts,
+        ..Fusion::of(NOISE)
+    };
+    let mut position = Position::new(fusion, floors);
+    let mut reference = Reference::default();
+    let (mut readings, mut last) = (barometer.iter().peekable(), 0.0);
+    let (seconds, since) = (1.0 / watched.numbers.rate, 1.0 / super::watched::RATE);
+    let height = |now: &Vertical| {
+        let is_at_rest = now.motion == Motion::Rest;
+        let by = seconds * (now.speed + seconds * now.acceleration / 2.0);
+        position.predict(by, seconds, is_at_rest);
+        while let Some((time, altitude)) = readings.next_if(|it| it.0 <= now.time) {
+            let learns = is_at_rest && (way.calibrates || reference.altitude().is_none());
+            if learns {
+                reference.rest(*time, *altitude);
+            } else {
+                reference.leave(position.height());
+                if let Some(reference) = reference.altitude() {
+                    position.measure(altitude - reference, since);
+                }
+            }
+        }
+        last = position.height();
+        last
+    };
+    verticals.iter().map(height).collect()
+}
+
+fn track(watched: &Watched) -> Track {
+    let design = monitor::Settings::default().at(watched.numbers.rate);
+    let design = design.expect("the rate fits the defaults");
+    let detection = Detection::of(&design, &watched.samples, None, None);
+    Track::of(&watched.samples, None, &detection, TrackSettings::default())
+}
+
+/// The height at each sample by the distances of trips, put right at each rest.
+fn carried(watched: &Watched, track: &Track, barometer: &[(f64, f64)], way: Way) -> Vec<f64> {
+    let put_right = match way {
+        Way::Trips => Vec::new(),
+        _ => put_right(watched, track, barometer, way == Way::SlowMap),
+    };
+    let places: Vec<&Place> = track.course.stretches().iter().flatten().collect();
+    let samples = watched.samples.iter();
+    let height = |it: &crate::recording::Sample| {
+        let course = between(&places, it.time, |place| (place.time, place.position.mean));
+        course + between(&put_right, it.time, |knot| *knot)
+    };
+    samples.map(height).collect()
+}
+
+/// By how much a car is higher than its trips say, at the beginning and the end of each rest.
+fn put_right(
+    watched: &Watched,
+    track: &Track,
+    barometer: &[(f64, f64)],
+    knows_floors: bool,
+) -> Vec<(f64, f64)> {
+    let end = watched.samples.last().map_or(0.0, |it| it.time);
+    let starts = track.trips.iter().filter_map(|it| it.trip.start);
+    let stops = track.trips.iter().filter_map(|it| it.trip.stop);
+    let rests = [0.0].into_iter().chain(stops).zip(starts.chain([end]));
+    let mut knots = Vec::new();
+    let mut slow: Option<(SlowHeight, f64, f64)> = None;
+    for (number, (from, to)) in rests.enumerate() {
+        let read = read(barometer, from + LAG, to);
+        let middle = f64::midpoint(from, to);
+        let (now, gone) = match slow.take() {
+            None => (SlowHeight::new(Drift::default(), read), 0.0),
+            Some((mut slow, before, gone)) => {
+                let trip = &track.trips[number - 1];
+                let mean = trip.distance.unwrap_or(0.0);
+                let variance = trip.deviation.map_or(f64::INFINITY, |it| it * it);
+                slow.travel(Uncertain { mean, variance }, middle - before);
+                slow.read(read);
+                (slow, gone + mean)
+            }
+        };
+        let mut now = now;
+        let height = now.position().mean;
+        let near = watched.floors.iter().copied();
+        let near = near.min_by(|a, b| fabs(a - height).total_cmp(&fabs(b - height)));
+        let floor = near.filter(|it| knows_floors && fabs(it - height) < NEAR);
+        if let Some(mean) = floor {
+            let variance = LEVEL * LEVEL;
+            now.stand(Uncertain { mean, variance });
+        }
+        let off = now.position().mean - gone;
+        knots.extend([(from, off), (to, off)]);
+        slow = Some((now, middle, gone));
+    }
+    knots
+}
+
+/// The mean of what the barometer reads between two times, as a height with its variance.
+fn read(barometer: &[(f64, f64)], from: f64, to: f64) -> Uncertain {
+    let place = |time: f64| barometer.partition_point(|it| it.0 < time);
+    let readings = &barometer[place(from)..place(to)];
+    let number = readings.len() as f64;
+    Uncertain {
+        mean: readings.iter().map(|it| it.1).sum::<f64>() / number,
+        variance: NOISE * NOISE / number,
+    }
+}
+
+/// The value at a time on straight lines between knots, and as the nearest outside; 0 without any.
+fn between<T>(knots: &[T], time: f64, of: impl Fn(&T) -> (f64, f64)) -> f64 {
+    let next = knots.partition_point(|knot| of(knot).0 <= time);
+    let before = next.checked_sub(1).map(|at| of(&knots[at]));
+    let after = knots.get(next).map(&of);
+    match (before, after) {
+        (Some((from, low)), Some((to, high))) => low + (high - low) * (time - from) / (to - from),
+        (Some((_, value)), None) | (None, Some((_, value))) => value,
+        (None, None) => 0.0,
+    }
+}

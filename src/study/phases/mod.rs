@@ -1,0 +1,127 @@
+//! The phases, the direction and the distance of simulated trips by the published filter and its rules
+//! ([`crate::track::VerticalFilter`]), beside `liftsim track`, against the truth.
+//!
+//! A trial is one trip, up or down, and its accelerometer record. All thresholds see the same record.
+//!
+//! | outcome | of | is |
+//! |---|---|---|
+//! | `told_…` | trials | one trip is found, from rest to rest |
+//! | `direction_…` | trials | it is, and its direction is right |
+//! | `phases_…` | trials | it is, and it speeds up, moves uniformly and brakes once each, each from and to within 0.5 s |
+//! | `time_wrong_…` | trials | mean share of the time whose phase is wrong |
+//! | `bias_…`, `error_…` | trips told | mean error of the distance, longer positive, and mean of its size, m |
+//! | `error_95_…` | trips told | the error that 95 % stay within, m |
+//!
+//! The ways: `printed`; `mended`, where no speed is slow for ever; and `track`.
+
+mod picture;
+mod row;
+mod table;
+#[cfg(test)]
+mod tests;
+mod trial;
+
+pub use row::Row;
+
+use crate::counts::{Shape, Sums};
+use crate::experiment::Experiment;
+use crate::figure::FigureError;
+use crate::plot::Plot;
+use crate::rule::OutOfRange;
+use crate::run::{Identity, StudyError};
+use crate::stats::tally::Tally;
+use crate::study::estimate::{Estimate, Mean, quantile, share};
+use crate::study::kind::Context;
+use crate::study::outcomes::Outcomes;
+use schemars::{JsonSchema, SchemaGenerator};
+use serde_json::Value;
+use table::{Point, Table};
+use trial::Way;
+
+/// Trips under several conditions, followed with several thresholds.
+pub(super) struct Phases {
+    table: Table,
+    points: Vec<Point>,
+}
+
+impl Outcomes for Phases {
+    const NAME: &'static str = "phases";
+    /// One takes some milliseconds.
+    const BLOCK: u64 = 16;
+    type Point = Point;
+    type Row = Row;
+
+    fn read(experiment: &Experiment) -> Result<Self, StudyError> {
+        let table: Table = experiment.read()?;
+        table.check().map_err(|error| experiment.refuse(error))?;
+        let points = table.points();
+        Ok(Self { table, points })
+    }
+
+    fn schema(generator: &mut SchemaGenerator) -> Value {
+        Table::json_schema(generator).to_value()
+    }
+
+    fn points(&self) -> &[Point] {
+        &self.points
+    }
+
+    fn identity(&self, point: &Point) -> Identity {
+        point.identity()
+    }
+
+    /// Thresholds see one record.
+    fn family(&self, point: &Point) -> Identity {
+        point.recorded()
+    }
+
+    fn shape(&self) -> Shape {
+        trial::shape()
+    }
+
+    fn trials(&self, points: &[&Point], seed: u64, trial: u64) -> Vec<Sums> {
+        trial::run(points, seed, trial)
+    }
+
+    fn check(&self, _: &Point, _: &Sums, _: u64) -> Result<(), OutOfRange> {
+        Ok(())
+    }
+
+    fn estimates(&self, _: &Point, sums: &Sums, trials: u64, confidence: f64) -> Vec<Estimate> {
+        let each = Way::ALL.into_iter().enumerate();
+        let estimates = each.flat_map(|(place, way)| {
+            let name = |outcome: &str| format!("{outcome}_{}", way.name());
+            let counts = &sums.counts[trial::COUNTS * place..];
+            let share = |outcome: &str, at: usize| {
+                let hits = counts[at];
+                share(&name(outcome), Tally { hits, trials }, "trials", confidence)
+            };
+            let mean = |at, cases| Mean::new(sums, trial::PAIRS * place + at, cases, confidence);
+            let told = counts[0];
+            [
+                share("told", 0),
+                share("direction", 1),
+                share("phases", 2),
+                mean(0, trials).named(&name("time_wrong"), trials, "trials"),
+                mean(1, told).named(&name("bias"), told, "trips"),
+                mean(2, told).named(&name("error"), told, "trips"),
+                quantile(&name("error_95"), &sums.values[place], 0.95, confidence),
+            ]
+        });
+        estimates.collect()
+    }
+
+    fn row(&self, point: &Point, estimate: Estimate, context: &Context) -> Row {
+        Row::new(point, estimate, context)
+    }
+
+    fn name(&self, row: &Row) -> String {
+        let number = |number: f64| number.to_string().replace('.', "_");
+        let [vibration, threshold] = [row.vibration, row.threshold].map(number);
+        format!("{}_{vibration}_{threshold}", row.condition)
+    }
+
+    fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
+        Ok(picture::plot(rows, &self.table, seed))
+    }
+}

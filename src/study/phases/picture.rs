@@ -1,0 +1,51 @@
+//! What is asked of trips, by condition, vibration and way; a threshold to a series.
+
+use super::row::Row;
+use super::table::{Measure, Table};
+use super::trial::Way;
+use crate::format::thousands;
+use crate::plot::Plot;
+use crate::study::dots;
+
+/// The picture of a study.
+pub fn plot(rows: &[Row], table: &Table, seed: u64) -> Plot {
+    let (outcome, axis) = match table.measure {
+        Measure::Spacing => ("error", "mean size of the error, m"),
+        Measure::Phases => ("time_wrong", "share of the time whose phase is wrong"),
+    };
+    let mut named = Vec::new();
+    for condition in &table.condition {
+        for vibration in &table.vibration {
+            for way in Way::ALL {
+                let outcome = format!("{outcome}_{}", way.name());
+                let of = |threshold: &f64| {
+                    let here = |row: &&Row| {
+                        let of = (row.condition, row.vibration, row.threshold);
+                        of == (*condition, *vibration, *threshold) && row.outcome == outcome
+                    };
+                    let row = rows.iter().find(here)?;
+                    (row.count > 0).then_some([row.low, row.estimate, row.high])
+                };
+                // No threshold is any of `track`'s.
+                let thresholds = match way {
+                    Way::Track => &table.threshold[..1],
+                    Way::Printed | Way::Mended => &table.threshold[..],
+                };
+                let shaken = match table.vibration.len() {
+                    1 => String::new(),
+                    _ => format!("{vibration} m/s², "),
+                };
+                let name = format!("{condition}, {shaken}{}", way.name()).replace('_', " ");
+                named.push((name, thresholds.iter().map(of).collect()));
+            }
+        }
+    }
+    let caption = [
+        format!("trips of {} m", table.distance),
+        format!("{} trips a point", thousands(rows[0].trials)),
+        format!("seed {seed}"),
+        format!("bars: {} % intervals", 100.0 * rows[0].confidence),
+    ];
+    let series = table.threshold.iter().map(|it| format!("{it} m/s²"));
+    dots::plot(&named, series.collect(), axis, &caption)
+}

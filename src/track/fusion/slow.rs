@@ -1,0 +1,96 @@
+//! Trips by the accelerometer, and the barometer as a height that drifts slowly.
+//!
+//! The state is x = [p, w, r]: the car's position, by how much the barometer reads more, and how fast that changes. A trip
+//! moves p by its distance, with its variance; in between w ← w + r T and r changes as the weather does. At rest the mean
+//! of the barometer's readings measures p + w. So trips carry the position over minutes and the barometer over hours, the
+//! less the more its drift has been seen to be steady. A floor at which the car is known to stand measures p alone.
+
+use crate::kalman::{Estimate, Innovation};
+use crate::track::Uncertain;
+
+/// The places of the state.
+const POSITION: usize = 0;
+const OFFSET: usize = 1;
+const RATE: usize = 2;
+
+/// H of the two measurements.
+const BAROMETER: [f64; 3] = [1.0, 1.0, 0.0];
+const FLOOR: [f64; 3] = [1.0, 0.0, 0.0];
+
+/// How the weather moves a barometer's height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drift {
+    /// The deviation of its rate, m/s.
+    pub rate: f64,
+    /// After so many seconds the rate is another.
+    pub lasts: f64,
+}
+
+impl Default for Drift {
+    /// 0.5 hPa an hour, for an hour.
+    fn default() -> Self {
+        Self {
+            rate: 4.2 / 3600.0,
+            lasts: 3600.0,
+        }
+    }
+}
+
+/// Where the car stands.
+#[derive(Clone, Debug)]
+pub struct SlowHeight {
+    drift: Drift,
+    estimate: Estimate<[f64; 3], [f64; 9]>,
+}
+
+impl SlowHeight {
+    /// A car that stands at 0 m, where the barometer reads this height, m.
+    pub fn new(drift: Drift, read: Uncertain) -> Self {
+        let mut covariance = [0.0; 9];
+        covariance[4 * OFFSET] = read.variance;
+        covariance[4 * RATE] = drift.rate * drift.rate;
+        Self {
+            drift,
+            estimate: Estimate {
+                mean: [0.0, read.mean, 0.0],
+                covariance,
+            },
+        }
+    }
+
+    /// After a trip of this distance, m, so many seconds from rest to rest.
+    pub fn travel(&mut self, distance: Uncertain, seconds: f64) {
+        let Drift { rate, lasts } = self.drift;
+        let kept = libm::exp(-seconds / lasts);
+        #[rustfmt::skip]
+        let transition = [
+            1.0, 0.0, 0.0,
+            0.0, 1.0, seconds,
+            0.0, 0.0, kept,
+        ];
+        let mut noise = [0.0; 9];
+        noise[4 * POSITION] = distance.variance;
+        noise[4 * RATE] = rate * rate * (1.0 - kept * kept);
+        self.estimate
+            .predict(&transition, &[distance.mean, 0.0, 0.0], &noise);
+    }
+
+    /// The barometer reads this height at rest, m.
+    pub fn read(&mut self, height: Uncertain) -> Innovation {
+        self.estimate
+            .update(&BAROMETER, height.mean, height.variance)
+    }
+
+    /// The car stands at a floor of this height, m.
+    pub fn stand(&mut self, floor: Uncertain) -> Innovation {
+        self.estimate.update(&FLOOR, floor.mean, floor.variance)
+    }
+
+    /// m above where it stood first.
+    pub fn position(&self) -> Uncertain {
+        Uncertain {
+            mean: self.estimate.mean[POSITION],
+            variance: self.estimate.covariance[4 * POSITION],
+        }
+    }
+}

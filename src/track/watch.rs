@@ -1,0 +1,262 @@
+//! Trips as they happen, each measured as [`Track`] measures a record: once a monitor says that the cage stands again.
+//!
+//! The samples since the last rest are kept, so that a trip is seen whole and from both sides, as in a recording. What
+//! the stretch does not decide is told too, and the car may then be at any floor.
+
+use super::floors::{Fault, Floors, Judgement};
+use super::record::{Track, Tracked};
+use super::settings::TrackSettings;
+use crate::detection::{Detection, Undecided};
+use crate::monitor::{Design, State};
+use crate::recording::{Facts, Sample};
+use serde::Serialize;
+use std::collections::VecDeque;
+
+/// A stretch is measured after so much rest, s.
+const SETTLED: f64 = 2.5;
+
+/// The rest that is kept before the next trip, s.
+const KEPT: f64 = 5.0;
+
+/// What remains of a stop is over, s.
+const OVER: f64 = 0.2;
+
+/// Of a longer stretch without rest the beginning is forgotten, s.
+const LONGEST: f64 = 900.0;
+
+/// A lift that is watched, and the floors of its building if any are known.
+#[derive(Clone, Debug)]
+pub struct Watch {
+    design: Design,
+    samples: VecDeque<Sample>,
+    floors: Option<Floors>,
+    /// Whether the samples begin at rest, if that is known.
+    begins_at_rest: Option<bool>,
+    /// Since when the cage is said to stand, s.
+    rests: Option<f64>,
+    has_moved: bool,
+    rides: usize,
+}
+
+/// Something that is told of a trip.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Happened {
+    /// s.
+    pub time: f64,
+    /// When it was known, s.
+    pub reported: f64,
+    /// What.
+    #[serde(flatten)]
+    pub what: Found,
+}
+
+/// What is found of a stretch.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Found {
+    /// A trip, with its distance if that is measured, and the stop after it.
+    Trip(Box<Tracked>),
+    /// What the cage did is not decided.
+    Undecided(Undecided),
+    /// The car stands where no floor is.
+    #[serde(untagged)]
+    Alarm {
+        /// What that means.
+        alarm: Fault,
+        /// Against which floor.
+        judgement: Judgement,
+    },
+}
+
+impl Watch {
+    /// Watches a cage of which a monitor of this design tells when it stands.
+    pub fn new(design: Design, floors: Option<Floors>) -> Self {
+        Self {
+            design,
+            samples: VecDeque::new(),
+            floors,
+            begins_at_rest: None,
+            rests: None,
+            has_moved: false,
+            rides: 0,
+        }
+    }
+
+    /// The floors as they are known now.
+    pub fn floors(&self) -> Option<&Floors> {
+        self.floors.as_ref()
+    }
+
+    /// Takes a sample, and what the monitor says after it.
+    #[inline]
+    pub fn step(&mut self, sample: Sample, state: State) -> Vec<Happened> {
+        if self.samples.back().is_some_and(|it| sample.time <= it.time) {
+            self.forget();
+        }
+        self.samples.push_back(sample);
+        if state == State::REST {
+            self.rests.get_or_insert(sample.time);
+        } else {
+            self.rests = None;
+            self.has_moved = true;
+        }
+        let is_settled = self.rests.is_some_and(|from| sample.time - from >= SETTLED);
+        if is_settled && self.has_moved {
+            return self.measure();
+        }
+        if is_settled {
+            self.drop_before(sample.time - KEPT);
+        } else if self.drop_before(sample.time - LONGEST) {
+            self.begins_at_rest = None;
+        }
+        Vec::new()
+    }
+
+    /// The samples end: tells what is not told yet.
+    pub fn end(mut self) -> (Vec<Happened>, Option<Floors>) {
+        let told = if self.has_moved {
+            self.measure()
+        } else {
+            Vec::new()
+        };
+        (told, self.floors)
+    }
+
+    /// The clock was set back: nothing is known of the time between.
+    fn forget(&mut self) {
+        self.samples.clear();
+        self.begins_at_rest = None;
+        self.rests = None;
+        self.has_moved = false;
+        if let Some(floors) = &mut self.floors {
+            floors.lose();
+        }
+    }
+
+    /// Whether there are any.
+    fn drop_before(&mut self, time: f64) -> bool {
+        let mut any = false;
+        while self.samples.front().is_some_and(|it| it.time < time) {
+            self.samples.pop_front();
+            any = true;
+        }
+        any
+    }
+
+    fn measure(&mut self) -> Vec<Happened> {
+        let samples = &*self.samples.make_contiguous();
+        let reported = samples.last().map_or(0.0, |it| it.time);
+        let detection = Detection::of(&self.design, samples, None, self.begins_at_rest);
+        let facts = Facts::of(samples, false, None);
+        let step = facts.ok().and_then(|facts| facts.coarse_step);
+        let mut track = Track::of(samples, step, &detection, TrackSettings::default());
+        if let Some(floors) = &mut self.floors {
+            track.land(&detection, floors);
+        }
+        let happened = |time: f64, what| Happened {
+            time,
+            reported,
+            what,
+        };
+        let mut told = Vec::new();
+        for mut trip in track.trips {
+            self.rides += 1;
+            trip.trip.ride = self.rides;
+            let time = trip.trip.stop.unwrap_or(reported);
+            told.push(happened(time, Found::Trip(Box::new(trip))));
+            let judgement = trip.landing.and_then(|it| it.judgement);
+            if let Some((alarm, judgement)) = judgement.and_then(|it| Some((it.fault?, it))) {
+                told.push(happened(time, Found::Alarm { alarm, judgement }));
+            }
+        }
+        let undecided = detection.undecided.into_iter();
+        told.extend(undecided.map(|it| happened(it.to, Found::Undecided(it))));
+        let stop = detection.trips.last().and_then(|trip| trip.stop);
+        self.drop_before(stop.map_or(reported - KEPT, |stop| stop + OVER));
+        self.begins_at_rest = self.rests.map(|_| true);
+        self.has_moved = false;
+        told
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lift::{Drive, Ending, Pickup, Ride, Trip};
+    use crate::monitor::{Knowledge, Monitor, Settings};
+    use crate::track::floors::{self, Start};
+
+    const RATE: f64 = 100.0;
+
+    /// What is told of a lift that makes these trips, m, among floors 4 m apart.
+    fn told(trips: &[f64]) -> (Vec<Happened>, Ride) {
+        let drive = Drive {
+            speed: 1.6,
+            acceleration: 1.0,
+            jerk: 1.5,
+        };
+        let trip = |distance: &f64| Trip {
+            distance: *distance,
+            drive,
+            ending: Ending::Commanded,
+        };
+        let rests = vec![12.0; trips.len() + 1];
+        let ride = Ride::new(RATE, rests, trips.iter().map(trip).collect()).unwrap();
+        let record = ride.simulate(&Pickup::white(0.012), 5, 0).record;
+        let heights = [0.0, 4.0, 8.0, 12.0];
+        let settings = floors::Settings::default();
+        let floors = Floors::given(settings, &heights, 0.01, Start::Floor(0)).unwrap();
+        let design = Settings::default().at(RATE).unwrap();
+        let knowledge = Knowledge {
+            begins_at_rest: true,
+            ..Knowledge::default()
+        };
+        let mut monitor = Monitor::new(design.clone(), knowledge);
+        let mut watch = Watch::new(design, Some(floors));
+        let mut told = Vec::new();
+        for (place, acceleration) in record.into_iter().enumerate() {
+            let time = place as f64 / RATE;
+            let sample = Sample { time, acceleration };
+            monitor.step(sample, None);
+            told.extend(watch.step(sample, monitor.state()));
+        }
+        told.extend(watch.end().0);
+        (told, ride)
+    }
+
+    /// Every trip once, with its distance, its floor and its time, a few seconds after the stop.
+    #[test]
+    fn trips_are_told_as_they_happen() {
+        let (told, ride) = told(&[4.0, 8.0, -12.0, 4.0]);
+        let trips: Vec<&Happened> = told.iter().collect();
+        assert_eq!(trips.len(), 4, "{told:?}");
+        for ((happened, journey), floor) in trips.iter().zip(ride.journeys()).zip([1, 3, 0, 1]) {
+            let Found::Trip(trip) = &happened.what else {
+                panic!("{happened:?}");
+            };
+            assert!(
+                (trip.distance.unwrap() - journey.distance).abs() < 0.1,
+                "{trip:?}"
+            );
+            assert_eq!(trip.landing.unwrap().floor, Some(floor));
+            assert!((happened.time - journey.stop).abs() < 0.5, "{happened:?}");
+            assert!(happened.reported - journey.stop < 8.0, "{happened:?}");
+        }
+    }
+
+    #[test]
+    fn a_stop_between_floors_is_an_alarm() {
+        let (told, _) = told(&[4.0, 2.0, 2.0]);
+        let alarms: Vec<_> = told
+            .iter()
+            .filter_map(|it| match it.what {
+                Found::Alarm { alarm, .. } => Some((alarm, it.time)),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(alarms.len(), 1, "{told:?}");
+        assert_eq!(alarms[0].0, Fault::BetweenFloors);
+        let json = serde_json::to_string(&told).unwrap();
+        assert!(json.contains("\"alarm\":\"between_floors\""), "{json}");
+    }
+}
