@@ -118,7 +118,7 @@ impl Outcomes for Heights {
         row.drift.to_string().replace('.', "_")
     }
 
-    /// The drift from which on calibration helps.
+    /// The drift from which on calibration helps; infinite if it never does.
     fn extremes(&self, rows: &[Row]) -> Vec<Quantity> {
         let of = |way: Way| {
             let outcome = format!("error_{}", way.name());
@@ -133,13 +133,13 @@ impl Outcomes for Heights {
             let [(from, loss), (to, gain)] = [pair[0], pair[1]];
             (loss < 0.0 && gain >= 0.0).then(|| from + (to - from) * loss / (loss - gain))
         });
-        let quantity = |value: f64| Quantity {
+        let value = crossing.unwrap_or(f64::INFINITY);
+        vec![Quantity {
             name: "break_even".to_owned(),
             value,
             low: value,
             high: value,
-        };
-        crossing.map(quantity).into_iter().collect()
+        }]
     }
 
     fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
