@@ -45,6 +45,22 @@ impl Course {
         &self.stretches
     }
 
+    /// The position at a time, s, on the line between the moments around it, m; none where it is not known.
+    pub fn position(&self, time: f64) -> Option<f64> {
+        let mut stretches = self.stretches.iter();
+        stretches.find_map(|places| {
+            let next = places.partition_point(|it| it.time < time);
+            let here = places.get(next)?;
+            if here.time == time {
+                return Some(here.position.mean);
+            }
+            let before = &places[next.checked_sub(1)?];
+            let share = (time - before.time) / (here.time - before.time);
+            let gone = here.position.mean - before.position.mean;
+            Some(before.position.mean + share * gone)
+        })
+    }
+
     /// When the filter knew something beside the acceleration.
     pub fn updates(&self) -> &[(Range<f64>, Update)] {
         &self.updates

@@ -1,35 +1,24 @@
 //! The map on disk: what is known of a building, not where its car is.
-//!
-//! JSON with a name and a version in it. It is replaced whole or not at all, so that a run that is killed leaves
-//! the map before it.
 
 use super::floors::{Floors, Height, Map, MapError, Settings, Start};
-use crate::files;
+use super::kept::{KeptError, Kind, Problem};
 use serde::{Deserialize, Serialize};
-use std::fs::File;
-use std::io::{self, Read};
 use std::path::Path;
 
-/// The name in the file.
-const FORMAT: &str = "liftsim floor map";
-/// The version that this program writes, and the newest it reads.
-const VERSION: u64 = 1;
-/// The largest size of a map, bytes: of the most floors it is 1 MB.
-const LONGEST: u64 = 1 << 22;
-
-/// What every version begins with.
-#[derive(Deserialize)]
-struct Head {
-    format: String,
-    version: u64,
-}
+static KIND: Kind = Kind {
+    format: "liftsim floor map",
+    version: 1,
+    // Of the most floors it is 1 MB.
+    longest: 1 << 22,
+    what: "map of floors",
+    made: "`liftsim track RECORDING --map FILE` writes one",
+    anew: "restore it, or remove it and begin with a sweep or --floors",
+};
 
 /// The file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MapFile {
-    format: String,
-    version: u64,
     /// m above the floor of the first stop, from the lowest up.
     heights: Vec<f64>,
     /// Of the heights, m², a row for each.
@@ -42,50 +31,14 @@ struct MapFile {
     recent: Vec<f64>,
 }
 
-/// Why a file cannot be used as a map.
-#[derive(Debug, thiserror::Error)]
-#[error("{path}: {problem}")]
-pub struct MapFileError {
-    path: String,
-    problem: Problem,
-}
-
-#[derive(Debug, thiserror::Error)]
-enum Problem {
-    #[error("cannot be read: {0} (`liftsim track RECORDING --map FILE` writes one)")]
-    Unreadable(io::Error),
-    #[error("cannot be written: {0} (choose another place)")]
-    Unwritable(io::Error),
-    #[error("no map of floors, which begins with \"format\": \"{FORMAT}\" (choose another file)")]
-    Foreign,
-    #[error(
-        "version {0}, and this program reads up to {VERSION} (use the program that wrote it, or a newer one)"
-    )]
-    Newer(u64),
-    #[error("damaged: {0} (restore it, or remove it and begin with a sweep or --floors)")]
-    Damaged(serde_json::Error),
-    #[error("damaged: {0}")]
-    Map(#[from] MapError),
-    #[error("{0}")]
-    Start(MapError),
-}
-
 impl Floors {
     /// Reads a map from a file.
     ///
     /// # Errors
     /// If it cannot be read, is no map of this version, or holds numbers that no map has.
-    pub fn load(path: &Path, settings: Settings, start: Start) -> Result<Self, MapFileError> {
-        let mut text = Vec::new();
-        let read = File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_end(&mut text));
+    pub fn load(path: &Path, settings: Settings, start: Start) -> Result<Self, KeptError> {
         let name = path.display().to_string();
-        match read {
-            Ok(_) => Self::from_json(&name, &text, settings, start),
-            Err(error) => Err(MapFileError {
-                path: name,
-                problem: Problem::Unreadable(error),
-            }),
-        }
+        Self::from_json(&name, &KIND.read(path)?, settings, start)
     }
 
     /// Reads and checks a file's text; messages call the file `name`.
@@ -97,43 +50,23 @@ impl Floors {
         text: &[u8],
         settings: Settings,
         start: Start,
-    ) -> Result<Self, MapFileError> {
-        Self::checked(text, settings, start).map_err(|problem| MapFileError {
-            path: name.to_owned(),
-            problem,
-        })
+    ) -> Result<Self, KeptError> {
+        Self::checked(text, settings, start).map_err(|problem| problem.of(name))
     }
 
     /// Writes the map to a file, over whatever is there.
     ///
     /// # Errors
     /// If it cannot be written; what was there is then whole.
-    pub fn save(&self, path: &Path) -> Result<(), MapFileError> {
-        let saved = files::replace(path, self.to_json().as_bytes());
-        saved.map_err(|error| MapFileError {
-            path: path.display().to_string(),
-            problem: Problem::Unwritable(error),
-        })
+    pub fn save(&self, path: &Path) -> Result<(), KeptError> {
+        Kind::write(path, &self.to_json())
     }
 
     fn checked(text: &[u8], settings: Settings, start: Start) -> Result<Self, Problem> {
-        if text.len() as u64 > LONGEST {
-            return Err(Problem::Foreign);
-        }
-        let Head { format, version } = match serde_json::from_slice(text) {
-            Ok(head) => head,
-            Err(error) if is_begun(text) => return Err(Problem::Damaged(error)),
-            Err(_) => return Err(Problem::Foreign),
-        };
-        match version {
-            _ if format != FORMAT => return Err(Problem::Foreign),
-            version if version > VERSION => return Err(Problem::Newer(version)),
-            _ => {}
-        }
-        let map: MapFile = serde_json::from_slice(text).map_err(Problem::Damaged)?;
+        let map: MapFile = KIND.parse(text)?;
         let floors = map.heights.len();
         if map.covariance.iter().any(|row| row.len() != floors) {
-            return Err(MapError::Covariance.into());
+            return Err(Problem::Wrong(MapError::Covariance.into()));
         }
         let known = Map {
             heights: map.heights,
@@ -143,8 +76,8 @@ impl Floors {
             recent: map.recent,
         };
         Self::known(settings, &known, start).map_err(|error| match error {
-            MapError::Start { .. } => Problem::Start(error),
-            error => Problem::Map(error),
+            MapError::Start { .. } => Problem::Unfit(error.into()),
+            error => Problem::Wrong(error.into()),
         })
     }
 
@@ -152,23 +85,14 @@ impl Floors {
     pub fn to_json(&self) -> String {
         let known = self.map();
         let rows = known.covariance.chunks(known.heights.len());
-        let file = MapFile {
-            format: FORMAT.to_owned(),
-            version: VERSION,
+        KIND.text(MapFile {
             covariance: rows.map(<[f64]>::to_vec).collect(),
             heights: known.heights,
             visits: known.visits,
             commissioned: known.commissioned,
             recent: known.recent,
-        };
-        let json = serde_json::to_string(&file);
-        json.expect("numbers and names can be written") + "\n"
+        })
     }
-}
-
-/// Whether a text begins as a map does, so that what follows was lost.
-fn is_begun(text: &[u8]) -> bool {
-    text.starts_with(br#"{"format":"liftsim floor map""#)
 }
 
 #[cfg(test)]

@@ -15,7 +15,8 @@
 //! to 1.39 with levelling (`configs/trip_error.toml`). The second is as good without levelling; a creep of 0.08 m/s it may
 //! take for a stop, since a gain's error leaves as much.
 //!
-//! A barometer gives [heights](Climbs) beside them, and which way is up.
+//! A barometer gives [heights](Climbs) beside them, and which way is up. [`vibration`] across the vertical is set beside what
+//! is usual in the lift.
 //!
 //! # What the deviation holds
 //! The noise of the sensor and of its bias, that of the motion as far as a uniform motion shows it, steps coarser than the noise,
@@ -38,6 +39,7 @@ pub mod gravity;
 mod height;
 mod integrals;
 mod judged;
+mod kept;
 mod landing;
 mod level;
 mod live;
@@ -50,12 +52,14 @@ mod report;
 mod rides;
 mod settings;
 mod settled;
+mod shaken;
 mod steps;
 #[cfg(test)]
 mod tests;
 mod travelled;
 mod uniform;
 mod vertical;
+pub mod vibration;
 mod warning;
 mod watch;
 
@@ -65,6 +69,7 @@ pub use filter::{TripFilter, Uncertain, Update};
 pub use height::{Air, Climbs};
 pub use integrals::{integrated, moments};
 pub use judged::{Beyond, QualityReport};
+pub use kept::KeptError;
 pub use level::{Level, Scatter};
 pub use live::{LiveTrip, LiveTrips};
 pub use noise::{Densities, Deviations, Noise};
@@ -72,6 +77,7 @@ pub use phases::{Method, Phases};
 pub use record::{Track, Tracked, Unknown};
 pub use report::{Barometric, TrackReport};
 pub use settings::{TrackSettings, UniformSettings};
+pub use shaken::{Alarm, Placed, Shaken, Used, VibrationError, VibrationReport};
 pub use steps::{Step, Steps};
 pub use travelled::Travelled;
 pub use uniform::UniformDetector;

@@ -12,6 +12,7 @@ use super::quality::Measure;
 use super::record::{Track, Tracked};
 use super::settings::TrackSettings;
 use super::vertical::ByRules;
+use super::shaken::{self, VibrationReport};
 use crate::detection::{Detection, Event, Recorded, Undecided, cell, columns};
 use crate::recording::{Barometer, Recording};
 use serde::Serialize;
@@ -37,6 +38,9 @@ pub struct TrackReport<'a> {
     /// The trips by the published rules, where that is asked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rules: Option<ByRules>,
+    /// How the rides vibrate beside what is usual, where that is asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub vibration: Option<VibrationReport>,
     pub rides: &'a [Tracked],
     pub undecided: &'a [Undecided],
     pub events: &'a [Event],
@@ -96,6 +100,7 @@ impl<'a> TrackReport<'a> {
             barometer: barometer.map(|(of, climbs)| Barometric::new(of, climbs)),
             quality: None,
             rules: None,
+            vibration: None,
             rides: &track.trips,
             undecided: &detection.undecided,
             events: &detection.events,
@@ -114,10 +119,12 @@ impl<'a> TrackReport<'a> {
         let climb = self.barometer.iter().flat_map(|_| CLIMB);
         let quality = self.quality.iter().flat_map(|_| Measure::ALL);
         let quality = quality.map(|it| it.name().to_owned());
+        let vibration = self.vibration.iter().flat_map(|_| shaken::COLUMNS);
         let measured = measured
             .chain(landing)
             .chain(climb.map(str::to_owned))
-            .chain(quality);
+            .chain(quality)
+            .chain(vibration.map(str::to_owned));
         columns().into_iter().chain(measured).collect()
     }
 
@@ -127,10 +134,16 @@ impl<'a> TrackReport<'a> {
         let row = |ride: &Tracked| {
             columns
                 .iter()
-                .map(|name| cell(&ride.column(name)))
+                .map(|name| cell(&self.column(ride, name)))
                 .collect()
         };
         self.rides.iter().map(row).collect()
+    }
+
+    fn column(&self, ride: &Tracked, name: &str) -> Value {
+        let vibration = self.vibration.as_ref();
+        let value = vibration.and_then(|it| it.column(ride.trip.ride, name));
+        value.unwrap_or_else(|| ride.column(name))
     }
 }
 
