@@ -91,7 +91,7 @@ impl Detect {
 
     /// Refuses what is in the way before anything takes long.
     fn outputs(&self) -> Result<Outputs, Failure> {
-        let picture = |path: &PathBuf| Output::picture(path, self.force);
+        let picture = |path: &PathBuf| Output::picture("--figure", path, self.force);
         let file = |path: &PathBuf| Output::new(path, self.force);
         let outputs = Outputs {
             figure: self.figure.as_ref().map(picture).transpose()?,

@@ -30,6 +30,7 @@ mod store;
 mod sweep;
 mod threshold;
 mod track;
+mod vibration;
 
 pub use arguments::{Arguments, brief};
 

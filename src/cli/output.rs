@@ -74,13 +74,13 @@ impl Output {
         }
     }
 
-    /// The same for a picture, whose name must end in .png or .svg.
-    pub fn picture(path: &Path, replaces: bool) -> Result<Self, Failure> {
+    /// The same for the picture of a flag, whose name must end in .png or .svg.
+    pub fn picture(flag: &str, path: &Path, replaces: bool) -> Result<Self, Failure> {
         if path.extension().is_some_and(|e| e == "png" || e == "svg") {
             return Self::new(path, replaces);
         }
         Err(Failure::Input(anyhow!(
-            "--figure must end in .png or .svg, got {}",
+            "{flag} must end in .png or .svg, got {}",
             path.display()
         )))
     }

@@ -85,7 +85,7 @@ impl Threshold {
     /// Runs the command.
     pub fn run(self) -> CommandResult {
         let figure = self.figure.as_ref();
-        let figure = figure.map(|path| Output::picture(path, self.force));
+        let figure = figure.map(|path| Output::picture("--figure", path, self.force));
         let figure = figure.transpose()?;
         let samples =
             Samples::contiguous(self.reference, self.shift, self.scale).map_err(Failure::input)?;

@@ -7,6 +7,7 @@ use super::output::Output;
 use super::quality::{self, QualityArguments};
 use super::rides::{RideArguments, Rides};
 use super::rows::{self, Format};
+use super::vibration::{self, VibrationArguments};
 use super::{CommandResult, Failure, print, table, warn};
 use anyhow::anyhow;
 use clap::Args;
@@ -33,11 +34,14 @@ use std::process::ExitCode;
 ///
 /// With `--rules` the trips by a published filter and its zero rules stand beside them, for comparison: it needs a record
 /// that begins with two seconds of rest, and is the worse of the two.
+/// With `--quality` each ride is judged: how hard it speeds up and brakes, and how much it shakes. With `--baseline` its
+/// horizontal vibration is set beside what is usual in the lift, and what is beyond is located.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     liftsim simulate --out ride.csv && liftsim track ride.csv --figure track.png\n  \
     liftsim track log.csv --time t --acceleration az --unit mg --format csv > rides.csv\n  \
     liftsim track phone.zip --quality\n  \
+    liftsim track phone.zip --baseline lift.vibration.json\n  \
     liftsim track ride.csv --floors 0,12 --at 0 --map lift.json")]
 pub struct TrackCommand {
     /// Print it as this.
@@ -59,6 +63,8 @@ pub struct TrackCommand {
     air: AirArguments,
     #[command(flatten)]
     quality: QualityArguments,
+    #[command(flatten)]
+    vibration: VibrationArguments,
     #[command(flatten)]
     rides: RideArguments,
 }
@@ -83,13 +89,16 @@ const BESIDE: usize = 6;
 impl TrackCommand {
     /// Runs the command.
     pub fn run(self) -> CommandResult {
-        let picture = |path: &PathBuf| Output::picture(path, self.force);
+        let picture = |path: &PathBuf| Output::picture("--figure", path, self.force);
         let figure = self.figure.as_ref().map(picture).transpose()?;
-        let outputs = || self.figure.iter().chain(&self.floors.map);
+        let pictured = || self.figure.iter().chain(&self.floors.map);
+        let outputs = || pictured().chain(self.vibration.outputs());
         self.rides.apart(outputs())?;
         self.air.apart(outputs())?;
         let mut building = self.floors.building(self.force)?;
-        let rides = self.rides.find(self.quality.is_wanted())?;
+        let mut kept = self.vibration.kept(self.force)?;
+        let across = self.quality.is_wanted() || kept.is_some();
+        let rides = self.rides.find(across)?;
         let measured = self.air.measure(rides, self.rides.path())?;
         let Measured {
             rides,
@@ -101,6 +110,8 @@ impl TrackCommand {
         if let Some(building) = &mut building {
             self.land(&mut track, &rides, building)?;
         }
+        let compare = |kept: &mut vibration::Kept| kept.compare(&track, &rides, &self.rides);
+        let vibration = kept.as_mut().map(compare).transpose()?;
         for warning in track.warnings() {
             warn(warning);
         }
@@ -134,10 +145,12 @@ impl TrackCommand {
         let report = TrackReport {
             quality,
             rules: self.rules.map(by_rules),
+            vibration,
             ..TrackReport::new(name, recording, detection, &track, floors, heights)
         };
         print(&self.printed(&report))?;
         building.map_or(Ok(()), |building| building.save())?;
+        kept.map_or(Ok(()), |kept| kept.save())?;
         Ok(ExitCode::SUCCESS)
     }
 
@@ -200,6 +213,11 @@ fn text(report: &TrackReport) -> String {
         trips(report),
         report.rules.as_ref().map(rules).unwrap_or_default(),
         quality(report),
+        report
+            .vibration
+            .as_ref()
+            .map(vibration::text)
+            .unwrap_or_default(),
         floors::text(report),
         found::undecided(report.undecided),
         found::events(report.events),

@@ -18,6 +18,10 @@ pub enum FigureError {
     Empty(&'static str),
     #[error("figure: too short to be drawn, without a single block (record a ride)")]
     Short,
+    #[error(
+        "figure: no ride has both its energies and a distance (record a whole ride, with rest before and after it)"
+    )]
+    NoPosition,
     #[error("figure: the rows are not those of a [{0}] (compute it again with `liftsim sweep`)")]
     NoRows(&'static str),
     #[error("figure: {0}")]

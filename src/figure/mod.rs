@@ -10,6 +10,7 @@ mod raster;
 mod record;
 mod svg;
 pub mod track;
+pub mod vibration;
 
 pub use error::FigureError;
 

@@ -670,5 +670,156 @@ fn published_rules_for_comparison() {
         refused.2.contains("above 0 and up to 5 m/s^2"),
         "{}",
         refused.2
+/// A baseline of trips whose windows are all below 0.0043 m²/s⁴, learnt at 100 Hz.
+fn with_a_baseline(directory: &Path) {
+    let trip = |trip: u32| {
+        (0..40)
+            .map(|at| 3e-3 + 1e-6 * f64::from(40 * trip + at))
+            .collect()
+    };
+    let trips: Vec<Vec<f64>> = (0..30).map(trip).collect();
+    let file = serde_json::json!({
+        "format": "liftsim vibration baseline",
+        "version": 1,
+        "rate": 100.0,
+        "trips": trips,
+    });
+    fs::write(directory.join("lift.json"), file.to_string()).unwrap();
+}
+
+/// The ride of `ride.csv`, up 12 m from 8.0 to 27.1 s, with a knock along x at 17.555 s, when it is half way.
+fn knocked(directory: &Path) {
+    let text = fs::read_to_string(directory.join("ride.csv")).unwrap();
+    let knocked = text.lines().map(|line| {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        let time = cells[0].parse::<f64>().unwrap_or(0.0);
+        if (17.55..17.6).contains(&time) {
+            cells[1] = (cells[1].parse::<f64>().unwrap() + 3.0).to_string();
+        }
+        cells.join(",") + "\n"
+    });
+    let knocked: String = knocked.collect();
+    fs::write(directory.join("knocked.csv"), knocked).unwrap();
+}
+
+/// Whole rides are learnt, each once, as long as the baseline has not settled.
+#[test]
+fn a_baseline_is_learnt() {
+    let directory = recorded(&[]);
+    let path = directory.path();
+    let first = well(track(path, &["ride.csv", "--baseline", "lift.json"]));
+    assert!(first.contains("2 of about 29 trips, 7"), "{first}");
+    assert!(first.contains("has not settled"), "{first}");
+    let file = fs::read(path.join("lift.json")).unwrap();
+    let flags = ["ride.csv", "--baseline", "lift.json", "--format", "json"];
+    let again: Value = serde_json::from_str(&well(track(path, &flags))).unwrap();
+    let vibration = &again["vibration"];
+    assert_eq!(
+        (&vibration["trips"], &vibration["guard"]),
+        (&2.into(), &Value::Null)
+    );
+    assert_eq!(vibration["rides"][1]["used"], "known");
+    assert_eq!(fs::read(path.join("lift.json")).unwrap(), file);
+    assert!(!well(track(path, &["ride.csv"])).contains("vibration"));
+}
+
+/// A knock is found beside a settled baseline, where the car was, and drawn; the other ride is usual, and nothing is learnt.
+#[test]
+fn a_knock_is_located() {
+    let directory = recorded(&[]);
+    let path = directory.path();
+    with_a_baseline(path);
+    knocked(path);
+    let before = fs::read_to_string(path.join("lift.json")).unwrap();
+    let floors = ["--floors", "0,9,12", "--at", "0"];
+    let flags = [
+        &[
+            "knocked.csv",
+            "--baseline",
+            "lift.json",
+            "--spectrum",
+            "spectrum.png",
+        ],
+        &floors[..],
+    ];
+    let json = [flags.concat(), vec!["--format", "json"]].concat();
+    let report: Value = serde_json::from_str(&well(track(path, &json))).unwrap();
+    let vibration = &report["vibration"];
+    assert_eq!(vibration["guard"]["guard"], "order_statistic");
+    let alarms = vibration["rides"][0]["alarms"].as_array().unwrap();
+    assert_eq!(alarms.len(), 1, "{alarms:?}");
+    for name in ["position", "height"] {
+        let place = alarms[0][name].as_f64().unwrap();
+        assert!((place - 6.0).abs() < 0.15, "{name} {place}");
+    }
+    let time = alarms[0]["time"].as_f64().unwrap();
+    assert!((17.54..17.61).contains(&time), "{time}");
+    assert_eq!(vibration["rides"][1]["alarms"].as_array().unwrap().len(), 0);
+    assert!(fs::metadata(path.join("spectrum.png")).unwrap().len() > 10_000);
+    let table = track(
+        path,
+        &[&["knocked.csv", "--baseline", "lift.json"], &floors[..]].concat(),
+    )
+    .1;
+    assert!(
+        table.contains("ride 1: alarm, 0.") && table.contains("above the lowest floor"),
+        "{table}"
+    );
+    let csv = track(
+        path,
+        &["knocked.csv", "--baseline", "lift.json", "--format", "csv"],
+    )
+    .1;
+    let ends: Vec<&str> = csv
+        .lines()
+        .skip(1)
+        .map(|it| it.rsplit(',').next().unwrap())
+        .collect();
+    assert_eq!(ends, ["1", "0"]);
+    let after: Value =
+        serde_json::from_str(&fs::read_to_string(path.join("lift.json")).unwrap()).unwrap();
+    assert_eq!(after, serde_json::from_str::<Value>(&before).unwrap());
+}
+
+/// What holds no such vibration is refused, and so is a file that is no baseline; each with a remedy.
+#[test]
+fn vibration_that_is_not_in_the_record() {
+    let directory = recorded(&["--rate", "50"]);
+    let path = directory.path();
+    with_a_baseline(path);
+    let flags = ["--baseline", "lift.json"];
+    let refused = |file: &str, more: &[&str]| {
+        let (code, out, err) = track(path, &[&[file], more].concat());
+        assert_eq!((code, out.as_str()), (2, ""), "{err}");
+        err
+    };
+    let unlike = refused("ride.csv", &flags);
+    assert!(
+        unlike.contains("learnt at 100.0 Hz") && unlike.contains("(begin"),
+        "{unlike}"
+    );
+    let text = fs::read_to_string(path.join("ride.csv")).unwrap();
+    let alone = text.lines().map(|line| {
+        let cells: Vec<&str> = line.split(',').collect();
+        format!("{},{}\n", cells[0], cells[3])
+    });
+    fs::write(path.join("one.csv"), alone.collect::<String>()).unwrap();
+    let one = refused("one.csv", &["--baseline", "new.json"]);
+    assert!(
+        one.contains("only one axis was read (record all three"),
+        "{one}"
+    );
+    assert!(!path.join("new.json").exists());
+    let foreign = refused("ride.csv", &["--baseline", "ride.truth.csv"]);
+    assert!(foreign.contains("no baseline of vibration"), "{foreign}");
+    let rate = refused("ride.csv", &[&flags[..], &["--alarm-rate", "1"]].concat());
+    assert!(rate.contains("must be a share"), "{rate}");
+    let same = refused("ride.csv", &["--baseline", "ride.csv"]);
+    assert!(same.contains("give another name"), "{same}");
+    let slow = recorded(&["--rate", "10"]);
+    let (code, _, err) = track(slow.path(), &["ride.csv", "--baseline", "new.json"]);
+    assert!(
+        code == 2 && err.contains("10.0 Hz holds no vibration"),
+        "{err}"
     );
 }
