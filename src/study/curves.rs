@@ -1,11 +1,12 @@
 //! Tables that measure something along an axis, for several curves: what `[ride]` and `[floors]` share.
 
-use crate::config::{AxisValue, Conflict, Node};
+use crate::config::{AxisValue, Conflict, Node, Refusal};
 use crate::experiment::schema;
 use crate::experiment::{ConfigError, Experiment, Keys, Overlay};
+use crate::rule::OutOfRange;
 use schemars::{JsonSchema, SchemaGenerator};
-use serde::Deserialize;
 use serde::de::{DeserializeOwned, IgnoredAny};
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use std::fmt::Display;
 use std::ops::Range;
@@ -71,6 +72,13 @@ struct Required<M> {
 
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 enum Problem {
+    #[error(transparent)]
+    Read(#[from] Refusal),
+    #[error("{prefix}{error}")]
+    Value {
+        prefix: &'static str,
+        error: OutOfRange,
+    },
     #[error("{table}: unknown key {among}")]
     UnknownKey { table: &'static str, among: String },
     #[error("{prefix}{key}: means nothing to measure = \"{measure}\" (take it out)")]
@@ -81,6 +89,41 @@ enum Problem {
     },
     #[error("{prefix}axis.{key}: must be numbers (a picture has them on its axis)")]
     NoNumber { prefix: &'static str, key: String },
+}
+
+/// Reads the keys of a point from their values, and checks them.
+///
+/// # Errors
+/// If one is not what it must be.
+pub fn read_keys<P: Keyed + DeserializeOwned>(
+    values: &Node,
+    check: impl Fn(&P) -> Result<(), OutOfRange>,
+) -> Result<P, Conflict> {
+    let keys = P::deserialize(values).map_err(|refusal: Refusal| {
+        let span = refusal.span.clone();
+        let table = P::PREFIX.trim_end_matches('.');
+        let conflict = Conflict::of([""; 0], Problem::from(refusal.within(table)));
+        Conflict { span, ..conflict }
+    })?;
+    check(&keys).map_err(|error| {
+        let span = values.get(&error.key).map(|node| node.span.clone());
+        let prefix = P::PREFIX;
+        let conflict = Conflict::of([""; 0], Problem::Value { prefix, error });
+        Conflict { span, ..conflict }
+    })?;
+    Ok(keys)
+}
+
+impl<P: Keyed + Serialize> Point<P> {
+    /// The measure and every key but these, with their values.
+    pub fn parameters(&self, measure: P::Measure, without: &[&str]) -> Vec<(String, String)> {
+        let keys = serde_json::to_value(&self.of).expect("keys are plain data");
+        let keys = keys.as_object().into_iter().flatten();
+        let keys = keys.filter(|(key, _)| !without.contains(&&key[..]));
+        let keys = keys.map(|(key, value)| (key.clone(), value.to_string()));
+        let measure = ("measure".to_owned(), measure.to_string());
+        [measure].into_iter().chain(keys).collect()
+    }
 }
 
 impl<P: Keyed> Curves<P> {

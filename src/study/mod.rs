@@ -31,6 +31,7 @@ mod rules;
 mod sweep;
 pub(crate) mod trace;
 pub mod trips;
+pub mod vibration;
 
 pub use kind::{Context, Study, TooMany};
 pub use loaded::Loaded;
@@ -61,6 +62,7 @@ pub const STUDIES: &[Entry] = &[
     Entry::of::<outcomes::Of<quality::Rides>>(),
     Entry::of::<outcomes::Of<phases::Phases>>(),
     Entry::of::<outcomes::Of<height::Heights>>(),
+    Entry::of::<outcomes::Of<vibration::Table>>(),
 ];
 
 /// An entry of the list of studies.
