@@ -670,6 +670,9 @@ fn published_rules_for_comparison() {
         refused.2.contains("above 0 and up to 5 m/s^2"),
         "{}",
         refused.2
+    );
+}
+
 /// A baseline of trips whose windows are all below 0.0043 m²/s⁴, learnt at 100 Hz.
 fn with_a_baseline(directory: &Path) {
     let trip = |trip: u32| {
