@@ -13,6 +13,8 @@
 //!   error of its mean is small where trips are taken as the units, since windows of one trip are alike.
 //! - The [guard line](Guard) is an order statistic of all windows.
 //!
+//! `configs/baseline.toml` and `configs/vibration.toml` measure all of it.
+//!
 //! # What the guard line promises
 //! Let n windows be learnt, and let the next be exchangeable with them. Then it is equally likely to have any rank among all
 //! n + 1, and the probability that it is above the k-th largest is k/(n + 1), whatever their law. With k = ⌊α (n + 1)⌋ that is
@@ -22,7 +24,7 @@
 //! direction, in who stands beside the sensor. What is exchangeable then is whole trips. Of T + 1 of them each is equally likely
 //! to hold the largest energy, so of trips judged by the largest energy of T others 1 in T + 1 alarms, whatever is within them;
 //! and what a line learnt from T − 1 trips does to another is shown without bias by leaving each of T trips out in turn. Both
-//! [rates](GuardLine) are reported beside the one asked for: one window in a thousand is one trip in thirty.
+//! [rates](GuardLine) are reported beside the one asked for: of trips of 30 windows up to 3 in 100 have one in a thousand.
 //!
 //! # Where [^1] is read one way among several
 //! - (20) is the mean of all energies so far, though it is called a moving mean.
