@@ -31,7 +31,7 @@ const FLOORS: &[&[&str]] = &[
     &["chain", "detection", "experiment"],
     // How far trips went; trials, planned and drawn.
     &["track", "schedule"],
-    &["plan", "figure"],
+    &["plan", "figure", "page"],
     &["pilot", "gate", "results"],
     // Counted.
     &["run"],

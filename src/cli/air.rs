@@ -35,6 +35,8 @@ pub struct Measured {
     pub rides: Rides,
     pub track: Track,
     pub heights: Option<(Barometer, Climbs)>,
+    /// Why one that was found is not used.
+    pub unused: Option<String>,
 }
 
 fn celsius(text: &str) -> Result<f64, String> {
@@ -54,10 +56,16 @@ impl AirArguments {
             track: track(&rides),
             rides,
             heights: None,
+            unused: None,
         };
-        let found = self.barometer(recording, &measured.rides)?;
-        let Some((barometer, ahead)) = found else {
-            return Ok(measured);
+        let (barometer, ahead) = match self.barometer(recording, &measured.rides)? {
+            Found::Used(barometer, ahead) => (barometer, ahead),
+            Found::Unused(why) => {
+                warn(&why);
+                measured.unused = Some(without_folder(&why, recording));
+                return Ok(measured);
+            }
+            Found::None => return Ok(measured),
         };
         let climbs = |track: &Track| Climbs::of(&track.trips, &barometer, ahead, self.temperature);
         let mut heights = climbs(&measured.track);
@@ -74,11 +82,9 @@ impl AirArguments {
         Ok(measured)
     }
 
-    /// The barometer, and how far the recording's clock is ahead of its, s. One that is found, and cannot be used, is
-    /// only warned of.
-    fn barometer(&self, path: &Path, rides: &Rides) -> Result<Option<(Barometer, f64)>, Failure> {
+    fn barometer(&self, path: &Path, rides: &Rides) -> Result<Found, Failure> {
         if self.no_barometer {
-            return Ok(None);
+            return Ok(Found::None);
         }
         let (found, is_given) = match &self.barometer {
             Some(file) => (Barometer::open(file).map(Some), true),
@@ -92,13 +98,30 @@ impl AirArguments {
         });
         match used {
             Err(error) if is_given => Err(Failure::Input(error)),
-            Err(error) => {
-                warn(format!("the barometer is not used: {error:#}"));
-                Ok(None)
-            }
-            Ok(used) => Ok(used),
+            Err(error) => Ok(Found::Unused(format!(
+                "the barometer is not used: {error:#}"
+            ))),
+            Ok(Some((barometer, ahead))) => Ok(Found::Used(barometer, ahead)),
+            Ok(None) => Ok(Found::None),
         }
     }
+}
+
+/// A barometer that was looked for.
+enum Found {
+    None,
+    /// And how far the recording's clock is ahead of its, s.
+    Used(Barometer, f64),
+    /// It cannot be used, and why.
+    Unused(String),
+}
+
+/// A message without the folder that a recording is in, for what is passed on.
+fn without_folder(message: &str, recording: &Path) -> String {
+    let folder = recording.parent().filter(|it| *it != Path::new(""));
+    folder.map_or(message.to_owned(), |folder| {
+        message.replace(&format!("{}/", folder.display()), "")
+    })
 }
 
 /// A barometer whose clock is that of a recording, and how far the latter's is ahead.
@@ -142,16 +165,8 @@ fn track(rides: &Rides) -> Track {
 
 /// The barometer and the air, in lines.
 pub fn text(of: &Barometric) -> String {
-    let air = of.air;
-    let learnt = match air.learnt {
-        0 if air.deviation == 0.0 => "as given".to_owned(),
-        0 => "not learnt: as usual indoors".to_owned(),
-        1 => "learnt from 1 ride and what is usual indoors".to_owned(),
-        rides => format!("learnt from {rides} rides and what is usual indoors"),
-    };
     format!(
-        "barometer: {}, \"{}\" ({}), {} readings, deviation {:.2} m\n\
-         air: {:.1} ± {:.1} °C, {learnt}\n",
-        of.file, of.column, of.unit, of.readings, of.noise, air.celsius, air.deviation,
+        "barometer: {}, \"{}\" ({}), {} readings, deviation {:.2} m\nair: {}\n",
+        of.file, of.column, of.unit, of.readings, of.noise, of.air,
     )
 }

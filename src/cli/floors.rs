@@ -4,8 +4,8 @@ use super::output::Output;
 use super::{Failure, table, warn};
 use anyhow::anyhow;
 use clap::Args;
-use liftsim::track::floors::{Floors, Judgement, Settings, Start};
-use liftsim::track::{TrackReport, Tracked};
+use liftsim::track::floors::{Floors, Settings, Start};
+use liftsim::track::{Alarm, TrackReport, Tracked};
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -108,7 +108,8 @@ fn refused(message: impl Into<String>) -> Failure {
 }
 
 /// The columns shown of every stop, without their prefix.
-const STOP: [&str; 8] = [
+const STOP: [&str; 9] = [
+    "from",
     "floor",
     "probability",
     "position",
@@ -144,7 +145,8 @@ pub fn text(report: &TrackReport) -> String {
     let stops: Vec<_> = stops.collect();
     let legend =
         "where the probability is low it may be another floor (--at tells where the car begins)\n";
-    let alarms = alarms(report.rides);
+    let alarms = Alarm::all(report.rides).into_iter();
+    let alarms: String = alarms.map(|alarm| format!("{alarm}\n")).collect();
     "\n".to_owned() + &table(&header("ride", &STOP), &stops) + legend + &alarms + &floors
 }
 
@@ -165,41 +167,4 @@ fn row(first: impl ToString, values: impl IntoIterator<Item = Value>) -> Vec<Str
 /// Never "-0.000".
 fn metres(value: f64) -> String {
     format!("{:.3}", (1e3 * value).round() / 1e3 + 0.0)
-}
-
-/// A line for every alarm, and one where the trip after it says more.
-fn alarms(rides: &[Tracked]) -> String {
-    let judgement = |ride: &Tracked| ride.landing?.judgement;
-    let line = |(place, ride): (usize, &Tracked)| {
-        let before = place.checked_sub(1).map(|place| &rides[place]);
-        let first = judgement(ride).filter(|it| it.fault.is_some());
-        let first = first.map(|it| format!("ride {}: {}\n", ride.trip.ride, words(&it)));
-        let earlier = ride.landing.and_then(|landing| landing.earlier).zip(before);
-        let earlier = earlier.filter(|(again, before)| {
-            let was_alarm = judgement(before).is_some_and(|it| it.fault.is_some());
-            was_alarm || again.fault.is_some()
-        });
-        let earlier = earlier.map(|(again, before)| {
-            let (ride, by) = (before.trip.ride, ride.trip.ride);
-            format!(
-                "ride {ride}, judged again by ride {by}: {}\n",
-                words(&again)
-            )
-        });
-        earlier.into_iter().chain(first).collect::<String>()
-    };
-    rides.iter().enumerate().map(line).collect()
-}
-
-/// The fault, and where the car stands.
-fn words(of: &Judgement) -> String {
-    let fault = of
-        .fault
-        .map_or("no alarm".to_owned(), |fault| format!("alarm, {fault}"));
-    let side = if of.offset < 0.0 { "below" } else { "above" };
-    let (offset, deviation) = (metres(of.offset.abs()), metres(of.deviation));
-    format!(
-        "{fault}: {offset} ± {deviation} m {side} floor {}",
-        of.floor
-    )
 }

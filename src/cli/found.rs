@@ -2,9 +2,9 @@
 
 use super::table;
 use liftsim::detection::{
-    AtRest, Brief, DetectReport, Detection, Event, Recorded, Trip, Undecided, What, Why,
+    AtRest, DetectReport, Detection, Event, Recorded, Trip, Undecided, event_lines, no_rides,
 };
-use liftsim::monitor::{Direction, Reference};
+use liftsim::monitor::Reference;
 use serde_json::Value;
 
 /// Below this p-value the filter counts as leaving colour.
@@ -26,8 +26,8 @@ const TRIP: [&str; 9] = [
 /// The columns shown of its start and of its stop, without that prefix.
 const DECISION: [&str; 4] = ["rank_sum", "exceedances", "lower", "upper"];
 
-/// The most times in a line.
-const MOST_TIMES: usize = 8;
+/// The most undecided stretches that are printed.
+const MOST_STRETCHES: usize = 8;
 
 /// The whole text.
 pub fn text(report: &DetectReport, detection: &Detection) -> String {
@@ -109,7 +109,7 @@ fn at_rest(at_rest: &AtRest) -> String {
 
 fn trips(report: &DetectReport) -> String {
     if report.rides.is_empty() {
-        return no_rides(report.undecided, report.events).to_owned();
+        return no_rides(report.undecided, report.events).to_owned() + "\n";
     }
     let rows: Vec<_> = (report.rides.iter())
         .map(|trip| TRIP.map(|name| cell(&trip.column(name))).to_vec())
@@ -118,122 +118,31 @@ fn trips(report: &DetectReport) -> String {
     table(&TRIP, &rows) + "times in s of the recording's clock, speed in m/s\n" + &ends
 }
 
-/// What is said where there are none.
-pub fn no_rides(undecided: &[Undecided], events: &[Event]) -> &'static str {
-    if undecided.is_empty() && events.is_empty() {
-        "no rides: the record stays at its level\n"
-    } else {
-        "no rides that are decided\n"
-    }
-}
-
 /// A line for every end that may be another.
 pub fn other_ends(trip: &Trip) -> String {
-    let end = |name: &str, time: Option<f64>| {
-        let of = |time| {
-            format!(
-                "ride {}: the {name} may be at {time:.2} s as well\n",
-                trip.ride
-            )
-        };
-        time.map(of).unwrap_or_default()
-    };
-    end("start", trip.or_start) + &end("stop", trip.or_stop)
+    trip.other_ends().map(|line| line + "\n").collect()
 }
 
-/// A line for each.
+/// A paragraph for each of the first.
 pub fn undecided(stretches: &[Undecided]) -> String {
     let told = |it: &Undecided| {
-        let unknown = match it.why {
-            Why::Close | Why::Filter => None,
-            Why::NoRide => Some("a change of speed that fits no ride"),
-            Why::Frozen => Some("the sensor repeats one value"),
-            Why::InHand => Some("the sensor may have been in somebody's hand"),
-        };
-        if let Some(why) = unknown {
-            return format!("\nundecided, {:.1} to {:.1} s: {why}\n", it.from, it.to);
-        }
-        let more = match it.more {
-            0 => String::new(),
-            1 => ", or in another way".to_owned(),
-            more => format!(", or in {more} other ways"),
-        };
-        let odds = if it.why == Why::Filter {
-            String::new()
-        } else {
-            format!(" ({})", likelier(it.log_odds))
-        };
         format!(
-            "\nundecided, {:.1} to {:.1} s: either {}, or {}{}{more}\n",
+            "\nundecided, {:.1} to {:.1} s: {}\n",
             it.from,
             it.to,
-            briefly(&it.either),
-            briefly(&it.or),
-            odds,
+            it.readings()
         )
     };
-    stretches.iter().take(MOST_TIMES).map(told).collect()
-}
-
-/// How much likelier the first of two explanations is.
-fn likelier(log_odds: f64) -> String {
-    let odds = libm::exp(log_odds).round();
-    if odds < 2.0 {
-        "about as likely".to_owned()
-    } else {
-        format!("the first is {odds} times as likely")
-    }
-}
-
-fn briefly(trips: &[Brief]) -> String {
-    let end = |time: Option<f64>| time.map_or("?".to_owned(), |time| format!("{time:.1}"));
-    let told = trips.iter().map(|trip| {
-        let direction = match trip.direction {
-            Direction::Up => "up",
-            Direction::Down => "down",
-        };
-        format!("{direction} {}-{} s", end(trip.start), end(trip.stop))
-    });
-    let told: Vec<String> = told.collect();
-    if told.is_empty() {
-        "no ride".to_owned()
-    } else {
-        told.join(" and ")
-    }
+    stretches.iter().take(MOST_STRETCHES).map(told).collect()
 }
 
 /// A line for every kind of event.
 pub fn events(events: &[Event]) -> String {
-    let kinds = [
-        (What::Shock, "shocks"),
-        (What::Swing, "swings to and fro"),
-        (What::Push, "changes of speed that belong to no ride"),
-        (What::LevelShift, "shifts of the sensor's level"),
-        (What::SlowMotion, "slow motions"),
-    ];
-    let line = |(what, name): (What, &str)| {
-        let times = events.iter().filter(|event| event.what == what);
-        let times: Vec<String> = times.map(|event| format!("{:.1}", event.from)).collect();
-        let more = times.len().saturating_sub(MOST_TIMES);
-        let shown = times
-            .iter()
-            .take(MOST_TIMES)
-            .cloned()
-            .collect::<Vec<_>>()
-            .join(", ");
-        let more = if more > 0 {
-            format!(" and {more} more")
-        } else {
-            String::new()
-        };
-        (!times.is_empty()).then(|| format!("\n{name} at {shown}{more} s"))
-    };
-    let lines: String = kinds.into_iter().filter_map(line).collect();
+    let lines = event_lines(events);
     if lines.is_empty() {
-        lines
-    } else {
-        lines + "\n"
+        return String::new();
     }
+    format!("\n{}\n", lines.join("\n"))
 }
 
 fn decisions(trips: &[Trip]) -> String {

@@ -76,11 +76,22 @@ impl Output {
 
     /// The same for the picture of a flag, whose name must end in .png or .svg.
     pub fn picture(flag: &str, path: &Path, replaces: bool) -> Result<Self, Failure> {
-        if path.extension().is_some_and(|e| e == "png" || e == "svg") {
+        Self::named(path, replaces, flag, &["png", "svg"])
+    }
+
+    /// The same for a page, whose name must end in .html.
+    pub fn page(path: &Path, replaces: bool) -> Result<Self, Failure> {
+        Self::named(path, replaces, "--report", &["html", "htm"])
+    }
+
+    fn named(path: &Path, replaces: bool, flag: &str, ends: &[&str]) -> Result<Self, Failure> {
+        let end = path.extension();
+        if end.is_some_and(|end| ends.iter().any(|it| end == *it)) {
             return Self::new(path, replaces);
         }
         Err(Failure::Input(anyhow!(
-            "{flag} must end in .png or .svg, got {}",
+            "{flag} must end in .{}, got {}",
+            ends.join(" or ."),
             path.display()
         )))
     }

@@ -3,17 +3,20 @@
 use super::air::{self, AirArguments, Measured};
 use super::floors::{self, Building, FloorArguments};
 use super::found::{self, cell};
-use super::output::Output;
+use super::output::{Output, Ready};
 use super::quality::{self, QualityArguments};
 use super::rides::{RideArguments, Rides};
 use super::rows::{self, Format};
 use super::vibration::{self, VibrationArguments};
 use super::{CommandResult, Failure, print, table, warn};
 use anyhow::anyhow;
-use clap::Args;
+use clap::{ArgGroup, Args};
+use liftsim::detection::no_rides;
 use liftsim::figure::{self, FigureError};
+use liftsim::page;
+use liftsim::plot::Plot;
 use liftsim::track::floors::Floors;
-use liftsim::track::{ByRules, Move, Track, TrackReport, Tracked};
+use liftsim::track::{ByRules, Climbs, Move, Track, TrackReport, Tracked};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -37,10 +40,11 @@ use std::process::ExitCode;
 /// With `--quality` each ride is judged: how hard it speeds up and brakes, and how much it shakes. With `--baseline` its
 /// horizontal vibration is set beside what is usual in the lift, and what is beyond is located.
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("judged").args(["quality", "report"]).multiple(true))]
 #[command(after_help = "Examples:\n  \
     liftsim simulate --out ride.csv && liftsim track ride.csv --figure track.png\n  \
     liftsim track log.csv --time t --acceleration az --unit mg --format csv > rides.csv\n  \
-    liftsim track phone.zip --quality\n  \
+    liftsim track phone.zip --report ride.html\n  \
     liftsim track phone.zip --baseline lift.vibration.json\n  \
     liftsim track ride.csv --floors 0,12 --at 0 --map lift.json")]
 pub struct TrackCommand {
@@ -50,6 +54,10 @@ pub struct TrackCommand {
     /// Draw the record, the speed, and the position within two deviations.
     #[arg(long, value_name = "FILE.png|FILE.svg")]
     figure: Option<PathBuf>,
+    /// Write a page that stands for itself, to be read and printed: picture, rides, floors, alarms, ride quality (as with
+    /// --quality), the sensor, and what was not decided.
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
     /// Find the trips by published rules too: nothing changes the speed while all readings of 0.25 s are below a
     /// threshold, m/s² [default: 5 deviations of a reading at rest].
     #[arg(long, value_name = "THRESHOLD", num_args = 0..=1, value_parser = threshold)]
@@ -91,22 +99,28 @@ impl TrackCommand {
     pub fn run(self) -> CommandResult {
         let picture = |path: &PathBuf| Output::picture("--figure", path, self.force);
         let figure = self.figure.as_ref().map(picture).transpose()?;
-        let pictured = || self.figure.iter().chain(&self.floors.map);
-        let outputs = || pictured().chain(self.vibration.outputs());
+        let page = |path: &PathBuf| Output::page(path, self.force);
+        let page = self.report.as_ref().map(page).transpose()?;
+        let outputs = || {
+            (self.figure.iter())
+                .chain(&self.report)
+                .chain(&self.floors.map)
+                .chain(self.vibration.outputs())
+        };
         self.rides.apart(outputs())?;
         self.air.apart(outputs())?;
         let mut building = self.floors.building(self.force)?;
         let mut kept = self.vibration.kept(self.force)?;
-        let across = self.quality.is_wanted() || kept.is_some();
-        let rides = self.rides.find(across)?;
-        let measured = self.air.measure(rides, self.rides.path())?;
+        let is_judged = self.quality.is_wanted() || page.is_some();
+        let rides = self.rides.find(is_judged || kept.is_some())?;
         let Measured {
             rides,
             mut track,
             heights,
-        } = measured;
+            unused,
+        } = self.air.measure(rides, self.rides.path())?;
         rides.warn();
-        let quality = self.quality.judge(&mut track, &rides);
+        let quality = is_judged.then(|| self.quality.judge(&mut track, &rides));
         if let Some(building) = &mut building {
             self.land(&mut track, &rides, building)?;
         }
@@ -121,33 +135,30 @@ impl TrackCommand {
             }
         }
         let floors = building.as_ref().map(|building| &building.floors);
-        if let Some(figure) = figure {
-            let barometer = heights.as_ref().map(|(_, climbs)| &climbs.readings[..]);
-            self.draw(
-                figure,
-                &rides,
-                &track,
-                floors,
-                barometer.unwrap_or_default(),
-            )?;
-        }
-        let Rides {
-            recording,
-            detection,
-            ..
-        } = &rides;
         let heights = heights.as_ref().map(|(of, climbs)| (of, climbs));
+        let (recording, detection) = (&rides.recording, &rides.detection);
         let name = self.rides.name();
         let by_rules = |threshold| {
             let (samples, rate) = (recording.samples(), recording.rate());
             ByRules::new(samples, rate, &track.level, threshold)
         };
         let report = TrackReport {
-            quality,
             rules: self.rules.map(by_rules),
             vibration,
             ..TrackReport::new(name, recording, detection, &track, floors, heights)
         };
+        let mut report = report.with_quality(quality);
+        report.warnings.extend(unused);
+        let plot = || self.plot(&rides, &track, floors, heights.map(|it| it.1));
+        let figure = figure.map(|figure| {
+            let origin = format!("recording {}", report.recording.file);
+            figure.draw(&plot()?, &origin)
+        });
+        let page = page.map(|page| page.write(written(&report, &plot()?)?.as_bytes()));
+        let ready: Result<Vec<Ready>, Failure> = figure.into_iter().chain(page).collect();
+        for it in ready? {
+            it.publish()?;
+        }
         print(&self.printed(&report))?;
         building.map_or(Ok(()), |building| building.save())?;
         kept.map_or(Ok(()), |kept| kept.save())?;
@@ -170,30 +181,24 @@ impl TrackCommand {
         Ok(())
     }
 
-    fn draw(
+    fn plot(
         &self,
-        figure: Output,
         rides: &Rides,
         track: &Track,
         floors: Option<&Floors>,
-        barometer: &[(f64, f64)],
-    ) -> Result<(), Failure> {
+        climbs: Option<&Climbs>,
+    ) -> Result<Plot, Failure> {
         let name = self.rides.name();
         let offset = rides.recording.facts().clock_offset;
         let floors = floors.into_iter().flat_map(Floors::floors);
-        let heights: Vec<f64> = floors.map(|floor| floor.height).collect();
-        let plot = figure::track::plot(
-            &rides.detection,
-            track,
-            &heights,
-            barometer,
-            (&name, offset),
-        );
-        let plot = plot.map_err(|error| match error {
+        let floors: Vec<f64> = floors.map(|floor| floor.height).collect();
+        let barometer = climbs.map_or(&[][..], |climbs| &climbs.readings);
+        let plot =
+            figure::track::plot(&rides.detection, track, &floors, barometer, (&name, offset));
+        plot.map_err(|error| match error {
             FigureError::Short => self.rides.refused(error.into()),
             error => Failure::run(error),
-        })?;
-        figure.draw(&plot, &format!("recording {name}"))?.publish()
+        })
     }
 
     fn printed(&self, report: &TrackReport) -> String {
@@ -204,6 +209,12 @@ impl TrackCommand {
             Format::Markdown => rows::markdown(&report.columns(), &report.rows()),
         }
     }
+}
+
+/// The page of a report, with its picture.
+fn written(report: &TrackReport, plot: &Plot) -> Result<String, Failure> {
+    let picture = figure::inline(plot, page::PICTURE).map_err(Failure::run)?;
+    Ok(page::html(report, &picture))
 }
 
 fn text(report: &TrackReport) -> String {
@@ -257,7 +268,7 @@ fn quality(report: &TrackReport) -> String {
 
 fn trips(report: &TrackReport) -> String {
     if report.rides.is_empty() {
-        return "\n".to_owned() + found::no_rides(report.undecided, report.events);
+        return format!("\n{}\n", no_rides(report.undecided, report.events));
     }
     let mut shown = SHOWN.to_vec();
     if report.barometer.is_some() {

@@ -7,7 +7,7 @@ use super::table;
 use clap::Args;
 use liftsim::figure;
 use liftsim::track::vibration::{Baseline, GuardLine};
-use liftsim::track::{Alarm, Placed, Shaken, Track, Used, VibrationReport};
+use liftsim::track::{Track, Used, VibrationReport};
 use std::path::PathBuf;
 
 /// One window in a thousand.
@@ -122,11 +122,7 @@ pub fn text(report: &VibrationReport) -> String {
     });
     let rows: Vec<Vec<String>> = rows.collect();
     let names = ["ride", "energy", "largest", "position", "baseline"];
-    let alarms = report.rides.iter().flat_map(|ride| {
-        let guard = report.guard.as_ref();
-        let alarms = ride.alarms.iter();
-        alarms.filter_map(move |it| Some(alarm(ride, it, guard?)))
-    });
+    let alarms = report.alarms().into_iter().map(|it| it + "\n");
     title + &table(&names, &rows) + LEGEND + &alarms.collect::<String>()
 }
 
@@ -158,25 +154,6 @@ fn line(of: &GuardLine) -> String {
         of.rate,
         of.per_window,
         of.per_trip
-    )
-}
-
-fn alarm(ride: &Shaken, of: &Alarm, guard: &GuardLine) -> String {
-    let Placed {
-        energy,
-        position,
-        height,
-        ..
-    } = of.most;
-    let position = position.map(|it| format!(", {it:.2} m from the stop before"));
-    let height = height.map(|it| format!(", {it:.2} m above the lowest floor"));
-    let place = position.unwrap_or_default() + &height.unwrap_or_default();
-    format!(
-        "ride {}: alarm, {energy:.5} m²/s⁴ from {:.1} to {:.1} s, {:.1} times the guard line{place}\n",
-        ride.ride,
-        of.from,
-        of.to,
-        energy / guard.energy
     )
 }
 

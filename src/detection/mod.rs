@@ -13,6 +13,7 @@ mod report;
 mod rests;
 mod trace;
 mod trip;
+mod words;
 
 pub use columns::columns;
 pub use decisions::AtRest;
@@ -20,6 +21,7 @@ pub use options::{MonitorOptions, RecordingTable};
 pub use report::{DetectReport, Recorded, SLOW, Warning, cell};
 pub use trace::{Column, Trace};
 pub use trip::{Brief, End, Event, Trip, Undecided, What, Why};
+pub use words::{event_lines, no_rides};
 
 use crate::explain::{Explanation, Faults, Prior, SensorFilter};
 use crate::monitor::{Design, Knowledge, Reference};

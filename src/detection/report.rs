@@ -48,11 +48,21 @@ pub struct Recorded {
     pub rate: f64,
     pub jitter: f64,
     pub quantum: Option<f64>,
+    /// Times without samples.
+    pub gaps: u64,
+    /// The longest time between two samples, s.
+    pub longest_interval: f64,
     pub has_gravity: bool,
+    /// Whether the record, the user or a barometer says which way is up.
+    #[serde(skip)]
+    pub is_up_known: bool,
     /// Subtracted from the times of the file, s.
     pub clock_offset: Option<f64>,
     /// The time constant of its high-pass filter, s, if it has one: the record was restored.
     pub high_pass: Option<f64>,
+    /// Whether that filter was looked for.
+    #[serde(skip)]
+    pub is_filter_sought: bool,
 }
 
 impl Recorded {
@@ -74,9 +84,13 @@ impl Recorded {
             rate: facts.rate,
             jitter: facts.jitter,
             quantum: facts.quantum,
+            gaps: facts.gaps,
+            longest_interval: facts.longest_gap.length,
             has_gravity: facts.has_gravity,
+            is_up_known: recording.vertical().is_sign_known,
             clock_offset: facts.clock_offset,
             high_pass: detection.filter.time_constant(),
+            is_filter_sought: detection.filter != SensorFilter::NotSought,
         }
     }
 }
@@ -144,11 +158,12 @@ pub enum Warning {
     Busy,
     #[error("{0} more stretches are undecided (--json lists them)")]
     MoreUndecided(usize),
-    #[error("from {from:.1} to {to:.1} s the record does not decide{remedy}")]
+    #[error("from {from:.1} to {to:.1} s the record does not decide{because} ({advice})")]
     Undecided {
         from: f64,
         to: f64,
-        remedy: &'static str,
+        because: &'static str,
+        advice: &'static str,
     },
 }
 
@@ -249,7 +264,8 @@ impl Detection {
             .map(|it| Warning::Undecided {
                 from: it.from,
                 to: it.to,
-                remedy: it.remedy(),
+                because: it.because(),
+                advice: it.advice(),
             });
         [
             self.filter.time_constant().map(Warning::HighPass),

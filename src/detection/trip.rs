@@ -64,7 +64,7 @@ pub struct Undecided {
     pub more: usize,
     /// Whether it begins with the record.
     #[serde(skip)]
-    is_first: bool,
+    pub(super) is_first: bool,
 }
 
 /// Why a stretch is undecided.
@@ -240,26 +240,6 @@ fn direction(trip: &explain::Trip) -> Direction {
 }
 
 impl Undecided {
-    /// What the user can do about it, in brackets after a space.
-    pub(super) fn remedy(&self) -> &'static str {
-        match self.why {
-            Why::NoRide => return " (record the whole ride, with rest before and after it)",
-            Why::Frozen => return ": the sensor repeats one value (record again)",
-            Why::InHand => return ": the sensor may have been in somebody's hand (let it lie)",
-            Why::Filter => {
-                return ", because a phone that filters out slow acceleration would show one ride as these two \
-                        (record the acceleration with gravity)";
-            }
-            Why::Close => {}
-        }
-        let begins = |trips: &[Brief]| trips.iter().any(|trip| trip.start.is_none());
-        if self.is_first && begins(&self.either) != begins(&self.or) {
-            " (say how the record begins: --begins rest or --begins motion)"
-        } else {
-            " (record a few seconds of rest before and after the ride)"
-        }
-    }
-
     fn unknown(from: f64, to: f64, why: Why) -> Self {
         Self {
             from,

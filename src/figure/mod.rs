@@ -37,6 +37,14 @@ pub fn render(plot: &Plot, provenance: &str) -> Result<Drawing, FigureError> {
     })
 }
 
+/// Draws a plot as an element of an HTML page, as wide as the page lets it be; `label` is read aloud in its place.
+///
+/// # Errors
+/// Where it does not fit on a sheet.
+pub fn inline(plot: &Plot, label: &str) -> Result<String, FigureError> {
+    Ok(svg::inline(&layout(plot)?, label))
+}
+
 impl Drawing {
     /// Both forms by the names they have among results.
     pub fn files(&self) -> [(&'static str, &[u8]); 2] {

@@ -92,7 +92,10 @@ impl<'a> Recorded<'a> {
         more: impl IntoIterator<Item = String>,
     ) -> Plot {
         plot.add_to_all(&Mark::Axes);
-        plot.add_legend(entries, Place::Across);
+        let mut entries = entries.into_iter().peekable();
+        if entries.peek().is_some() {
+            plot.add_legend(entries, Place::Across);
+        }
         let mut caption = vec![
             literal(name),
             format!("{:.1} Hz", self.detection.design.rate),

@@ -10,6 +10,34 @@ const UNITS: f64 = 20.0;
 
 /// The picture, where it comes from in its description.
 pub(super) fn svg(canvas: &Canvas, provenance: &str) -> String {
+    let (provenance, content) = (escaped(provenance), content(canvas));
+    let ((width, height), (w, h)) = (canvas.size, units(canvas));
+    format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}pt" height="{height}pt" viewBox="0 0 {w} {h}">
+<desc>{provenance}</desc>
+{content}</svg>
+"#
+    )
+}
+
+/// The picture as an element of an HTML page, as wide as the page lets it be; `label` is read aloud in its place.
+pub(super) fn inline(canvas: &Canvas, label: &str) -> String {
+    let (label, content) = (escaped(label).replace('"', "&quot;"), content(canvas));
+    let (w, h) = units(canvas);
+    format!("<svg role=\"img\" aria-label=\"{label}\" viewBox=\"0 0 {w} {h}\">\n{content}</svg>\n")
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;")
+}
+
+fn units(canvas: &Canvas) -> (u32, u32) {
+    let (width, height) = canvas.size;
+    ((width * UNITS) as u32, (height * UNITS) as u32)
+}
+
+/// Text above everything else.
+fn content(canvas: &Canvas) -> String {
     let (mut shapes, mut glyphs) = (String::new(), String::new());
     for shape in &canvas.shapes {
         let out = match shape {
@@ -18,15 +46,7 @@ pub(super) fn svg(canvas: &Canvas, provenance: &str) -> String {
         };
         write(out, shape).expect("a string takes all that is written");
     }
-    let provenance = provenance.replace('&', "&amp;").replace('<', "&lt;");
-    let (width, height) = canvas.size;
-    let (w, h) = ((width * UNITS) as u32, (height * UNITS) as u32);
-    format!(
-        r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}pt" height="{height}pt" viewBox="0 0 {w} {h}">
-<desc>{provenance}</desc>
-{shapes}{glyphs}</svg>
-"#
-    )
+    shapes + &glyphs
 }
 
 /// One element.

@@ -4,7 +4,7 @@
 use super::error::FigureError;
 use super::record::{Recorded, axis};
 use crate::detection::Detection;
-use crate::plot::{Colour, Entry, Key, Mark, Plot, Point, Style, phase_colour};
+use crate::plot::{Axis, Colour, Entry, Key, Mark, Plot, Point, Style, phase_colour};
 use crate::stats::quantile::median;
 use crate::track::{self, Track, Update};
 
@@ -39,15 +39,15 @@ pub fn plot(
     (name, clock_offset): (&str, Option<f64>),
 ) -> Result<Plot, FigureError> {
     let recorded = Recorded::of(detection)?;
-    let places = || track.course.stretches().iter().flatten();
     let record = recorded.axis_where_known(0.08, |column| column.record);
-    let speed = axis(0.08, places().map(|place| (place.speed, place.speed)));
-    let position = axis(0.08, places().map(within));
-    let panels = [
-        (RECORD, record.labelled("record, m/s²")),
-        (SPEED, speed.labelled("speed, m/s")),
-        (POSITION, position.labelled("position, m")),
-    ];
+    let record = (RECORD, record.labelled("record, m/s²"));
+    // Where nothing is measured a speed of 0 and a position of 0 would say nothing.
+    let is_measured = track.trips.iter().any(|it| it.distance.is_some());
+    let panels: Vec<(f64, Axis)> = if is_measured {
+        [record].into_iter().chain(course_panels(track)).collect()
+    } else {
+        vec![record]
+    };
     let mut plot = recorded.panels(&panels);
     for (span, update) in track.course.updates() {
         if let Some(colour) = phase(*update).map(phase_colour) {
@@ -55,8 +55,11 @@ pub fn plot(
         }
     }
     recorded.hatch(&mut plot, &panels);
-    plot.add(1, Mark::Level(0.0, &[]));
     plot.add(0, recorded.values(|column| column.record));
+    if !is_measured {
+        return Ok(recorded.finish(plot, [], (name, clock_offset), []));
+    }
+    plot.add(1, Mark::Level(0.0, &[]));
     let (from, to) = recorded.span();
     let y = &panels[2].1;
     for height in floors.iter().filter(|it| (y.from..=y.to).contains(*it)) {
@@ -77,6 +80,17 @@ pub fn plot(
         ))
     });
     Ok(recorded.finish(plot, entries, (name, clock_offset), trips))
+}
+
+/// The panels of the speed and of the position.
+fn course_panels(track: &Track) -> [(f64, Axis); 2] {
+    let places = || track.course.stretches().iter().flatten();
+    let speed = axis(0.08, places().map(|place| (place.speed, place.speed)));
+    let position = axis(0.08, places().map(within));
+    [
+        (SPEED, speed.labelled("speed, m/s")),
+        (POSITION, position.labelled("position, m")),
+    ]
 }
 
 /// Readings of a barometer, few enough to be seen, at the height where most of them agree with the position.

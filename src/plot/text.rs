@@ -36,7 +36,7 @@ pub fn text_width(text: &str, size: f64) -> f64 {
 }
 
 /// The parts in lines of a caption, at most `width` points wide, broken between parts; a part that is
-/// wider alone is broken between its words.
+/// wider alone is broken between its words, and a word that is, as a file's name may be, loses its middle.
 pub fn wrap(parts: &[String], width: f64) -> Vec<String> {
     let fits = |line: &str| text_width(line, CAPTION) <= width;
     let mut lines: Vec<String> = Vec::new();
@@ -51,11 +51,27 @@ pub fn wrap(parts: &[String], width: f64) -> Vec<String> {
             let longer = lines.last().map(|line| format!("{line}{joint}{piece}"));
             match longer.filter(|line| fits(line)) {
                 Some(line) => *lines.last_mut().expect("there is a line") = line,
-                None => lines.push(piece.to_owned()),
+                None => lines.push(without_middle(piece, fits)),
             }
         }
     }
     lines
+}
+
+/// As much of both ends of a text as fits.
+fn without_middle(text: &str, fits: impl Fn(&str) -> bool) -> String {
+    if fits(text) {
+        return text.to_owned();
+    }
+    let characters: Vec<char> = text.chars().collect();
+    let ends = |each: usize| {
+        let (head, tail) = (&characters[..each], &characters[characters.len() - each..]);
+        head.iter().chain(&['…']).chain(tail).collect::<String>()
+    };
+    let most = (0..=characters.len() / 2)
+        .rev()
+        .find(|each| fits(&ends(*each)));
+    ends(most.unwrap_or(0))
 }
 
 impl Run {

@@ -16,6 +16,7 @@ use crate::recording::{Barometer, GRAVITY, Pressure};
 use crate::stats::quantile::median;
 use libm::hypot;
 use serde::Serialize;
+use std::fmt;
 use std::ops::Range;
 
 /// The gas constant of dry air, J/(kg K).
@@ -65,6 +66,18 @@ pub struct Air {
     pub deviation: f64,
     /// The number of trips that it is learnt from.
     pub learnt: usize,
+}
+
+impl fmt::Display for Air {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:.1} ± {:.1} °C, ", self.celsius, self.deviation)?;
+        match self.learnt {
+            0 if self.deviation == 0.0 => f.write_str("as given"),
+            0 => f.write_str("not learnt: as usual indoors"),
+            1 => f.write_str("learnt from 1 ride and what is usual indoors"),
+            rides => write!(f, "learnt from {rides} rides and what is usual indoors"),
+        }
+    }
 }
 
 /// The trips of a record by a barometer.

@@ -8,14 +8,52 @@ use crate::explain::Faults;
 use crate::recording::{Recording, Sample};
 use serde::Serialize;
 
+/// What a record does not show of the quality of its rides.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum QualityWarning {
+    /// The filter changes what is judged.
+    #[error(
+        "no ride is judged: behind a high-pass filter accelerations and jerks are not those of the car (record the raw \
+         accelerometer, with g)"
+    )]
+    Filter,
+    /// Its rate, Hz, is below [`LEAST_RATE`].
+    #[error(
+        "no ride is judged: at {0:.1} Hz the record holds no vibration (record {LEAST_RATE} Hz or more, best 200 Hz)"
+    )]
+    Rate(f64),
+    /// Horizontal vibration is not in it.
+    #[error("horizontal vibration is not judged: only one axis was read (record all three)")]
+    OneAxis,
+}
+
+impl QualityWarning {
+    /// That of a recording, if there is one.
+    pub fn of(recording: &Recording, detection: &Detection) -> Option<Self> {
+        let rate = recording.rate();
+        if detection.filter.time_constant().is_some() {
+            Some(Self::Filter)
+        } else if rate < LEAST_RATE {
+            Some(Self::Rate(rate))
+        } else {
+            recording.across().is_none().then_some(Self::OneAxis)
+        }
+    }
+
+    /// Whether no ride can be judged.
+    fn forbids(self) -> bool {
+        self != Self::OneAxis
+    }
+}
+
 impl Track {
     /// Judges the quality of its whole rides, as far as the recording shows it. [`Reading::across`](crate::recording::Reading)
     /// adds horizontal vibration.
     pub fn judge(&mut self, recording: &Recording, detection: &Detection) {
         let (sound, _) = Faults::removed(recording.samples());
         let (samples, rate) = (&sound[..], recording.rate());
-        let is_filtered = detection.filter.time_constant().is_some();
-        if is_filtered || rate < LEAST_RATE || samples.is_empty() {
+        let warning = QualityWarning::of(recording, detection);
+        if warning.is_some_and(QualityWarning::forbids) || samples.is_empty() {
             return;
         }
         let across: &[Vec<Sample>] = recording.across().map_or(&[], |both| both);
@@ -35,6 +73,9 @@ impl Track {
 /// The norm, and what is beyond it.
 #[derive(Clone, Debug, Serialize)]
 pub struct QualityReport {
+    /// What the record does not show.
+    #[serde(skip)]
+    pub warning: Option<QualityWarning>,
     /// Whose limits these are.
     pub norm: &'static str,
     /// The speed that they are for, m/s: as given, or of the fastest ride; none if no ride was judged.
@@ -65,8 +106,14 @@ pub struct Beyond {
 const FULL_RATE: f64 = 200.0;
 
 impl QualityReport {
-    /// On trips that were judged, in a record of this rate, Hz, for a rated speed, m/s, if that is given.
-    pub fn new(trips: &[Tracked], rate: f64, rated_speed: Option<f64>) -> Self {
+    /// On trips that were judged, for a rated speed, m/s, if that is given.
+    pub fn new(
+        trips: &[Tracked],
+        recording: &Recording,
+        detection: &Detection,
+        rated_speed: Option<f64>,
+    ) -> Self {
+        let rate = recording.rate();
         let judged = || {
             trips
                 .iter()
@@ -74,6 +121,7 @@ impl QualityReport {
         };
         let speed = |quality: Quality| Some(quality.figure(Measure::Speed95)?.value);
         let fastest = judged().filter_map(|(_, it)| speed(it)).reduce(f64::max);
+        let is_assumed = rated_speed.is_none() && fastest.is_some();
         let rated_speed = fastest.map(|fastest| rated_speed.unwrap_or(fastest));
         let limits = Limits::gb_t_10058(rated_speed.unwrap_or_default());
         let beyond = judged().flat_map(|(ride, quality)| {
@@ -100,13 +148,44 @@ impl QualityReport {
              against a table"
                 .to_owned(),
         ];
+        let speed_note = "the rated speed is taken to be that of the fastest ride (--rated-speed)";
+        notes.extend(is_assumed.then(|| speed_note.to_owned()));
         notes.extend((rate < FULL_RATE - 0.5).then_some(rate_note));
         Self {
+            warning: QualityWarning::of(recording, detection),
             norm: "GB/T 10058-2009, from memory",
             rated_speed,
             beyond,
             limits,
             notes,
         }
+    }
+    /// What its marks and gaps mean, and its notes, a line each.
+    pub fn remarks(&self, rides: &[Tracked]) -> Vec<String> {
+        if self.rated_speed.is_none() {
+            let none = "no ride is judged: none is in the record with a second of rest around it, and no hole";
+            let why = self.warning.filter(|it| it.forbids());
+            return vec![why.map_or(none.to_owned(), |why| why.to_string())];
+        }
+        let judged = rides.iter().filter_map(|it| it.quality);
+        let mut figures = judged.flat_map(|it| Measure::ALL.map(|measure| it.figure(measure)));
+        let noise = figures
+            .any(|it| it.is_some_and(|it| it.is_noise()))
+            .then_some("~: at most 1.5 times what the sensor shows at rest: this may be its noise");
+        let others = rides.iter().filter(|it| it.quality.is_none());
+        let others: Vec<String> = others.map(|it| it.trip.ride.to_string()).collect();
+        let others = (!others.is_empty()).then(|| {
+            format!(
+                "not judged, since it has a hole, or is not in the record with a second of rest around it: ride {}",
+                others.join(", ")
+            )
+        });
+        let notes = self.notes.iter().cloned();
+        noise
+            .map(str::to_owned)
+            .into_iter()
+            .chain(others)
+            .chain(notes)
+            .collect()
     }
 }

@@ -81,7 +81,7 @@ mod tests {
         let columns: Vec<String> = columns().collect();
         assert_eq!(
             columns.join(",").replace(PREFIX, ""),
-            "position,deviation,floor,probability,\
+            "position,deviation,from,floor,probability,\
              judgement_floor,judgement_offset,judgement_deviation,judgement_xi,judgement_fault,\
              earlier_floor,earlier_offset,earlier_deviation,earlier_xi,earlier_fault,added"
         );

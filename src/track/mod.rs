@@ -30,6 +30,7 @@
 //! [^1]: A patent on the detection of lift motion and abnormal stops by an accelerometer, in Chinese (基于加速度传感器的电梯运
 //!     动检测及异常位置停车判断), claims 1 to 3.
 
+mod alarm;
 mod climb;
 mod course;
 mod filter;
@@ -63,12 +64,13 @@ pub mod vibration;
 mod warning;
 mod watch;
 
+pub use alarm::Alarm;
 pub use climb::Climb;
 pub use course::{Course, Place};
 pub use filter::{TripFilter, Uncertain, Update};
 pub use height::{Air, Climbs};
 pub use integrals::{integrated, moments};
-pub use judged::{Beyond, QualityReport};
+pub use judged::{Beyond, QualityReport, QualityWarning};
 pub use kept::KeptError;
 pub use level::{Level, Scatter};
 pub use live::{LiveTrip, LiveTrips};
@@ -77,7 +79,7 @@ pub use phases::{Method, Phases};
 pub use record::{Track, Tracked, Unknown};
 pub use report::{Barometric, TrackReport};
 pub use settings::{TrackSettings, UniformSettings};
-pub use shaken::{Alarm, Placed, Shaken, Used, VibrationError, VibrationReport};
+pub use shaken::{Exceedance, Placed, Shaken, Used, VibrationError, VibrationReport};
 pub use steps::{Step, Steps};
 pub use travelled::Travelled;
 pub use uniform::UniformDetector;

@@ -47,13 +47,14 @@ pub struct Tracked {
 }
 
 /// Why a trip has no distance.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[allow(missing_docs, reason = "the messages say it")]
 pub enum Unknown {
-    /// Its start is not recorded.
+    #[error("the record does not hold its start")]
     Start,
-    /// A hole hides a change of its speed.
+    #[error("a hole hides a change of its speed")]
     Hole,
-    /// The sensor is behind a high-pass filter.
+    #[error("the sensor is behind a high-pass filter")]
     Filter,
 }
 

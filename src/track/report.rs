@@ -107,6 +107,13 @@ impl<'a> TrackReport<'a> {
         }
     }
 
+    /// The same with the quality of its rides.
+    pub fn with_quality(mut self, quality: Option<QualityReport>) -> Self {
+        let warning = quality.as_ref().and_then(|it| it.warning);
+        self.warnings.extend(warning.map(|it| it.to_string()));
+        Self { quality, ..self }
+    }
+
     pub fn json(&self) -> String {
         let json = serde_json::to_string_pretty(self);
         json.expect("a report is plain data") + "\n"

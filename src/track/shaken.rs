@@ -66,7 +66,7 @@ pub struct Placed {
 
 /// Windows above the guard line, one after the other.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Alarm {
+pub struct Exceedance {
     /// s.
     pub from: f64,
     /// s.
@@ -88,7 +88,7 @@ pub struct Shaken {
     /// The window with the largest.
     pub most: Placed,
     /// Where it was above the guard line.
-    pub alarms: Vec<Alarm>,
+    pub alarms: Vec<Exceedance>,
     /// All of them.
     pub windows: Vec<Placed>,
 }
@@ -124,6 +124,17 @@ pub(super) const COLUMNS: [&str; 5] = [
 ];
 
 impl VibrationReport {
+    /// What was above the guard line, in words.
+    pub fn alarms(&self) -> Vec<String> {
+        let of_ride = |ride: &Shaken| -> Vec<String> {
+            let guard = self.guard.iter();
+            let each =
+                guard.flat_map(|guard| ride.alarms.iter().map(|it| ride.words(it, guard.energy)));
+            each.collect()
+        };
+        self.rides.iter().flat_map(of_ride).collect()
+    }
+
     /// Sets the whole rides of a record beside a baseline, ride by ride. As long as it has not settled it learns them; then it
     /// draws its guard line for this rate of false alarms, a window.
     ///
@@ -236,7 +247,7 @@ impl Shaken {
     ) -> Option<Self> {
         let most = *largest(&windows)?;
         let sum: f64 = windows.iter().map(|it| it.energy).sum();
-        let alarms = guard.map(|guard| Alarm::all(&windows, guard.energy));
+        let alarms = guard.map(|guard| Exceedance::all(&windows, guard.energy));
         Some(Self {
             ride: of.trip.ride,
             used,
@@ -248,7 +259,28 @@ impl Shaken {
     }
 }
 
-impl Alarm {
+impl Shaken {
+    fn words(&self, of: &Exceedance, guard: f64) -> String {
+        let Placed {
+            energy,
+            position,
+            height,
+            ..
+        } = of.most;
+        let position = position.map(|it| format!(", {it:.2} m from the stop before"));
+        let height = height.map(|it| format!(", {it:.2} m above the lowest floor"));
+        let place = position.unwrap_or_default() + &height.unwrap_or_default();
+        format!(
+            "ride {}: alarm, {energy:.5} m²/s⁴ of horizontal vibration from {:.1} to {:.1} s, {:.1} times the guard line{place}",
+            self.ride,
+            of.from,
+            of.to,
+            energy / guard
+        )
+    }
+}
+
+impl Exceedance {
     /// What is above a guard line, joined where one window follows the other.
     pub fn all(windows: &[Placed], guard: f64) -> Vec<Self> {
         let is_above = |it: &Placed| it.energy > guard;

@@ -6,6 +6,7 @@ mod figures;
 mod gate;
 mod keys;
 mod order;
+mod page;
 mod recordings;
 mod remedies;
 mod replay;

@@ -11,7 +11,7 @@ use crate::recording::Sample;
 use crate::rng::{self, Generator, Stream};
 use crate::study::curves::Point;
 use crate::track::vibration::{Baseline, PrintedStop, Stop};
-use crate::track::{Alarm, Densities, Placed, Track, TrackSettings};
+use crate::track::{Densities, Exceedance, Placed, Track, TrackSettings};
 use libm::{fabs, sqrt};
 
 /// The ordinary trips that are tested, and those alike that show the true mean.
@@ -237,7 +237,7 @@ impl Knocked {
             _ => Vec::new(),
         };
         let time = self.place as f64 / RATE;
-        let alarms = Alarm::all(&windows, line);
+        let alarms = Exceedance::all(&windows, line);
         // What rings on after it is the same knock.
         let (here, elsewhere): (Vec<_>, Vec<_>) = alarms
             .into_iter()

@@ -108,6 +108,17 @@ impl Floors {
     /// Takes the distance of a trip, m upwards, with its variance, and judges the stop after it, and the stop
     /// before it again.
     pub fn step(&mut self, distance: f64, variance: f64) -> Stop {
+        let from = self.best().floor.filter(|_| !self.is_lost);
+        let stop = self.stop_after(distance, variance);
+        // A floor that was added below it has moved it up.
+        let moved = |of: usize| of + usize::from(stop.added.is_some_and(|at| of >= at));
+        Stop {
+            from: from.map(moved),
+            ..stop
+        }
+    }
+
+    fn stop_after(&mut self, distance: f64, variance: f64) -> Stop {
         for hypothesis in &mut self.hypotheses {
             hypothesis.go(distance, variance);
         }
@@ -321,6 +332,7 @@ impl Floors {
         Stop {
             position: car.mean,
             deviation: sqrt(car.variance * self.scale.factor()),
+            from: None,
             floor: best.floor,
             probability: 1.0 / likelihoods.sum::<f64>(),
             judgement,

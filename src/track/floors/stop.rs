@@ -10,7 +10,9 @@ pub struct Stop {
     pub position: f64,
     /// m.
     pub deviation: f64,
-    /// The floor that it stands at, from 0 up; none off every floor.
+    /// The floor that it left, from 0 up; none off every floor, or where it may be at any.
+    pub from: Option<usize>,
+    /// The floor that it stands at; none off every floor.
     pub floor: Option<usize>,
     /// The share of this course of events in the likelihood of all that are kept.
     pub probability: f64,
@@ -35,6 +37,18 @@ pub struct Judgement {
     pub xi: f64,
     /// None where ξ is at most γ_s.
     pub fault: Option<Fault>,
+}
+
+impl fmt::Display for Judgement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.fault {
+            Some(fault) => write!(f, "alarm, {fault}")?,
+            None => f.write_str("no alarm")?,
+        }
+        let side = if self.offset < 0.0 { "below" } else { "above" };
+        let (offset, deviation, floor) = (self.offset.abs(), self.deviation, self.floor);
+        write!(f, ": {offset:.3} ± {deviation:.3} m {side} floor {floor}")
+    }
 }
 
 /// What an alarm means.

@@ -76,6 +76,16 @@ impl Limits {
         let limit = self.0.iter().find(|limit| limit.measure == measure)?;
         quality.figure(measure).map(|figure| limit.verdict(&figure))
     }
+
+    /// The verdict on a ride: that of its worst figure; none if all that it has pass, and the record lacks one.
+    pub fn overall(&self, quality: &Quality) -> Option<Verdict> {
+        let verdicts = self.0.iter().map(|it| self.verdict(quality, it.measure));
+        let verdicts: Vec<Option<Verdict>> = verdicts.collect();
+        [Some(Verdict::Fail), Some(Verdict::Noise), None]
+            .into_iter()
+            .find(|worst| verdicts.contains(worst))
+            .unwrap_or(Some(Verdict::Pass))
+    }
 }
 
 impl Limit {

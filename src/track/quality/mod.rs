@@ -114,6 +114,19 @@ impl Measure {
     }
 }
 
+/// Figures that stand side by side: a name, the largest, and what 95 % do not exceed.
+pub const PAIRS: [(&str, Measure, Option<Measure>); 6] = {
+    use Measure::*;
+    [
+        ("acceleration", Acceleration, Some(Acceleration95)),
+        ("deceleration", Deceleration, Some(Deceleration95)),
+        ("speed", Speed, Some(Speed95)),
+        ("jerk", Jerk, None),
+        ("vertical", Vertical, Some(Vertical95)),
+        ("horizontal", Horizontal, Some(Horizontal95)),
+    ]
+};
+
 /// The value of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Figure {

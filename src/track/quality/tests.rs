@@ -159,6 +159,24 @@ fn verdicts() {
         Some(Verdict::Noise)
     );
     assert_eq!(judged(Measure::Jerk, 9.0, None), None);
+    let mut quality = Quality::default();
+    let mut overall = |measure, value, at_rest| {
+        quality.set(measure, Some(Figure { value, at_rest }));
+        limits.overall(&quality)
+    };
+    assert_eq!(overall(Measure::Vertical, 0.1, None), None);
+    for measure in Measure::ALL {
+        overall(measure, 0.1, None);
+    }
+    for measure in [Measure::Acceleration95, Measure::Deceleration95] {
+        overall(measure, 0.6, None);
+    }
+    assert_eq!(overall(Measure::Jerk, 9.0, None), Some(Verdict::Pass));
+    assert_eq!(
+        overall(Measure::Vertical, 0.4, Some(0.3)),
+        Some(Verdict::Noise)
+    );
+    assert_eq!(overall(Measure::Horizontal, 0.4, None), Some(Verdict::Fail));
     let has = |speed, measure| {
         Limits::gb_t_10058(speed)
             .all()

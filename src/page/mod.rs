@@ -1,0 +1,96 @@
+//! A recording as one HTML page that stands for itself: read on a screen or a phone, or printed.
+//!
+//! It is a view of a [`TrackReport`] and a picture: nothing is measured or judged here. It asks for nothing: no script, font
+//! or picture from elsewhere, and a policy that lets none in. It holds no clock, host or path, so the same recording and
+//! flags give the same bytes. Everything that comes from a file is escaped.
+
+mod alarms;
+mod made;
+mod numbers;
+mod parts;
+mod quality;
+mod rides;
+mod sensor;
+mod summary;
+mod undecided;
+
+use crate::track::TrackReport;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use parts::{section, sentence, wide};
+
+/// What is read aloud in place of the picture.
+pub const PICTURE: &str = "The record over time, and the speed and the position of the car within two standard deviations. The \
+                           tables below have the numbers.";
+
+/// Nothing but what is in the page.
+const POLICY: &str =
+    "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
+
+/// The page of a report; `picture` is an element of HTML, as [`inline`](crate::figure::inline) draws it.
+pub fn html(report: &TrackReport, picture: &str) -> String {
+    let file = &report.recording.file;
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light";
+                title { (file) " – lift recording" }
+                style { (PreEscaped(include_str!("page.css"))) }
+            }
+            body {
+                main {
+                    (summary::header(report))
+                    (warnings(report))
+                    (figure(report, picture))
+                    (rides::section(report))
+                    (alarms::section(report))
+                    (quality::section(report))
+                    (undecided::section(report))
+                    (sensor::section(report))
+                    (made::section(report))
+                }
+            }
+        }
+    };
+    page.into_string() + "\n"
+}
+
+fn warnings(report: &TrackReport) -> Markup {
+    html! {
+        @if !report.warnings.is_empty() {
+            section.warnings id="warnings" {
+                h2 { "Warnings" }
+                ul { @for warning in &report.warnings { li { (sentence(warning)) } } }
+            }
+        }
+    }
+}
+
+fn figure(report: &TrackReport, picture: &str) -> Markup {
+    let is_measured = report.rides.iter().any(|it| it.distance.is_some());
+    let record = match report.recording.high_pass {
+        None => "The acceleration along the vertical as it was recorded",
+        Some(_) => "The acceleration along the vertical, restored from what its filter left",
+    };
+    let course = if is_measured {
+        "; below, the speed and the position of the car, up positive, with a band of two standard deviations on either side. \
+         Shaded: where the car was known to stand or to move uniformly."
+    } else {
+        ". No ride is measured, so neither speed nor position is drawn."
+    };
+    let hatched = if report.undecided.is_empty() {
+        ""
+    } else {
+        " Hatched: not decided."
+    };
+    let content = html! {
+        figure {
+            (wide("The record as a picture", html! { (PreEscaped(picture)) }))
+            figcaption { (record) (course) (hatched) }
+        }
+    };
+    section("picture", "The record", content)
+}
