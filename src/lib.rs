@@ -32,7 +32,7 @@
 //! | floor | modules |
 //! |---|---|
 //! | 0 | [`rng`]: coordinates → generator · [`stats`]: exact tails, intervals, tests · [`kalman`]: a mean and its covariance · [`counts`]: sums by what they count, and of which trials · [`mod@format`], [`suggest`], [`fields`], [`files`]: text and files · [`simd`]: trials side by side |
-//! | 1, 2 | [`rule`], [`values`]: what a value must be |
+//! | 1, 2 | [`rule`], [`values`]: what a value must be · [`outbox`]: lines to a listener over a network |
 //! | 3 | [`signal`]: sensor, noise, impulses, motion · [`recording`]: what real lifts recorded · [`whiten`]: filters · [`detect`]: W, T, their laws, regions · [`config`]: what a file says, with its places · [`claim`]: verdicts · [`plot`]: what a picture says |
 //! | 4 | [`explain`]: what a record may hold |
 //! | 5 | [`lift`]: simulated rides with their truth · [`monitor`]: one lift, sample by sample · [`scenario`]: what a point simulates, every parameter · [`report`]: the report |
@@ -116,6 +116,7 @@ pub mod kalman;
 pub mod lift;
 pub mod monitor;
 pub mod page;
+pub mod outbox;
 pub mod pilot;
 pub mod plan;
 pub mod plot;

@@ -11,8 +11,8 @@ const FLOORS: &[&[&str]] = &[
         "rng", "simd", "stats", "kalman", "fields", "format", "files", "suggest", "counts",
         "vector",
     ],
-    // What a value must be.
-    &["rule"],
+    // What a value must be; lines to a listener.
+    &["rule", "outbox"],
     &["values"],
     // The world, and what config, claims and pictures say, each without the others.
     &[
