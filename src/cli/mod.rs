@@ -14,6 +14,7 @@ mod man;
 mod merge;
 mod monitor;
 mod monitor_options;
+mod network;
 mod output;
 mod plan;
 mod plot;

@@ -1,12 +1,14 @@
 //! `liftsim monitor`: watches a lift, sample by sample, from standard input.
 
 use super::monitor_options::{Beginning, MonitorArguments, Setup, check_strength};
+use super::network::NetworkArguments;
 use super::reading::ColumnArguments;
 use super::{CommandResult, Failure, print_to, warn};
 use anyhow::{Context, anyhow};
 use clap::Args;
+use liftsim::detection::MonitorOptions;
 use liftsim::monitor::{Event, Knowledge, Monitor, SET_BACK, SavedState};
-use liftsim::recording::{LineReader, LineReading, Sample};
+use liftsim::recording::{self, LineReader, LineReading, Sample};
 use std::io::{self, BufReader};
 use std::iter;
 use std::process::ExitCode;
@@ -32,7 +34,8 @@ use std::process::ExitCode;
     sensor | liftsim monitor --state lift.json --begins rest\n  \
     cut -d, -f1,4 ride.csv | liftsim monitor --state lift.json\n  \
     sensor | liftsim monitor --rate 100 --begins rest\n  \
-    paste -d, sensor.txt drum.txt | liftsim monitor --rate 100 --expected-moving")]
+    paste -d, sensor.txt drum.txt | liftsim monitor --rate 100 --expected-moving\n  \
+    sensor | liftsim monitor --rate 100 --tcp [::1]:9000 --spool lift-1.spool")]
 pub struct MonitorCommand {
     /// Samples per second; measured from the first of them where they have times.
     #[arg(long, value_name = "HZ")]
@@ -52,6 +55,8 @@ pub struct MonitorCommand {
     options: MonitorArguments,
     #[command(flatten)]
     columns: ColumnArguments,
+    #[command(flatten)]
+    network: NetworkArguments,
 }
 
 /// Readings from which a rate is measured.
@@ -68,12 +73,36 @@ impl MonitorCommand {
     pub fn run(self) -> CommandResult {
         let Setup { config, saved } = self.options.setup()?;
         let reading = self.columns.over(&config.reading)?;
+        let network = self.network.open()?;
+        let mut out = io::stdout().lock();
+        let watched = self.watch(config, saved, &reading, |event| {
+            let line = serde_json::to_string(event).expect("an event can be written") + "\n";
+            // First into the spool, so that whatever was printed is delivered too.
+            if let Some(network) = &network {
+                network.send(&line);
+            }
+            Ok(print_to(&mut out, &line)? || network.is_some())
+        });
+        if let Some(network) = network {
+            network.close();
+        }
+        watched
+    }
+
+    /// Reports every event, until there are no more samples, or nobody reads the reports.
+    fn watch(
+        &self,
+        config: MonitorOptions,
+        saved: Option<SavedState>,
+        reading: &recording::Reading,
+        mut report: impl FnMut(&Event) -> Result<bool, Failure>,
+    ) -> CommandResult {
         let input = BufReader::with_capacity(1 << 16, io::stdin().lock());
         let mut readings = Readings {
             lines: if self.expected_moving {
-                LineReader::with_drum(input, &reading)
+                LineReader::with_drum(input, reading)
             } else {
-                LineReader::new(input, &reading)
+                LineReader::new(input, reading)
             },
             rate: None,
             last: None,
@@ -107,11 +136,6 @@ impl MonitorCommand {
         if self.begins == Some(Beginning::Motion) {
             monitor.begin_in_motion();
         }
-        let mut out = io::stdout().lock();
-        let mut report = |event: &Event| {
-            let line = serde_json::to_string(event).expect("an event can be written") + "\n";
-            print_to(&mut out, &line)
-        };
         let mut is_read = report(&monitor.beginning(beginning.time))?;
         let rest = iter::from_fn(|| readings.next().transpose());
         let mut all = first.into_iter().map(Ok).chain(rest);

@@ -5,6 +5,7 @@ mod commands;
 mod figures;
 mod gate;
 mod keys;
+mod network;
 mod order;
 mod page;
 mod recordings;

@@ -60,7 +60,7 @@ fn rows(directory: &Path) -> Vec<(String, String)> {
 }
 
 /// The same as lines with cells separated by `separator`.
-fn lines(directory: &Path, separator: &str) -> String {
+pub(super) fn lines(directory: &Path, separator: &str) -> String {
     let line = |(time, acceleration)| format!("{time}{separator}{acceleration}\n");
     rows(directory).into_iter().map(line).collect()
 }
