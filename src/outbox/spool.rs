@@ -277,7 +277,8 @@ impl Spool {
         let _ = self
             .rewrite()
             .or_else(|_| self.save().news.unwrap_or(Ok(())));
-        self.lock = None;
+        // Not by closing it alone: where a child process is just being started, that has the file open too.
+        let _ = self.lock.take().map(|lock| lock.unlock());
     }
 
     #[cfg(all(test, target_os = "linux"))]

@@ -90,10 +90,15 @@ impl Shared {
         changed
     }
 
-    /// Changes the spool, and tells what came of it.
+    /// Changes the spool, and tells what came of it. Once closed it may be another program's.
     pub fn save(&self, change: impl FnOnce(&mut Spool) -> Saved) {
-        let (saved, path) =
-            self.change(|state| (change(&mut state.spool), state.spool.path().to_owned()));
+        let (saved, path) = self.change(|state| {
+            let saved = match state.phase {
+                Phase::Closed => Saved::default(),
+                _ => change(&mut state.spool),
+            };
+            (saved, state.spool.path().to_owned())
+        });
         if saved.dropped > 0 {
             (self.tell)(Notice::Full(path.clone(), saved.dropped));
         }
