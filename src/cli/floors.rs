@@ -87,6 +87,14 @@ impl FloorArguments {
 }
 
 impl Building {
+    /// Writes the map, if it is kept and there is one.
+    pub fn keep(&self) -> Result<(), Failure> {
+        if self.floors.floors().len() < 2 {
+            return Ok(());
+        }
+        self.save()
+    }
+
     /// Writes the map, if it is kept.
     pub fn save(&self) -> Result<(), Failure> {
         let Some(map) = &self.map else {

@@ -1,5 +1,6 @@
 //! `liftsim monitor`: watches a lift, sample by sample, from standard input.
 
+use super::floors::FloorArguments;
 use super::monitor_options::{Beginning, MonitorArguments, Setup, check_strength};
 use super::network::NetworkArguments;
 use super::reading::ColumnArguments;
@@ -7,8 +8,10 @@ use super::{CommandResult, Failure, print_to, warn};
 use anyhow::{Context, anyhow};
 use clap::Args;
 use liftsim::detection::MonitorOptions;
-use liftsim::monitor::{Event, Knowledge, Monitor, SET_BACK, SavedState};
+use liftsim::monitor::{Knowledge, Monitor, SET_BACK, SavedState};
 use liftsim::recording::{self, LineReader, LineReading, Sample};
+use liftsim::track::Watch;
+use serde::Serialize;
 use std::io::{self, BufReader};
 use std::iter;
 use std::process::ExitCode;
@@ -28,6 +31,10 @@ use std::process::ExitCode;
 /// `slack`, with --expected-moving, that the drum pays out rope and the cage is not known to move, with
 /// "certain":false where it is not known to stand either. `sensor` says that it is stuck, saturated, silent, noisy or
 /// moved, that its clock was set back, or that it is slow: it sends far fewer samples than before.
+///
+/// With `--trips` each trip is an event too, once the cage has stood again for some seconds: what `track` says of it. With
+/// `--floors` or `--map` it has the stop after it, and an alarm where no floor is (`mis_levelling`, `pit`, `overrun`,
+/// `between_floors`). What a stretch does not decide is the event `undecided`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     liftsim detect ride.csv --save-state lift.json\n  \
@@ -35,6 +42,7 @@ use std::process::ExitCode;
     cut -d, -f1,4 ride.csv | liftsim monitor --state lift.json\n  \
     sensor | liftsim monitor --rate 100 --begins rest\n  \
     paste -d, sensor.txt drum.txt | liftsim monitor --rate 100 --expected-moving\n  \
+    sensor | liftsim monitor --begins rest --floors 0,3.2,6.4 --at 0 --map lift.map.json\n  \
     sensor | liftsim monitor --rate 100 --tcp [::1]:9000 --spool lift-1.spool")]
 pub struct MonitorCommand {
     /// Samples per second; measured from the first of them where they have times.
@@ -55,6 +63,11 @@ pub struct MonitorCommand {
     options: MonitorArguments,
     #[command(flatten)]
     columns: ColumnArguments,
+    /// Measure each trip once the cage stands again, as `track` does; with --floors or --map also where it stands.
+    #[arg(long)]
+    trips: bool,
+    #[command(flatten)]
+    floors: FloorArguments,
     #[command(flatten)]
     network: NetworkArguments,
 }
@@ -75,8 +88,7 @@ impl MonitorCommand {
         let reading = self.columns.over(&config.reading)?;
         let network = self.network.open()?;
         let mut out = io::stdout().lock();
-        let watched = self.watch(config, saved, &reading, |event| {
-            let line = serde_json::to_string(event).expect("an event can be written") + "\n";
+        let watched = self.watch(config, saved, &reading, |line| {
             // First into the spool, so that whatever was printed is delivered too.
             if let Some(network) = &network {
                 network.send(&line);
@@ -95,7 +107,7 @@ impl MonitorCommand {
         config: MonitorOptions,
         saved: Option<SavedState>,
         reading: &recording::Reading,
-        mut report: impl FnMut(&Event) -> Result<bool, Failure>,
+        mut report: impl FnMut(String) -> Result<bool, Failure>,
     ) -> CommandResult {
         let input = BufReader::with_capacity(1 << 16, io::stdin().lock());
         let mut readings = Readings {
@@ -136,17 +148,41 @@ impl MonitorCommand {
         if self.begins == Some(Beginning::Motion) {
             monitor.begin_in_motion();
         }
-        let mut is_read = report(&monitor.beginning(beginning.time))?;
+        let mut building = self.floors.building(false)?;
+        let measures = self.trips || building.is_some();
+        let mut trips = measures.then(|| Watch::new(monitor.design().clone()));
+        let mut is_read = report(line(&monitor.beginning(beginning.time)))?;
         let rest = iter::from_fn(|| readings.next().transpose());
         let mut all = first.into_iter().map(Ok).chain(rest);
         while is_read && let Some(reading) = all.next() {
             let (sample, drum_turns) = reading?;
             for event in monitor.step(sample, drum_turns) {
-                is_read = is_read && report(event)?;
+                is_read = is_read && report(line(event))?;
+            }
+            let Some(trips) = &mut trips else {
+                continue;
+            };
+            let floors = building.as_mut().map(|it| &mut it.floors);
+            let told = trips.step(sample, monitor.state(), floors);
+            for event in &told {
+                is_read = is_read && report(line(event))?;
+            }
+            if let Some(building) = building.as_ref().filter(|_| !told.is_empty()) {
+                building.keep()?;
             }
         }
+        let floors = building.as_mut().map(|it| &mut it.floors);
+        let told = trips.map(|trips| trips.end(floors));
+        for event in told.iter().flatten() {
+            is_read = is_read && report(line(event))?;
+        }
+        building.map_or(Ok(()), |building| building.save())?;
         Ok(ExitCode::SUCCESS)
     }
+}
+
+fn line(event: &impl Serialize) -> String {
+    serde_json::to_string(event).expect("an event can be written") + "\n"
 }
 
 /// Samples from standard input.

@@ -49,8 +49,10 @@ fn found(report: &TrackReport) -> String {
 
 /// The alarms and the jams that stand; none where no alarm could be raised.
 fn alarming(report: &TrackReport) -> Option<usize> {
-    let faults = Alarm::standing(report.rides).len() + jams(report).count();
-    (judged(report) > 0 || faults > 0).then_some(faults)
+    let vibration = report.vibration.as_ref().filter(|it| it.guard.is_some());
+    let shaken = vibration.map_or(0, |it| it.alarms().len());
+    let faults = Alarm::standing(report.rides).len() + jams(report).count() + shaken;
+    (judged(report) > 0 || vibration.is_some() || faults > 0).then_some(faults)
 }
 
 /// A box: how it is coloured, and what it says.

@@ -24,12 +24,11 @@ const OVER: f64 = 0.2;
 /// Of a longer stretch without rest the beginning is forgotten, s.
 const LONGEST: f64 = 900.0;
 
-/// A lift that is watched, and the floors of its building if any are known.
+/// A lift that is watched.
 #[derive(Clone, Debug)]
 pub struct Watch {
     design: Design,
     samples: VecDeque<Sample>,
-    floors: Option<Floors>,
     /// Whether the samples begin at rest, if that is known.
     begins_at_rest: Option<bool>,
     /// Since when the cage is said to stand, s.
@@ -70,11 +69,10 @@ pub enum Found {
 
 impl Watch {
     /// Watches a cage of which a monitor of this design tells when it stands.
-    pub fn new(design: Design, floors: Option<Floors>) -> Self {
+    pub fn new(design: Design) -> Self {
         Self {
             design,
             samples: VecDeque::new(),
-            floors,
             begins_at_rest: None,
             rests: None,
             has_moved: false,
@@ -82,16 +80,25 @@ impl Watch {
         }
     }
 
-    /// The floors as they are known now.
-    pub fn floors(&self) -> Option<&Floors> {
-        self.floors.as_ref()
-    }
-
-    /// Takes a sample, and what the monitor says after it.
+    /// Takes a sample, and what the monitor says after it; the car goes among these floors, if any are known.
     #[inline]
-    pub fn step(&mut self, sample: Sample, state: State) -> Vec<Happened> {
+    pub fn step(
+        &mut self,
+        sample: Sample,
+        state: State,
+        floors: Option<&mut Floors>,
+    ) -> Vec<Happened> {
         if self.samples.back().is_some_and(|it| sample.time <= it.time) {
-            self.forget();
+            // The clock was set back: nothing is known of the time between.
+            let rides = self.rides;
+            *self = Self {
+                rides,
+                ..Self::new(self.design.clone())
+            };
+            if let Some(floors) = floors {
+                floors.lose();
+            }
+            return Vec::new();
         }
         self.samples.push_back(sample);
         if state == State::REST {
@@ -102,7 +109,7 @@ impl Watch {
         }
         let is_settled = self.rests.is_some_and(|from| sample.time - from >= SETTLED);
         if is_settled && self.has_moved {
-            return self.measure();
+            return self.measure(floors);
         }
         if is_settled {
             self.drop_before(sample.time - KEPT);
@@ -113,23 +120,11 @@ impl Watch {
     }
 
     /// The samples end: tells what is not told yet.
-    pub fn end(mut self) -> (Vec<Happened>, Option<Floors>) {
-        let told = if self.has_moved {
-            self.measure()
+    pub fn end(mut self, floors: Option<&mut Floors>) -> Vec<Happened> {
+        if self.has_moved && !self.samples.is_empty() {
+            self.measure(floors)
         } else {
             Vec::new()
-        };
-        (told, self.floors)
-    }
-
-    /// The clock was set back: nothing is known of the time between.
-    fn forget(&mut self) {
-        self.samples.clear();
-        self.begins_at_rest = None;
-        self.rests = None;
-        self.has_moved = false;
-        if let Some(floors) = &mut self.floors {
-            floors.lose();
         }
     }
 
@@ -143,14 +138,14 @@ impl Watch {
         any
     }
 
-    fn measure(&mut self) -> Vec<Happened> {
+    fn measure(&mut self, floors: Option<&mut Floors>) -> Vec<Happened> {
         let samples = &*self.samples.make_contiguous();
         let reported = samples.last().map_or(0.0, |it| it.time);
         let detection = Detection::of(&self.design, samples, None, self.begins_at_rest);
         let facts = Facts::of(samples, false, None);
         let step = facts.ok().and_then(|facts| facts.coarse_step);
         let mut track = Track::of(samples, step, &detection, TrackSettings::default());
-        if let Some(floors) = &mut self.floors {
+        if let Some(floors) = floors {
             track.land(&detection, floors);
         }
         let happened = |time: f64, what| Happened {
@@ -205,22 +200,22 @@ mod tests {
         let record = ride.simulate(&Pickup::white(0.012), 5, 0).record;
         let heights = [0.0, 4.0, 8.0, 12.0];
         let settings = floors::Settings::default();
-        let floors = Floors::given(settings, &heights, 0.01, Start::Floor(0)).unwrap();
+        let mut floors = Floors::given(settings, &heights, 0.01, Start::Floor(0)).unwrap();
         let design = Settings::default().at(RATE).unwrap();
         let knowledge = Knowledge {
             begins_at_rest: true,
             ..Knowledge::default()
         };
         let mut monitor = Monitor::new(design.clone(), knowledge);
-        let mut watch = Watch::new(design, Some(floors));
+        let mut watch = Watch::new(design);
         let mut told = Vec::new();
         for (place, acceleration) in record.into_iter().enumerate() {
             let time = place as f64 / RATE;
             let sample = Sample { time, acceleration };
             monitor.step(sample, None);
-            told.extend(watch.step(sample, monitor.state()));
+            told.extend(watch.step(sample, monitor.state(), Some(&mut floors)));
         }
-        told.extend(watch.end().0);
+        told.extend(watch.end(Some(&mut floors)));
         (told, ride)
     }
 

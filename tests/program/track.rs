@@ -826,3 +826,48 @@ fn vibration_that_is_not_in_the_record() {
         "{err}"
     );
 }
+
+/// A monitor tells each trip once, as `track` measures it, its floor, and an alarm where none is; the map is kept.
+#[test]
+fn a_monitor_tells_trips() {
+    let directory = recorded(&["--trip", "up:12", "--trip", "down:7", "--rest", "12"]);
+    let path = directory.path();
+    let text = fs::read_to_string(path.join("ride.csv")).unwrap();
+    let lines = text.lines().skip(1).map(|line| {
+        let cells: Vec<&str> = line.split(',').collect();
+        format!("{},{}\n", cells[0], cells[3])
+    });
+    let flags = [
+        "monitor", "--begins", "rest", "--floors", "0,4,12", "--at", "0",
+    ];
+    let mut command = liftsim();
+    command
+        .current_dir(path)
+        .args(flags)
+        .args(["--map", "lift.json"]);
+    let out = well(outcome(command.write_stdin(lines.collect::<String>())));
+    let events: Vec<Value> = out
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    let trips: Vec<&Value> = events.iter().filter_map(|it| it.get("trip")).collect();
+    let report = well(track(path, &["ride.csv", "--format", "json"]));
+    let measured = rides(&report);
+    assert_eq!(trips.len(), 2, "{out}");
+    for (trip, ride) in trips.iter().zip(&measured) {
+        let [told, found] = [trip, &ride].map(|it| it["distance"].as_f64().unwrap());
+        assert!((told - found).abs() < 0.02, "{trip} {ride}");
+        assert_eq!(trip["ride"], ride["ride"]);
+    }
+    assert_eq!(trips[0]["landing"]["floor"], 2);
+    let alarms: Vec<&Value> = events.iter().filter_map(|it| it.get("alarm")).collect();
+    assert_eq!(alarms, ["between_floors"], "{out}");
+    assert!(path.join("lift.json").exists());
+    // From the map alone.
+    let mut command = liftsim();
+    command
+        .current_dir(path)
+        .args(["monitor", "--rate", "100", "--map", "none/lift.json"]);
+    let refused = outcome(command.write_stdin("0.01\n"));
+    assert_eq!(refused.0, 2, "{refused:?}");
+}
