@@ -17,7 +17,7 @@ pub fn plot(rows: &[Row], seed: u64) -> Plot {
             ..Outcome::of(row, curve, row.drift)
         })
     });
-    let labels = Way::ALL.map(|it| it.name().replace('_', " "));
+    let labels = Way::ALL.map(|it| it.name().replace('_', " ").replace(" q", " Q"));
     let shown = Shown::new(
         "error",
         "mean error of the height, m",

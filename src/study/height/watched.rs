@@ -1,7 +1,7 @@
 //! A simulated lift, as its sensors record it.
 
 use crate::lift::{Ending, Ride, Trip};
-use crate::recording::Sample;
+use crate::recording::{GRAVITY, Sample};
 use crate::rng::{self, Generator, Stream};
 use crate::signal::{Law, Noise};
 use crate::study::trips::{Condition, Numbers};
@@ -101,12 +101,12 @@ fn truth(ride: &Ride) -> Vec<f64> {
 }
 
 fn samples(ride: &Ride, numbers: &Numbers, draws: &mut Generator) -> Vec<Sample> {
-    let bias = rng::unit(draws) - 0.5;
+    let level = GRAVITY + rng::unit(draws) - 0.5;
     let noise = normal(ride.samples(), draws);
     let sigma = numbers.sigma();
     let samples = ride.acceleration().into_iter().zip(noise).enumerate();
     let samples = samples.map(|(place, (acceleration, noise))| {
-        let read = acceleration + bias + sigma * noise;
+        let read = acceleration + level + sigma * noise;
         Sample {
             time: place as f64 / numbers.rate,
             acceleration: numbers.step * round(read / numbers.step),

@@ -7,6 +7,9 @@ use crate::format::thousands;
 use crate::plot::Plot;
 use crate::study::dots;
 
+/// A threshold with which less than one trip in so many is told is left out.
+const SHOWN: u64 = 10;
+
 /// The picture of a study.
 pub fn plot(rows: &[Row], table: &Table, seed: u64) -> Plot {
     let (outcome, axis) = match table.measure {
@@ -16,7 +19,7 @@ pub fn plot(rows: &[Row], table: &Table, seed: u64) -> Plot {
     let mut named = Vec::new();
     for condition in &table.condition {
         for vibration in &table.vibration {
-            for way in Way::ALL {
+            for way in [Way::Printed, Way::Track] {
                 let outcome = format!("{outcome}_{}", way.name());
                 let of = |threshold: &f64| {
                     let here = |row: &&Row| {
@@ -24,12 +27,13 @@ pub fn plot(rows: &[Row], table: &Table, seed: u64) -> Plot {
                         of == (*condition, *vibration, *threshold) && row.outcome == outcome
                     };
                     let row = rows.iter().find(here)?;
-                    (row.count > 0).then_some([row.low, row.estimate, row.high])
+                    let is_told = SHOWN * row.count >= row.trials;
+                    is_told.then_some([row.low, row.estimate, row.high])
                 };
                 // No threshold is any of `track`'s.
                 let thresholds = match way {
                     Way::Track => &table.threshold[..1],
-                    Way::Printed | Way::Mended => &table.threshold[..],
+                    _ => &table.threshold[..],
                 };
                 let shaken = match table.vibration.len() {
                     1 => String::new(),
