@@ -8,6 +8,8 @@ The protocol is described in `liftsim monitor --help`. To do something with the 
 """
 import json, os, socket, sys, threading
 
+if sys.argv[1:2] in (["-h"], ["--help"]):
+    sys.exit(__doc__)
 PORT = int(sys.argv[1]) if len(sys.argv) > 1 else 9000
 FOLDER = sys.argv[2] if len(sys.argv) > 2 else "."
 connections, locks, guard = {}, {}, threading.Lock()

@@ -32,7 +32,8 @@ use std::process::ExitCode;
 /// "certain":false where it is not known to stand either. `sensor` says that it is stuck, saturated, silent, noisy or
 /// moved, that its clock was set back, or that it is slow: it sends far fewer samples than before.
 ///
-/// With `--trips` each trip is an event too, once the cage has stood again for some seconds: what `track` says of it. With
+/// With `--trips` each trip is an event too, once the state has been rest again for some seconds: what `track` says of this
+/// stretch of the record. Where the state stays unknown it waits, at most a quarter of an hour (say --begins rest). With
 /// `--floors` or `--map` it has the stop after it, and an alarm where no floor is (`mis_levelling`, `pit`, `overrun`,
 /// `between_floors`). What a stretch does not decide is the event `undecided`.
 #[derive(Debug, Args)]
@@ -138,6 +139,10 @@ impl MonitorCommand {
         if let Some(begins) = self.begins {
             knowledge.begins_at_rest = begins == Beginning::Rest;
         }
+        let begins_at_rest = match self.begins {
+            Some(begins) => begins.is_rest(),
+            None => knowledge.begins_at_rest.then_some(true),
+        };
         let design = saved.design().map_err(anyhow::Error::from);
         let design = match self.rate.or(saved_rate) {
             Some(_) => design,
@@ -150,7 +155,7 @@ impl MonitorCommand {
         }
         let mut building = self.floors.building(false)?;
         let measures = self.trips || building.is_some();
-        let mut trips = measures.then(|| Watch::new(monitor.design().clone()));
+        let mut trips = measures.then(|| Watch::new(monitor.design().clone(), begins_at_rest));
         let mut is_read = report(line(&monitor.beginning(beginning.time)))?;
         let rest = iter::from_fn(|| readings.next().transpose());
         let mut all = first.into_iter().map(Ok).chain(rest);

@@ -125,8 +125,8 @@ impl Network {
         let kept = left.lines - left.lost;
         if kept > 0 {
             warn(format_args!(
-                "{address}: lines that are not delivered: {kept}, kept in {spool} (start a monitor with --spool \
-                 {spool} to send them, or give more --tcp-wait)"
+                "{address}: lines that are not delivered: {kept}, kept in {spool} (start a monitor with --tcp {address} \
+                 --spool {spool} to send them, or give more --tcp-wait)"
             ));
         }
         if left.lost > 0 {

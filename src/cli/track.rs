@@ -33,10 +33,9 @@ use std::process::ExitCode;
 /// With `--floors` or `--map` every stop is compared with the floors: at which the car stands, how far off, and an alarm
 /// where that is too much. The trip after it judges it again.
 ///
-/// With `--quality` each ride is judged: how hard it speeds up and brakes, and how much it shakes.
-///
 /// With `--rules` the trips by a published filter and its zero rules stand beside them, for comparison: it needs a record
 /// that begins with two seconds of rest, and is the worse of the two.
+///
 /// With `--quality` each ride is judged: how hard it speeds up and brakes, and how much it shakes. With `--baseline` its
 /// horizontal vibration is set beside what is usual in the lift, and what is beyond is located.
 #[derive(Debug, Args)]
@@ -60,7 +59,7 @@ pub struct TrackCommand {
     report: Option<PathBuf>,
     /// Find the trips by published rules too: nothing changes the speed while all readings of 0.25 s are below a
     /// threshold, m/s² [default: 5 deviations of a reading at rest].
-    #[arg(long, value_name = "THRESHOLD", num_args = 0..=1, value_parser = threshold)]
+    #[arg(long, value_name = "THRESHOLD", num_args = 0..=1, require_equals = true, value_parser = threshold)]
     rules: Option<Option<f64>>,
     /// Replace files that exist.
     #[arg(long)]
@@ -149,6 +148,15 @@ impl TrackCommand {
         };
         let mut report = report.with_quality(quality);
         report.warnings.extend(unused);
+        let first = recording.facts().start + ByRules::REST;
+        let begins = track.trips.first().map(|it| it.trip.start);
+        let is_late = begins.is_none_or(|start| start.is_some_and(|start| start >= first));
+        if report.rules.is_some() && !is_late {
+            let warning = "the published rules need two seconds of rest at the beginning, and the first ride begins sooner: do \
+                           not trust their trips";
+            warn(warning);
+            report.warnings.push(warning.to_owned());
+        }
         let plot = || self.plot(&rides, &track, floors, heights.map(|it| it.1));
         let figure = figure.map(|figure| {
             let origin = format!("recording {}", report.recording.file);
@@ -177,7 +185,8 @@ impl TrackCommand {
                  --floors and --map)"
             )));
         }
-        track.land(&rides.detection, &mut building.floors);
+        let samples = rides.recording.samples();
+        track.land(&rides.detection, samples, &mut building.floors);
         Ok(())
     }
 

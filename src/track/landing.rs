@@ -4,35 +4,45 @@ use super::floors::{Floors, Judgement, Stop};
 use super::record::{Track, Tracked};
 use crate::detection::Detection;
 use crate::fields::names;
+use crate::recording::Sample;
 use serde_json::Value;
 
 /// What the columns of a landing begin with.
 const PREFIX: &str = "landing_";
 
+/// A longer hole may hide a ride of one floor, s.
+pub(super) const HIDES: f64 = 4.0;
+
 impl Track {
-    /// Takes the car through its trips. Where one is not measured from rest to rest, or the record does not decide what
-    /// the cage did, it may be at any floor.
-    pub fn land(&mut self, detection: &Detection, floors: &mut Floors) {
-        let is_undecided = |from: f64, to: f64| {
-            let mut stretches = detection.undecided.iter();
-            stretches.any(|it| it.from < to && it.to > from)
+    /// Takes the car through the trips of these samples. Where one is not measured from rest to rest, the record does not
+    /// decide what the cage did, or a hole may hide it, the car may be at any floor.
+    pub fn land(&mut self, detection: &Detection, samples: &[Sample], floors: &mut Floors) {
+        let undecided = detection.undecided.iter().map(|it| (it.from, it.to));
+        let pairs = samples.windows(2).map(|pair| (pair[0].time, pair[1].time));
+        let holes: Vec<(f64, f64)> = pairs.filter(|(from, to)| to - from > HIDES).collect();
+        let undecided: Vec<(f64, f64)> = undecided.collect();
+        let is_in = |spans: &[(f64, f64)], from: f64, to: f64| {
+            spans.iter().any(|span| span.0 < to && span.1 > from)
         };
         let mut stood = f64::NEG_INFINITY;
         for it in &mut self.trips {
             let start = it.trip.start.unwrap_or(stood);
             let stop = it.trip.stop.unwrap_or(f64::INFINITY);
-            if is_undecided(stood, stop) {
+            if is_in(&undecided, stood, stop) || is_in(&holes, stood, start) {
                 floors.lose();
             }
             it.landing = it
                 .closed()
-                .filter(|_| !is_undecided(start, stop))
+                .filter(|_| !is_in(&undecided, start, stop))
                 .map(|(distance, deviation)| floors.step(distance, deviation * deviation));
             match it.landing {
                 Some(landing) => self.course.lay(stop, landing.position),
                 None => floors.lose(),
             }
             stood = stop;
+        }
+        if is_in(&undecided, stood, f64::INFINITY) || is_in(&holes, stood, f64::INFINITY) {
+            floors.lose();
         }
     }
 }

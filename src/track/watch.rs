@@ -4,6 +4,7 @@
 //! the stretch does not decide is told too, and the car may then be at any floor.
 
 use super::floors::{Fault, Floors, Judgement};
+use super::landing::HIDES;
 use super::record::{Track, Tracked};
 use super::settings::TrackSettings;
 use crate::detection::{Detection, Undecided};
@@ -21,7 +22,7 @@ const KEPT: f64 = 5.0;
 /// What remains of a stop is over, s.
 const OVER: f64 = 0.2;
 
-/// Of a longer stretch without rest the beginning is forgotten, s.
+/// A longer stretch without rest is measured as it is, s.
 const LONGEST: f64 = 900.0;
 
 /// A lift that is watched.
@@ -68,12 +69,12 @@ pub enum Found {
 }
 
 impl Watch {
-    /// Watches a cage of which a monitor of this design tells when it stands.
-    pub fn new(design: Design) -> Self {
+    /// Watches a cage of which a monitor of this design tells when it stands; it begins at rest or in motion, if that is known.
+    pub fn new(design: Design, begins_at_rest: Option<bool>) -> Self {
         Self {
             design,
             samples: VecDeque::new(),
-            begins_at_rest: None,
+            begins_at_rest,
             rests: None,
             has_moved: false,
             rides: 0,
@@ -86,20 +87,13 @@ impl Watch {
         &mut self,
         sample: Sample,
         state: State,
-        floors: Option<&mut Floors>,
+        mut floors: Option<&mut Floors>,
     ) -> Vec<Happened> {
-        if self.samples.back().is_some_and(|it| sample.time <= it.time) {
-            // The clock was set back: nothing is known of the time between.
-            let rides = self.rides;
-            *self = Self {
-                rides,
-                ..Self::new(self.design.clone())
-            };
-            if let Some(floors) = floors {
-                floors.lose();
-            }
-            return Vec::new();
-        }
+        let told = if self.is_cut_off(sample) {
+            self.leave(floors.as_deref_mut())
+        } else {
+            Vec::new()
+        };
         self.samples.push_back(sample);
         if state == State::REST {
             self.rests.get_or_insert(sample.time);
@@ -109,14 +103,42 @@ impl Watch {
         }
         let is_settled = self.rests.is_some_and(|from| sample.time - from >= SETTLED);
         if is_settled && self.has_moved {
-            return self.measure(floors);
+            return [told, self.measure(floors)].concat();
         }
         if is_settled {
             self.drop_before(sample.time - KEPT);
-        } else if self.drop_before(sample.time - LONGEST) {
+        } else if sample.time - self.samples[0].time > LONGEST {
+            let more = self.measure(floors);
+            // What goes on is not over.
+            self.has_moved = true;
             self.begins_at_rest = None;
+            return [told, more].concat();
         }
-        Vec::new()
+        told
+    }
+
+    /// Whether nothing says what the cage did between the last sample and this.
+    fn is_cut_off(&self, sample: Sample) -> bool {
+        let since = self.samples.back().map(|it| sample.time - it.time);
+        since.is_some_and(|it| it <= 0.0 || it > HIDES)
+    }
+
+    /// Tells what the samples so far hold, and forgets them: the car may be at any floor then.
+    fn leave(&mut self, mut floors: Option<&mut Floors>) -> Vec<Happened> {
+        let told = if self.has_moved {
+            self.measure(floors.as_deref_mut())
+        } else {
+            Vec::new()
+        };
+        if let Some(floors) = floors {
+            floors.lose();
+        }
+        let rides = self.rides;
+        *self = Self {
+            rides,
+            ..Self::new(self.design.clone(), None)
+        };
+        told
     }
 
     /// The samples end: tells what is not told yet.
@@ -128,14 +150,10 @@ impl Watch {
         }
     }
 
-    /// Whether there are any.
-    fn drop_before(&mut self, time: f64) -> bool {
-        let mut any = false;
+    fn drop_before(&mut self, time: f64) {
         while self.samples.front().is_some_and(|it| it.time < time) {
             self.samples.pop_front();
-            any = true;
         }
-        any
     }
 
     fn measure(&mut self, floors: Option<&mut Floors>) -> Vec<Happened> {
@@ -146,7 +164,7 @@ impl Watch {
         let step = facts.ok().and_then(|facts| facts.coarse_step);
         let mut track = Track::of(samples, step, &detection, TrackSettings::default());
         if let Some(floors) = floors {
-            track.land(&detection, floors);
+            track.land(&detection, samples, floors);
         }
         let happened = |time: f64, what| Happened {
             time,
@@ -166,6 +184,7 @@ impl Watch {
         }
         let undecided = detection.undecided.into_iter();
         told.extend(undecided.map(|it| happened(it.to, Found::Undecided(it))));
+        told.sort_by(|a, b| a.time.total_cmp(&b.time));
         let stop = detection.trips.last().and_then(|trip| trip.stop);
         self.drop_before(stop.map_or(reported - KEPT, |stop| stop + OVER));
         self.begins_at_rest = self.rests.map(|_| true);
@@ -185,6 +204,11 @@ mod tests {
 
     /// What is told of a lift that makes these trips, m, among floors 4 m apart.
     fn told(trips: &[f64]) -> (Vec<Happened>, Ride) {
+        told_of(trips, |time| Some(time))
+    }
+
+    /// The same where the clock tells another time, or nothing is recorded.
+    fn told_of(trips: &[f64], clock: impl Fn(f64) -> Option<f64>) -> (Vec<Happened>, Ride) {
         let drive = Drive {
             speed: 1.6,
             acceleration: 1.0,
@@ -207,10 +231,12 @@ mod tests {
             ..Knowledge::default()
         };
         let mut monitor = Monitor::new(design.clone(), knowledge);
-        let mut watch = Watch::new(design);
+        let mut watch = Watch::new(design, Some(true));
         let mut told = Vec::new();
         for (place, acceleration) in record.into_iter().enumerate() {
-            let time = place as f64 / RATE;
+            let Some(time) = clock(place as f64 / RATE) else {
+                continue;
+            };
             let sample = Sample { time, acceleration };
             monitor.step(sample, None);
             told.extend(watch.step(sample, monitor.state(), Some(&mut floors)));
@@ -253,5 +279,69 @@ mod tests {
         assert_eq!(alarms[0].0, Fault::BetweenFloors);
         let json = serde_json::to_string(&told).unwrap();
         assert!(json.contains("\"alarm\":\"between_floors\""), "{json}");
+    }
+
+    fn floors_of(told: &[Happened]) -> Vec<Option<usize>> {
+        let trips = told.iter().filter_map(|it| match &it.what {
+            Found::Trip(trip) => Some(trip.landing.and_then(|landing| landing.floor)),
+            _ => None,
+        });
+        trips.collect()
+    }
+
+    /// A hole, or a clock that is set back, just after a stop: the trip before it is told, and of the floor nothing is taken
+    /// for known: no alarm where the car went on unseen.
+    #[test]
+    fn what_is_cut_off_is_told_first() {
+        let trips = [4.0, 4.0, -8.0];
+        let (_, ride) = told(&trips);
+        let stop = ride.journeys()[0].stop;
+        let next = ride.journeys()[1].stop;
+        let hole = |time: f64| (time < stop + 1.5 || time > next + 3.0).then_some(time);
+        let (told, _) = told_of(&trips, hole);
+        assert_eq!(floors_of(&told).len(), 2, "{told:?}");
+        assert_eq!(floors_of(&told)[0], Some(1));
+        assert!(
+            !told.iter().any(|it| matches!(it.what, Found::Alarm { .. })),
+            "{told:?}"
+        );
+        let back = |time: f64| Some(if time < stop + 1.5 { time } else { time - 5.0 });
+        let (told, _) = told_of(&trips, back);
+        assert_eq!(floors_of(&told).len(), 3, "{told:?}");
+    }
+
+    /// Rests too short to be called rest: every trip is told, at the latest when the stretch is as long as may be.
+    #[test]
+    fn a_long_stretch_loses_no_trip() {
+        let drive = Drive {
+            speed: 1.6,
+            acceleration: 1.0,
+            jerk: 1.5,
+        };
+        let trip = |place: usize| Trip {
+            distance: if place % 2 == 0 { 4.0 } else { -4.0 },
+            drive,
+            ending: Ending::Commanded,
+        };
+        let mut rests = vec![2.0; 181];
+        rests[0] = 10.0;
+        let ride = Ride::new(RATE, rests, (0..180).map(trip).collect()).unwrap();
+        let record = ride.simulate(&Pickup::white(0.012), 5, 0).record;
+        let design = Settings::default().at(RATE).unwrap();
+        let mut watch = Watch::new(design, Some(true));
+        let mut told = Vec::new();
+        for (place, acceleration) in record.into_iter().enumerate() {
+            let time = place as f64 / RATE;
+            let state = if time < 9.0 {
+                State::REST
+            } else {
+                State::Unknown
+            };
+            told.extend(watch.step(Sample { time, acceleration }, state, None));
+        }
+        told.extend(watch.end(None));
+        let decided = |it: &&Happened| matches!(it.what, Found::Trip(_));
+        let (trips, others) = (told.iter().filter(decided).count(), told.len());
+        assert!(trips >= 178 && others >= 180, "{trips} {others}");
     }
 }

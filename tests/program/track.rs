@@ -658,13 +658,13 @@ fn published_rules_for_comparison() {
     );
     assert_eq!(trip["direction"], "up");
     assert!(rules["threshold"].as_f64().unwrap() > 3.0 * rules["noise"].as_f64().unwrap());
-    let table = track(path, &["ride.csv", "--rules", "0.3"]).1;
+    let table = track(path, &["ride.csv", "--rules=0.3"]).1;
     assert!(
         table.contains("by the published rules, with a threshold of 0.300 m/s²"),
         "{table}"
     );
     assert!(!track(path, &["ride.csv"]).1.contains("published"));
-    let refused = track(path, &["ride.csv", "--rules", "0"]);
+    let refused = track(path, &["ride.csv", "--rules=0"]);
     assert_eq!(refused.0, 2);
     assert!(
         refused.2.contains("above 0 and up to 5 m/s^2"),

@@ -118,7 +118,7 @@ impl Outcomes for Heights {
         row.drift.to_string().replace('.', "_")
     }
 
-    /// The drift from which on calibration helps; infinite if it never does.
+    /// The drift from which on calibration helps, between those of two points; infinite if it never does.
     fn extremes(&self, rows: &[Row]) -> Vec<Quantity> {
         let of = |way: Way| {
             let outcome = format!("error_{}", way.name());
@@ -130,15 +130,16 @@ impl Outcomes for Heights {
             .map(|((drift, alone), (_, calibrated))| (drift, alone - calibrated))
             .collect();
         let crossing = gains.windows(2).find_map(|pair| {
-            let [(from, loss), (to, gain)] = [pair[0], pair[1]];
-            (loss < 0.0 && gain >= 0.0).then(|| from + (to - from) * loss / (loss - gain))
+            let [(low, loss), (high, gain)] = [pair[0], pair[1]];
+            let value = low + (high - low) * loss / (loss - gain);
+            (loss < 0.0 && gain >= 0.0).then_some([value, low, high])
         });
-        let value = crossing.unwrap_or(f64::INFINITY);
+        let [value, low, high] = crossing.unwrap_or([f64::INFINITY; 3]);
         vec![Quantity {
             name: "break_even".to_owned(),
             value,
-            low: value,
-            high: value,
+            low,
+            high,
         }]
     }
 

@@ -43,6 +43,9 @@ const LAG: f64 = 1.0;
 const NEAR: f64 = 1.0;
 const LEVEL: f64 = 0.005;
 
+/// The variance of a distance that is not known, m².
+const UNKNOWN: f64 = 1e6;
+
 /// The sums of these points, whose lifts are the same.
 pub(super) fn run(points: &[&Point], seed: u64, trial: u64) -> Vec<Sums> {
     let watched = Watched::new(points[0].trips, seed, trial);
@@ -110,10 +113,13 @@ fn follow(
     let mut position = Position::new(fusion, floors);
     let mut reference = Reference::default();
     let (mut readings, mut last) = (barometer.iter().peekable(), 0.0);
+    let mut speed = 0.0;
     let (seconds, since) = (1.0 / watched.numbers.rate, 1.0 / super::watched::RATE);
     let height = |now: &Vertical| {
         let is_at_rest = now.motion == Motion::Rest;
-        let by = seconds * (now.speed + seconds * now.acceleration / 2.0);
+        // (18) has the speed before the step.
+        let by = seconds * (speed + seconds * now.acceleration / 2.0);
+        speed = now.speed;
         position.predict(by, seconds, is_at_rest);
         while let Some((time, altitude)) = readings.next_if(|it| it.0 <= now.time) {
             let learns = is_at_rest && (way.calibrates || reference.altitude().is_none());
@@ -175,7 +181,7 @@ fn put_right(
             Some((mut slow, before, gone)) => {
                 let trip = &track.trips[number - 1];
                 let mean = trip.distance.unwrap_or(0.0);
-                let variance = trip.deviation.map_or(f64::INFINITY, |it| it * it);
+                let variance = trip.deviation.map_or(UNKNOWN, |it| it * it);
                 slow.travel(Uncertain { mean, variance }, middle - before);
                 slow.read(read);
                 (slow, gone + mean)

@@ -97,14 +97,23 @@ impl Outcomes for Phases {
                 share(&name(outcome), Tally { hits, trials }, "trials", confidence)
             };
             let mean = |at, cases| Mean::new(sums, trial::PAIRS * place + at, cases, confidence);
-            let told = counts[0];
+            let of_told = |outcome: &str, at| match counts[0] {
+                // Of no trip nothing is known.
+                0 => Estimate {
+                    value: f64::INFINITY,
+                    low: f64::NEG_INFINITY,
+                    high: f64::INFINITY,
+                    ..mean(at, 0).named(&name(outcome), 0, "trips")
+                },
+                told => mean(at, told).named(&name(outcome), told, "trips"),
+            };
             [
                 share("told", 0),
                 share("direction", 1),
                 share("phases", 2),
                 mean(0, trials).named(&name("time_wrong"), trials, "trials"),
-                mean(1, told).named(&name("bias"), told, "trips"),
-                mean(2, told).named(&name("error"), told, "trips"),
+                of_told("bias", 1),
+                of_told("error", 2),
                 quantile(&name("error_95"), &sums.values[place], 0.95, confidence),
             ]
         });

@@ -4,6 +4,7 @@ use super::{Motion, Rules, VerticalFilter};
 use crate::monitor::Direction;
 use crate::recording::Sample;
 use crate::track::Level;
+use crate::track::steps::HOLE;
 use libm::sqrt;
 use serde::Serialize;
 
@@ -41,6 +42,9 @@ pub struct ByRules {
 }
 
 impl ByRules {
+    /// They need so much rest at the beginning, s.
+    pub const REST: f64 = LEARNT;
+
     /// Those of a record of so many samples a second whose sensor is of this level; unless a threshold is given, m/s², that
     /// which its noise at rest hardly ever exceeds.
     pub fn new(samples: &[Sample], rate: f64, level: &Level, threshold: Option<f64>) -> Self {
@@ -84,6 +88,9 @@ impl Moves {
         for sample in samples {
             let now = filter.step(*sample);
             moves.motions.push(now.motion);
+            if now.time - last > HOLE {
+                (under_way, distance) = (None, 0.0);
+            }
             distance += now.speed * (now.time - last);
             last = now.time;
             let part = (now.motion, now.time);
