@@ -204,7 +204,7 @@ mod tests {
 
     /// What is told of a lift that makes these trips, m, among floors 4 m apart.
     fn told(trips: &[f64]) -> (Vec<Happened>, Ride) {
-        told_of(trips, |time| Some(time))
+        told_of(trips, Some)
     }
 
     /// The same where the clock tells another time, or nothing is recorded.
@@ -319,7 +319,7 @@ mod tests {
             jerk: 1.5,
         };
         let trip = |place: usize| Trip {
-            distance: if place % 2 == 0 { 4.0 } else { -4.0 },
+            distance: if place.is_multiple_of(2) { 4.0 } else { -4.0 },
             drive,
             ending: Ending::Commanded,
         };
