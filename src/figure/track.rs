@@ -26,6 +26,9 @@ const MOST_READINGS: usize = 300;
 /// Deviations on either side of a position.
 const WIDE: f64 = 2.0;
 
+/// So many rides are named in the caption.
+const NAMED: usize = 12;
+
 /// The picture of a recording, whose name is `name` and whose times count from `clock_offset`, and its trips among
 /// floors at these heights, m.
 ///
@@ -72,14 +75,26 @@ pub fn plot(
     let has_readings = !readings.is_empty();
     plot.add(2, Mark::Markers(readings, READING));
     let entries = entries(!floors.is_empty(), has_readings);
-    let trips = track.trips.iter().filter_map(|it| {
+    let trips = in_words(track);
+    Ok(recorded.finish(plot, entries, (name, clock_offset), trips))
+}
+
+/// The first rides, and how many more there are: a sheet has room for so many.
+fn in_words(track: &Track) -> Vec<String> {
+    let words = track.trips.iter().filter_map(|it| {
         let (distance, deviation) = it.distance.zip(it.deviation)?;
         Some(format!(
             "ride {}: {distance:.2} ± {deviation:.2} m",
             it.trip.ride
         ))
     });
-    Ok(recorded.finish(plot, entries, (name, clock_offset), trips))
+    let mut words: Vec<String> = words.collect();
+    if words.len() > NAMED {
+        let more = words.len() - NAMED;
+        words.truncate(NAMED);
+        words.push(format!("and {more} more"));
+    }
+    words
 }
 
 /// The panels of the speed and of the position.

@@ -871,3 +871,18 @@ fn a_monitor_tells_trips() {
     let refused = outcome(command.write_stdin("0.01\n"));
     assert_eq!(refused.0, 2, "{refused:?}");
 }
+
+/// A record of many rides is drawn and put on a page too.
+#[test]
+fn a_day_of_rides_is_drawn() {
+    let trips: Vec<&str> = (0..40)
+        .flat_map(|trip| ["--trip", if trip % 2 == 0 { "up:4" } else { "down:4" }])
+        .collect();
+    let directory = recorded(&trips);
+    let flags = ["ride.csv", "--figure", "day.svg", "--report", "day.html"];
+    let said = track(directory.path(), &flags);
+    assert_eq!(said.0, 0, "{}", said.2);
+    assert!(said.1.lines().count() > 30, "{}", said.1);
+    let page = fs::read_to_string(directory.path().join("day.html")).unwrap();
+    assert!(page.contains("rides in"), "{page}");
+}
