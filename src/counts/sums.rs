@@ -48,6 +48,12 @@ impl Sums {
         }
     }
 
+    /// Notes a value of which mean and interval are asked: it and its square are a pair of lengths.
+    pub fn note(&mut self, pair: usize, value: f64) {
+        let lengths = [value, value * value].map(Fixed::new);
+        self.lengths[2 * pair..][..2].copy_from_slice(&lengths);
+    }
+
     /// Adds the sums of other trials. Sums saturate: a file may hold any number, and the largest number is
     /// refused later because no trials can give it.
     pub fn add(&mut self, more: &Self) {

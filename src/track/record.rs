@@ -14,7 +14,8 @@ use super::steps::HOLE;
 use super::travelled::Travelled;
 use crate::detection::{Detection, Trip};
 use crate::explain::Faults;
-use crate::recording::Sample;
+use crate::monitor::Design;
+use crate::recording::{Facts, Sample};
 use serde::Serialize;
 use std::ops::Range;
 
@@ -76,6 +77,19 @@ pub struct Track {
 }
 
 impl Track {
+    /// Finds the trips of a record of which nothing else is known, but perhaps how it begins, and measures them.
+    pub fn found(
+        design: &Design,
+        samples: &[Sample],
+        begins_at_rest: Option<bool>,
+    ) -> (Detection, Self) {
+        let detection = Detection::of(design, samples, None, begins_at_rest);
+        let facts = Facts::of(samples, false, None);
+        let step = facts.ok().and_then(|facts| facts.coarse_step);
+        let track = Self::of(samples, step, &detection, TrackSettings::default());
+        (detection, track)
+    }
+
     /// Measures the trips of a detection in its samples, whose steps are coarser than their noise if `step`, m/s², is
     /// given.
     pub fn of(

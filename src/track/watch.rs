@@ -6,10 +6,9 @@
 use super::floors::{Fault, Floors, Judgement};
 use super::landing::HIDES;
 use super::record::{Track, Tracked};
-use super::settings::TrackSettings;
-use crate::detection::{Detection, Undecided};
+use crate::detection::Undecided;
 use crate::monitor::{Design, State};
-use crate::recording::{Facts, Sample};
+use crate::recording::Sample;
 use serde::Serialize;
 use std::collections::VecDeque;
 
@@ -159,10 +158,7 @@ impl Watch {
     fn measure(&mut self, floors: Option<&mut Floors>) -> Vec<Happened> {
         let samples = &*self.samples.make_contiguous();
         let reported = samples.last().map_or(0.0, |it| it.time);
-        let detection = Detection::of(&self.design, samples, None, self.begins_at_rest);
-        let facts = Facts::of(samples, false, None);
-        let step = facts.ok().and_then(|facts| facts.coarse_step);
-        let mut track = Track::of(samples, step, &detection, TrackSettings::default());
+        let (detection, mut track) = Track::found(&self.design, samples, self.begins_at_rest);
         if let Some(floors) = floors {
             track.land(&detection, samples, floors);
         }

@@ -3,13 +3,11 @@
 use super::table::Point;
 use super::watched::{NOISE, Watched};
 use super::way::{Published, Way};
-use crate::counts::{Fixed, Shape, Sums, Values};
-use crate::detection::Detection;
-use crate::monitor;
+use crate::counts::{Shape, Sums, Values};
+use crate::recording::Sample;
+use crate::study::trips::tracked;
 use crate::track::fusion::{Drift, Fusion, Position, Reference, SlowHeight};
-use crate::track::{
-    Motion, Place, Rules, Track, TrackSettings, Uncertain, Vertical, VerticalFilter,
-};
+use crate::track::{Motion, Place, Rules, Track, Uncertain, Vertical, VerticalFilter};
 use libm::{fabs, round};
 
 /// The sums and the sums of squares of the mean size of the error and of its mean square.
@@ -24,9 +22,6 @@ pub(super) fn shape() -> Shape {
 
 /// The threshold of the published filter, m/s²: of those that were tried the best.
 const THRESHOLD: f64 = 0.15;
-
-/// The level of rest is learnt first from so many seconds.
-const LEARNT: f64 = 2.0;
 
 /// What a hectopascal more is in the height, m.
 const METRES: f64 = 8.32;
@@ -50,7 +45,7 @@ const UNKNOWN: f64 = 1e6;
 pub(super) fn run(points: &[&Point], seed: u64, trial: u64) -> Vec<Sums> {
     let watched = Watched::new(points[0].trips, seed, trial);
     let verticals = verticals(&watched);
-    let track = track(&watched);
+    let track = tracked(&watched.samples, watched.numbers.rate);
     let each = points.iter().map(|point| {
         let barometer = watched.barometer(METRES * point.drift / 3600.0);
         let mut sums = shape().empty().sums;
@@ -73,9 +68,8 @@ fn add(sums: &mut Sums, place: usize, heights: &[f64], watched: &Watched) {
     let number = errors.len() as f64;
     let mean = errors.iter().sum::<f64>() / number;
     let square = errors.iter().map(|it| it * it).sum::<f64>() / number;
-    let at = 4 * place;
-    let lengths = [mean, mean * mean, square, square * square].map(Fixed::new);
-    sums.lengths[at..][..4].copy_from_slice(&lengths);
+    sums.note(2 * place, mean);
+    sums.note(2 * place + 1, square);
     let mut values = Values::default();
     for count in 0..COUNTED {
         let error = errors[count * errors.len() / COUNTED];
@@ -87,10 +81,8 @@ fn add(sums: &mut Sums, place: usize, heights: &[f64], watched: &Watched) {
 /// By the published filter of speed and acceleration.
 fn verticals(watched: &Watched) -> Vec<Vertical> {
     let samples = &watched.samples;
-    let first = &samples[..samples.partition_point(|it| it.time < LEARNT)];
-    let level = first.iter().map(|it| it.acceleration).sum::<f64>() / first.len() as f64;
     let rules = Rules::printed(watched.numbers.sigma(), THRESHOLD);
-    let mut filter = VerticalFilter::new(rules, level);
+    let mut filter = VerticalFilter::learnt(rules, samples);
     samples.iter().map(|it| filter.step(*it)).collect()
 }
 
@@ -138,13 +130,6 @@ fn follow(
     verticals.iter().map(height).collect()
 }
 
-fn track(watched: &Watched) -> Track {
-    let design = monitor::Settings::default().at(watched.numbers.rate);
-    let design = design.expect("the rate fits the defaults");
-    let detection = Detection::of(&design, &watched.samples, None, None);
-    Track::of(&watched.samples, None, &detection, TrackSettings::default())
-}
-
 /// The height at each sample by the distances of trips, put right at each rest.
 fn carried(watched: &Watched, track: &Track, barometer: &[(f64, f64)], way: Way) -> Vec<f64> {
     let put_right = match way {
@@ -153,7 +138,7 @@ fn carried(watched: &Watched, track: &Track, barometer: &[(f64, f64)], way: Way)
     };
     let places: Vec<&Place> = track.course.stretches().iter().flatten().collect();
     let samples = watched.samples.iter();
-    let height = |it: &crate::recording::Sample| {
+    let height = |it: &Sample| {
         let course = between(&places, it.time, |place| (place.time, place.position.mean));
         course + between(&put_right, it.time, |knot| *knot)
     };
@@ -176,7 +161,7 @@ fn put_right(
     for (number, (from, to)) in rests.enumerate() {
         let read = read(barometer, from + LAG, to);
         let middle = f64::midpoint(from, to);
-        let (now, gone) = match slow.take() {
+        let (mut now, gone) = match slow.take() {
             None => (SlowHeight::new(Drift::default(), read), 0.0),
             Some((mut slow, before, gone)) => {
                 let trip = &track.trips[number - 1];
@@ -187,7 +172,6 @@ fn put_right(
                 (slow, gone + mean)
             }
         };
-        let mut now = now;
         let height = now.position().mean;
         let near = watched.floors.iter().copied();
         let near = near.min_by(|a, b| fabs(a - height).total_cmp(&fabs(b - height)));

@@ -1,14 +1,12 @@
 //! One trip, followed in every way.
 
 use super::table::Point;
-use crate::counts::{Fixed, Shape, Sums, Values};
-use crate::detection::Detection;
-use crate::lift::Journey;
-use crate::monitor;
+use crate::counts::{Shape, Sums, Values};
+use crate::detection;
 use crate::recording::Sample;
 use crate::rng::Stream;
-use crate::study::trips::Recorded;
-use crate::track::{Motion, Move, Moves, Rules, Track, TrackSettings};
+use crate::study::trips::{self, Recorded};
+use crate::track::{Motion, Move, Moves, Rules};
 use libm::{fabs, round};
 
 /// How the cage is followed.
@@ -92,20 +90,20 @@ fn add(sums: &mut Sums, place: usize, followed: &Followed, recorded: &Recorded) 
     let Recorded {
         samples, journey, ..
     } = recorded;
+    let begins = [
+        journey.start,
+        journey.uniform,
+        journey.braking,
+        journey.stop,
+    ];
     let motions = followed.motions.iter().zip(samples);
-    let wrong = motions.filter(|(motion, it)| **motion != truth(journey, it.time));
+    let wrong = motions.filter(|(found, it)| **found != motion(begins, it.time));
     let wrong = wrong.count() as f64 / samples.len() as f64;
     let mut lengths = [wrong, 0.0, 0.0];
     if let [trip] = &followed.trips[..] {
         let forwards = f64::from(journey.direction);
         let error = forwards * (trip.distance - journey.distance);
         lengths = [wrong, error, fabs(error)];
-        let begins = [
-            journey.start,
-            journey.uniform,
-            journey.braking,
-            journey.stop,
-        ];
         let near = |found: [f64; 4]| found.iter().zip(begins).all(|(a, b)| fabs(a - b) < NEAR);
         let is_right = [
             true,
@@ -117,22 +115,9 @@ fn add(sums: &mut Sums, place: usize, followed: &Followed, recorded: &Recorded) 
         values.push(STEP * round(fabs(error) / STEP));
         sums.values[place] = values;
     }
-    let at = 2 * PAIRS * place;
-    for (to, value) in sums.lengths[at..].chunks_exact_mut(2).zip(lengths) {
-        to.copy_from_slice(&[value, value * value].map(Fixed::new));
+    for (at, value) in lengths.into_iter().enumerate() {
+        sums.note(PAIRS * place + at, value);
     }
-}
-
-fn truth(journey: &Journey, time: f64) -> Motion {
-    motion(
-        [
-            journey.start,
-            journey.uniform,
-            journey.braking,
-            journey.stop,
-        ],
-        time,
-    )
 }
 
 /// What a cage does that starts, moves uniformly, brakes and stops at these times.
@@ -167,11 +152,8 @@ fn followed(recorded: &Recorded, rules: Rules) -> Followed {
 
 fn tracked(recorded: &Recorded) -> Followed {
     let samples = &recorded.samples;
-    let design = monitor::Settings::default().at(recorded.numbers.rate);
-    let design = design.expect("every rate here fits the defaults");
-    let detection = Detection::of(&design, samples, None, None);
-    let track = Track::of(samples, None, &detection, TrackSettings::default());
-    let phases = |trip: &crate::detection::Trip| {
+    let track = trips::tracked(samples, recorded.numbers.rate);
+    let phases = |trip: &detection::Trip| {
         let (start, stop) = trip.start.zip(trip.stop)?;
         // A trip that never moves uniformly brakes where it ends to speed up.
         let braking = trip.braking.or(trip.inertial)?;

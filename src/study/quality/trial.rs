@@ -1,7 +1,7 @@
 //! One ride, judged from its record by every sensor.
 
 use super::table::Point;
-use crate::counts::{Fixed, Shape, Sums};
+use crate::counts::{Shape, Sums};
 use crate::lift::{Journey, Ride as Trips};
 use crate::recording::Sample;
 use crate::rng::{self, Generator, Stream};
@@ -95,9 +95,8 @@ fn sums(truth: &Quality, found: &Quality) -> Sums {
         let error = found.value - truth.value;
         let square = error * error;
         sums.counts[place] = u64::from(found.is_noise());
-        let lengths = [truth.value, error, square].map(|it| [it, it * it]);
-        for (at, value) in lengths.concat().into_iter().enumerate() {
-            sums.lengths[2 * PAIRS * place + at] = Fixed::new(value);
+        for (at, value) in [truth.value, error, square].into_iter().enumerate() {
+            sums.note(PAIRS * place + at, value);
         }
     }
     sums

@@ -28,7 +28,7 @@ mod tests;
 mod trial;
 
 pub(super) use condition::{Condition, Grid, Numbers};
-pub(super) use recorded::Recorded;
+pub(super) use recorded::{Recorded, tracked};
 pub use row::Row;
 
 use crate::counts::{Shape, Sums};

@@ -2,10 +2,11 @@
 
 use super::condition::Numbers;
 use crate::lift::Journey;
+use crate::monitor;
 use crate::recording::Sample;
 use crate::rng::{self, Generator};
 use crate::signal::{Law, Noise};
-use crate::track::{Densities, Phases, Steps, Uncertain, moments};
+use crate::track::{Densities, Phases, Steps, Track, Uncertain, moments};
 use libm::{fabs, round};
 
 /// At rest before the trip and after it, s.
@@ -13,6 +14,13 @@ const RESTS: [f64; 2] = [5.0, 5.0];
 
 /// Before and after the trip the rest of those who are told when it begins, s.
 const MARGIN: f64 = 0.3;
+
+/// The trips of a record of so many samples a second, as `liftsim track` measures them.
+pub fn tracked(samples: &[Sample], rate: f64) -> Track {
+    let design = monitor::Settings::default().at(rate);
+    let design = design.expect("every rate here fits the defaults");
+    Track::found(&design, samples, None).1
+}
 
 /// A recorded trip.
 pub struct Recorded {

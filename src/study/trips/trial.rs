@@ -1,11 +1,9 @@
 //! One trip, and its distance by every method.
 
-use super::recorded::Recorded;
+use super::recorded::{Recorded, tracked};
 use super::table::Point;
 use crate::counts::{Fixed, Shape, Sums, Values};
-use crate::detection::Detection;
-use crate::monitor;
-use crate::recording::{Facts, Sample};
+use crate::recording::Sample;
 use crate::rng::Stream;
 use crate::track::{LiveTrips, Method, Track, TrackSettings, Uncertain};
 use libm::{fabs, round};
@@ -80,17 +78,11 @@ pub(super) fn run(point: &Point, seed: u64, trial: u64) -> Sums {
     let mut draws = Stream::new(seed, "trips", "").at(trial);
     let recorded = Recorded::new(point.condition.numbers(), point.distance, &mut draws);
     let settings = TrackSettings::default();
-    let design = monitor::Settings::default().at(recorded.numbers.rate);
-    let design = design.expect("every rate here fits the defaults");
     let samples = &recorded.samples;
-    let detection = Detection::of(&design, samples, None, None);
-    let facts = Facts::of(samples, false, None).expect("noise has more than one value");
-    let step = facts.coarse_step;
-    let track = Track::of(samples, step, &detection, settings);
+    let track = tracked(samples, recorded.numbers.rate);
     let bound = recorded.bound();
     let mut sums = shape().empty().sums;
-    sums.lengths[0] = Fixed::new(bound.variance);
-    sums.lengths[1] = Fixed::new(bound.variance * bound.variance);
+    sums.note(0, bound.variance);
     let bias = Uncertain {
         mean: track.level.bias,
         variance: settings.bias_error * settings.bias_error,
@@ -98,7 +90,7 @@ pub(super) fn run(point: &Point, seed: u64, trial: u64) -> Sums {
     let told = recorded.told();
     for (place, way) in Way::ALL.into_iter().enumerate() {
         let found = match way {
-            Way::Track => tracked(&track),
+            Way::Track => only(&track),
             Way::Live => live(samples, settings, bias.mean),
             Way::Words => live(samples, TrackSettings::by_the_words(), bias.mean),
             Way::DriftRemoved => {
@@ -122,13 +114,9 @@ fn add(sums: &mut Sums, place: usize, error: f64, variance: f64) {
     sums.counts[COUNTS * place] = 1;
     let square = error * error;
     sums.counts[COUNTS * place + 1] = u64::from(square <= WITHIN * WITHIN * variance);
-    let nees = square / variance;
-    let lengths = [error, square, square, square * square, nees, nees * nees];
-    for (length, value) in sums.lengths[Way::ALL[place].lengths()..]
-        .iter_mut()
-        .zip(lengths)
-    {
-        *length = Fixed::new(value);
+    let first = Way::ALL[place].lengths() / 2;
+    for (at, value) in [error, square, square / variance].into_iter().enumerate() {
+        sums.note(first + at, value);
     }
     let mut values = Values::default();
     values.push(STEP * round(fabs(error) / STEP));
@@ -136,7 +124,7 @@ fn add(sums: &mut Sums, place: usize, error: f64, variance: f64) {
 }
 
 /// The one trip that is found.
-fn tracked(track: &Track) -> Option<Uncertain> {
+fn only(track: &Track) -> Option<Uncertain> {
     let [trip] = track.trips[..] else {
         return None;
     };

@@ -4,14 +4,13 @@ use super::car::{Car, DRIVE, JOINT, RATE, Way, knock_at};
 use super::keys::{Keys, MOST_TRIPS};
 use super::measure::Measure;
 use crate::counts::{Fixed, Shape, Sums};
-use crate::detection::Detection;
 use crate::lift::{Ending, Pickup, Ride, Trip};
-use crate::monitor;
 use crate::recording::Sample;
 use crate::rng::{self, Generator, Stream};
 use crate::study::curves::Point;
+use crate::study::trips;
 use crate::track::vibration::{Baseline, PrintedStop, Stop};
-use crate::track::{Densities, Exceedance, Placed, Track, TrackSettings};
+use crate::track::{Densities, Exceedance, Placed, Track};
 use libm::{fabs, sqrt};
 
 /// The ordinary trips that are tested, and those alike that show the true mean.
@@ -262,8 +261,5 @@ fn tracked(ride: &Ride, seed: u64, trial: u64) -> Track {
         acceleration: *it,
     });
     let samples: Vec<Sample> = samples.collect();
-    let design = monitor::Settings::default().at(RATE);
-    let design = design.expect("the rate fits the defaults");
-    let detection = Detection::of(&design, &samples, None, None);
-    Track::of(&samples, None, &detection, TrackSettings::default())
+    trips::tracked(&samples, RATE)
 }

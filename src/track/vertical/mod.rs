@@ -43,6 +43,9 @@ const MEASURED: [f64; 3] = [0.0, 1.0, 0.0];
 /// What is known of the state of a cage that stands: its acceleration and jerk are of this order, m/s² and m/s³.
 const UNKNOWN: [f64; 3] = [0.0, 1.0, 1.0];
 
+/// It is learnt first from so many seconds.
+const LEARNT: f64 = 2.0;
+
 /// The windows in which the level of rest is learnt, and how often, s.
 const WINDOW: f64 = 2.0;
 const EVERY: f64 = 0.5;
@@ -148,6 +151,14 @@ impl VerticalFilter {
             uniform: None,
             highest: 0.0,
         }
+    }
+
+    /// The same, whose level is what the first seconds of a record read.
+    pub fn learnt(rules: Rules, samples: &[Sample]) -> Self {
+        let until = samples.first().map_or(0.0, |first| first.time) + LEARNT;
+        let first = &samples[..samples.partition_point(|it| it.time < until)];
+        let sum: f64 = first.iter().map(|it| it.acceleration).sum();
+        Self::new(rules, sum / first.len() as f64)
     }
 
     /// Takes a sample.

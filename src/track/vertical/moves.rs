@@ -1,15 +1,12 @@
 //! The trips of a record by the published filter.
 
-use super::{Motion, Rules, VerticalFilter};
+use super::{LEARNT, Motion, Rules, VerticalFilter};
 use crate::monitor::Direction;
 use crate::recording::Sample;
 use crate::track::Level;
 use crate::track::steps::HOLE;
 use libm::sqrt;
 use serde::Serialize;
-
-/// The level of rest is learnt first from so many seconds.
-const LEARNT: f64 = 2.0;
 
 /// A shorter motion is no trip, m.
 const LEAST: f64 = 0.5;
@@ -79,9 +76,7 @@ impl Moves {
         let Some(first) = samples.first() else {
             return Self::default();
         };
-        let learnt = samples.partition_point(|it| it.time < first.time + LEARNT);
-        let sum: f64 = samples[..learnt].iter().map(|it| it.acceleration).sum();
-        let mut filter = VerticalFilter::new(rules, sum / learnt as f64);
+        let mut filter = VerticalFilter::learnt(rules, samples);
         let mut moves = Self::default();
         let mut under_way: Option<Move> = None;
         let (mut last, mut distance) = (first.time, 0.0);
