@@ -246,7 +246,9 @@ pub(super) fn stretches(samples: &[Sample]) -> Vec<Range<f64>> {
 
 fn has_hole(samples: &[Sample], part: &Range<f64>) -> bool {
     let place = |time: f64| samples.partition_point(|sample| sample.time < time);
-    let (first, end) = (place(part.start), place(part.end));
+    let first = place(part.start);
+    // In a hole both ends may be the other way round.
+    let end = place(part.end).max(first);
     // The samples on either side too.
     let around = &samples[first.saturating_sub(1)..(end + 1).min(samples.len())];
     stretches(around).len() > 1
