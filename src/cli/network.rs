@@ -4,7 +4,7 @@ use super::{Failure, say, warn};
 use clap::Args;
 use liftsim::outbox::{Address, LARGEST, Notice, Outbox, Spool, Timing};
 use std::env;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Where events are sent, and kept until they are there.
@@ -57,6 +57,8 @@ pub struct Network {
     /// The listener, and where lines wait for it.
     address: String,
     spool: String,
+    /// How many lines of an earlier start the spool held.
+    held: u64,
     wait: Duration,
 }
 
@@ -64,6 +66,11 @@ pub struct Network {
 const RETRY_AFTER: &str = "LIFTSIM_RETRY_AFTER";
 
 impl NetworkArguments {
+    /// The file where events wait, if they are sent.
+    pub fn spool(&self) -> Option<&Path> {
+        self.tcp.is_some().then_some(&*self.spool)
+    }
+
     /// Begins to deliver, if there is somebody to deliver to.
     pub fn open(&self) -> Result<Option<Network>, Failure> {
         let Some(address) = &self.tcp else {
@@ -78,6 +85,7 @@ impl NetworkArguments {
             ));
         }
         Ok(Some(Network {
+            held: spool.waiting(),
             outbox: Outbox::start(address.clone(), spool, timing(), tell),
             address: address.to_string(),
             spool: name,
@@ -113,12 +121,13 @@ impl Network {
         self.outbox.send(line.trim_end());
     }
 
-    /// Delivers what waits, as long as that may take, and says what is left.
-    pub fn close(self) {
+    /// Delivers what waits, as long as that may take, and says what is left; how many lines of an earlier start it delivered.
+    pub fn close(self) -> u64 {
         let Self {
             outbox,
             address,
             spool,
+            held,
             wait,
         } = self;
         let left = outbox.finish(wait);
@@ -136,5 +145,6 @@ impl Network {
                 left.lost
             ));
         }
+        held.saturating_sub(left.lines)
     }
 }

@@ -118,7 +118,7 @@ impl Spool {
     }
 
     /// How many lines wait.
-    pub(super) fn waiting(&self) -> u64 {
+    pub fn waiting(&self) -> u64 {
         self.lines.len() as u64
     }
 
