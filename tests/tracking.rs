@@ -4,10 +4,10 @@
 //! `recordings.rs`. One set of defaults measures them all. Without the folder this prints that it is skipped.
 
 use liftsim::detection::Detection;
-use liftsim::monitor::Settings;
+use liftsim::monitor::{Knowledge, Monitor, Settings};
 use liftsim::recording::{Barometer, Reading, Recording};
 use liftsim::track::{
-    Climbs, Densities, LiveTrip, LiveTrips, Noise, Track, TrackSettings, Tracked,
+    Climbs, Densities, Found, LiveTrip, LiveTrips, Noise, Track, TrackSettings, Tracked, Watch,
 };
 use std::collections::BTreeMap;
 use std::env;
@@ -206,6 +206,38 @@ fn how_much_each_setting_matters_as_it_happens() {
         measured.collect()
     });
     assert!(farthest < 1.5, "{farthest} m");
+}
+
+/// A phone whose state stays unknown at every stop: each trip is told a few seconds after it, as the whole record has it.
+#[test]
+fn a_real_lift_is_told_in_time() {
+    let Some(folder) = folder() else {
+        return;
+    };
+    let recording = opened(&folder.join("phyphox_elevator/acceleration.csv"));
+    let design = Settings::default().at(recording.rate()).unwrap();
+    let mut monitor = Monitor::new(design.clone(), Knowledge::default());
+    let mut watch = Watch::new(design, None);
+    let mut told = Vec::new();
+    for sample in recording.samples() {
+        monitor.step(*sample, None);
+        let (state, quiet) = (monitor.state(), monitor.quiet());
+        told.extend(watch.step(*sample, state, quiet, None));
+    }
+    told.extend(watch.end(None));
+    let trips = tracked(&recording, TrackSettings::default()).trips;
+    assert_eq!(told.len(), trips.len(), "{told:?}");
+    for (happened, trip) in told.iter().zip(trips) {
+        let Found::Trip(it) = &happened.what else {
+            panic!("{happened:?}");
+        };
+        let delay = happened.reported - happened.time;
+        println!("told {delay:.1} s after the stop");
+        assert!(delay < 20.0, "{happened:?}");
+        assert_eq!(it.trip.ride, trip.trip.ride);
+        let error = it.distance.unwrap() - trip.distance.unwrap();
+        assert!(error.abs() < 0.01, "{it:?} {trip:?}");
+    }
 }
 
 /// A phone's barometer beside its accelerometer: at 20 °C it has the height that the accelerometer has, and with the air

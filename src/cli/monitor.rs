@@ -1,8 +1,9 @@
 //! `liftsim monitor`: watches a lift, sample by sample, from standard input.
 
-use super::floors::FloorArguments;
+use super::floors::{Building, FloorArguments};
 use super::monitor_options::{Beginning, MonitorArguments, Setup, check_strength};
-use super::network::NetworkArguments;
+use super::network::{Network, NetworkArguments};
+use super::output;
 use super::reading::ColumnArguments;
 use super::{CommandResult, Failure, print_to, warn};
 use anyhow::{Context, anyhow};
@@ -10,7 +11,7 @@ use clap::Args;
 use liftsim::detection::MonitorOptions;
 use liftsim::monitor::{Knowledge, Monitor, SET_BACK, SavedState};
 use liftsim::recording::{self, LineReader, LineReading, Sample};
-use liftsim::track::Watch;
+use liftsim::track::{Happened, Watch};
 use serde::Serialize;
 use std::io::{self, BufReader};
 use std::iter;
@@ -33,7 +34,8 @@ use std::process::ExitCode;
 /// moved, that its clock was set back, or that it is slow: it sends far fewer samples than before.
 ///
 /// With `--trips` each trip is an event too, once the state has been rest again for some seconds: what `track` says of this
-/// stretch of the record. Where the state stays unknown it waits, at most a quarter of an hour (say --begins rest). With
+/// stretch of the record. Where the state is not rest it is told once nothing has moved the sensor for 10 s and the stretch
+/// shows the stop, at most after a quarter of an hour (say --begins rest). With
 /// `--floors` or `--map` it has the stop after it, and an alarm where no floor is (`mis_levelling`, `pit`, `overrun`,
 /// `between_floors`). What a stretch does not decide is the event `undecided`.
 #[derive(Debug, Args)]
@@ -79,6 +81,8 @@ const MEASURED: usize = 100;
 /// The largest time, s: no clock is later, and doubles still resolve milliseconds.
 const LATEST: f64 = 1e12;
 
+const NO_READING: &str = "standard input: holds no reading (check that the sensor sends any)";
+
 /// A sample, and whether the drum turns.
 type Reading = (Sample, Option<bool>);
 
@@ -87,6 +91,9 @@ impl MonitorCommand {
     pub fn run(self) -> CommandResult {
         let Setup { config, saved } = self.options.setup()?;
         let reading = self.columns.over(&config.reading)?;
+        if let Some(spool) = self.network.spool() {
+            output::apart(spool, self.floors.map.iter())?;
+        }
         let network = self.network.open()?;
         let mut out = io::stdout().lock();
         let watched = self.watch(config, saved, &reading, |line| {
@@ -96,46 +103,64 @@ impl MonitorCommand {
             }
             Ok(print_to(&mut out, &line)? || network.is_some())
         });
-        if let Some(network) = network {
-            network.close();
+        let delivered = network.map_or(0, Network::close);
+        match (watched?, delivered) {
+            (true, _) => {}
+            (false, 0) => return Err(Failure::Input(anyhow!(NO_READING))),
+            (false, lines) => warn(format_args!(
+                "{NO_READING}; lines of an earlier start that are delivered now: {lines}"
+            )),
         }
-        watched
+        Ok(ExitCode::SUCCESS)
     }
 
-    /// Reports every event, until there are no more samples, or nobody reads the reports.
+    /// Reports every event, until there are no more samples, or nobody reads the reports; whether there was any sample.
     fn watch(
         &self,
         config: MonitorOptions,
         saved: Option<SavedState>,
         reading: &recording::Reading,
-        mut report: impl FnMut(String) -> Result<bool, Failure>,
-    ) -> CommandResult {
+        report: impl FnMut(String) -> Result<bool, Failure>,
+    ) -> Result<bool, Failure> {
         let input = BufReader::with_capacity(1 << 16, io::stdin().lock());
-        let mut readings = Readings {
-            lines: if self.expected_moving {
-                LineReader::with_drum(input, reading)
-            } else {
-                LineReader::new(input, reading)
-            },
-            rate: None,
-            last: None,
-            intervals: Vec::new(),
-            count: 0,
-            keeps_going: self.keep_going,
+        let lines = if self.expected_moving {
+            LineReader::with_drum(input, reading)
+        } else {
+            LineReader::new(input, reading)
         };
-        let saved_rate = saved.as_ref().map(|saved| saved.rate);
-        let (first, rate) = readings.begin(self.rate.or(saved_rate))?;
-        let beginning = first[0].0;
-        let saved = SavedState {
+        let mut readings = Readings::new(lines, self.keep_going);
+        let known = self.rate.or(saved.as_ref().map(|saved| saved.rate));
+        let Some((first, rate)) = readings.begin(known)? else {
+            return Ok(false);
+        };
+        let saved = saved.unwrap_or(SavedState {
+            settings: config.settings,
             rate,
-            ..saved.unwrap_or(SavedState {
-                settings: config.settings,
-                rate,
-                first_sample: None,
-                knowledge: Knowledge::default(),
-            })
-        };
-        let mut knowledge = saved.knowledge_of(&beginning);
+            first_sample: None,
+            knowledge: Knowledge::default(),
+        });
+        let saved = SavedState { rate, ..saved };
+        let mut lift = self.lift(&saved, known.is_none(), &first[0].0, report)?;
+        let rest = iter::from_fn(|| readings.next().transpose());
+        for reading in first.into_iter().map(Ok).chain(rest) {
+            if !lift.step(reading?)? {
+                break;
+            }
+        }
+        lift.end()?;
+        readings.say_counts();
+        Ok(true)
+    }
+
+    /// The lift, at a rate that was perhaps measured, as the samples begin.
+    fn lift<R: FnMut(String) -> Result<bool, Failure>>(
+        &self,
+        saved: &SavedState,
+        is_measured: bool,
+        beginning: &Sample,
+        report: R,
+    ) -> Result<Lift<R>, Failure> {
+        let mut knowledge = saved.knowledge_of(beginning);
         if let Some(begins) = self.begins {
             knowledge.begins_at_rest = begins == Beginning::Rest;
         }
@@ -144,45 +169,83 @@ impl MonitorCommand {
             None => knowledge.begins_at_rest.then_some(true),
         };
         let design = saved.design().map_err(anyhow::Error::from);
-        let design = match self.rate.or(saved_rate) {
-            Some(_) => design,
-            None => design.context("standard input, whose times must be in s"),
+        let design = if is_measured {
+            design.context("standard input, whose times must be in s")
+        } else {
+            design
         };
         let design = design.map_err(Failure::Input)?;
-        let mut monitor = Monitor::new(design, knowledge);
-        if self.begins == Some(Beginning::Motion) {
-            monitor.begin_in_motion();
-        }
-        let mut building = self.floors.building(false)?;
+        let building = self.floors.building(false)?;
         let measures = self.trips || building.is_some();
-        let mut trips = measures.then(|| Watch::new(monitor.design().clone(), begins_at_rest));
-        let mut is_read = report(line(&monitor.beginning(beginning.time)))?;
-        let rest = iter::from_fn(|| readings.next().transpose());
-        let mut all = first.into_iter().map(Ok).chain(rest);
-        while is_read && let Some(reading) = all.next() {
-            let (sample, drum_turns) = reading?;
-            for event in monitor.step(sample, drum_turns) {
-                is_read = is_read && report(line(event))?;
-            }
-            let Some(trips) = &mut trips else {
-                continue;
-            };
-            let floors = building.as_mut().map(|it| &mut it.floors);
-            let told = trips.step(sample, monitor.state(), floors);
-            for event in &told {
-                is_read = is_read && report(line(event))?;
-            }
-            if let Some(building) = building.as_ref().filter(|_| !told.is_empty()) {
-                building.keep()?;
-            }
+        let mut lift = Lift {
+            trips: measures.then(|| Watch::new(design.clone(), begins_at_rest)),
+            monitor: Monitor::new(design, knowledge),
+            building,
+            report,
+            is_warned: false,
+            is_read: true,
+        };
+        if self.begins == Some(Beginning::Motion) {
+            lift.monitor.begin_in_motion();
         }
-        let floors = building.as_mut().map(|it| &mut it.floors);
-        let told = trips.map(|trips| trips.end(floors));
-        for event in told.iter().flatten() {
-            is_read = is_read && report(line(event))?;
+        let event = lift.monitor.beginning(beginning.time);
+        lift.say(&event)?;
+        Ok(lift)
+    }
+}
+
+/// A lift, and where its events are reported.
+struct Lift<R> {
+    monitor: Monitor,
+    trips: Option<Watch>,
+    building: Option<Building>,
+    report: R,
+    /// Whether the warning of [`Watch::warning`] was given.
+    is_warned: bool,
+    /// Whether anybody reads what is reported.
+    is_read: bool,
+}
+
+impl<R: FnMut(String) -> Result<bool, Failure>> Lift<R> {
+    /// Takes a reading, and reports what it shows; whether anybody reads that.
+    fn step(&mut self, (sample, drum_turns): Reading) -> Result<bool, Failure> {
+        for event in self.monitor.step(sample, drum_turns) {
+            self.is_read = self.is_read && (self.report)(line(event))?;
         }
-        building.map_or(Ok(()), |building| building.save())?;
-        Ok(ExitCode::SUCCESS)
+        let Some(trips) = &mut self.trips else {
+            return Ok(self.is_read);
+        };
+        let floors = self.building.as_mut().map(|it| &mut it.floors);
+        let (state, quiet) = (self.monitor.state(), self.monitor.quiet());
+        let told = trips.step(sample, state, quiet, floors);
+        if !told.is_empty() {
+            self.tell(&told)?;
+            self.building.as_ref().map_or(Ok(()), Building::keep)?;
+        }
+        Ok(self.is_read)
+    }
+
+    /// Reports what is left, and writes the map.
+    fn end(mut self) -> Result<(), Failure> {
+        if let Some(trips) = &mut self.trips {
+            let told = trips.end(self.building.as_mut().map(|it| &mut it.floors));
+            self.tell(&told)?;
+        }
+        self.building.map_or(Ok(()), |building| building.save())
+    }
+
+    fn tell(&mut self, told: &[Happened]) -> Result<(), Failure> {
+        let warning = self.trips.as_ref().and_then(Watch::warning);
+        if let Some(warning) = warning.filter(|_| !self.is_warned) {
+            warn(warning);
+            self.is_warned = true;
+        }
+        told.iter().try_for_each(|event| self.say(event))
+    }
+
+    fn say(&mut self, event: &impl Serialize) -> Result<(), Failure> {
+        self.is_read = self.is_read && (self.report)(line(event))?;
+        Ok(())
     }
 }
 
@@ -201,11 +264,27 @@ struct Readings<R> {
     intervals: Vec<f64>,
     count: u64,
     keeps_going: bool,
+    /// How many lines were passed over since they came late, and how often the clock was set back.
+    late: u64,
+    set_back: u64,
 }
 
 impl<R: io::BufRead> Readings<R> {
-    /// The first readings, at least one, and the rate: as known, or measured from as many as that takes.
-    fn begin(&mut self, known: Option<f64>) -> Result<(Vec<Reading>, f64), Failure> {
+    fn new(lines: LineReader<R>, keeps_going: bool) -> Self {
+        Self {
+            lines,
+            rate: None,
+            last: None,
+            intervals: Vec::new(),
+            count: 0,
+            keeps_going,
+            late: 0,
+            set_back: 0,
+        }
+    }
+
+    /// The first readings, if there is any, and the rate: as known, or measured from as many as that takes.
+    fn begin(&mut self, known: Option<f64>) -> Result<Option<(Vec<Reading>, f64)>, Failure> {
         self.rate = known;
         let wanted = if known.is_some() { 1 } else { MEASURED + 1 };
         let mut first: Vec<Reading> = Vec::new();
@@ -216,13 +295,11 @@ impl<R: io::BufRead> Readings<R> {
             }
         }
         match (known.or(self.measured()), first.len()) {
-            (_, 0) => Err(Failure::Input(anyhow!(
-                "standard input: holds no reading (check that the sensor sends any)"
-            ))),
+            (_, 0) => Ok(None),
             (None, readings) => Err(Failure::Input(anyhow!(
                 "standard input: {readings} reading, and the rate is measured from two or more (give --rate)"
             ))),
-            (Some(rate), _) => Ok((first, rate)),
+            (Some(rate), _) => Ok(Some((first, rate))),
         }
     }
 
@@ -255,8 +332,21 @@ impl<R: io::BufRead> Readings<R> {
         Ok(())
     }
 
+    /// Says how often it happened what was warned of only once.
+    fn say_counts(&self) {
+        for (count, what) in [
+            (self.late, "lines whose time does not increase, passed over"),
+            (self.set_back, "times that the clock was set back"),
+        ] {
+            if count > 1 {
+                warn(format_args!("standard input: {what}: {count}"));
+            }
+        }
+    }
+
     fn next(&mut self) -> Result<Option<Reading>, Failure> {
         loop {
+            let late = self.late;
             let refusal = match self.lines.next() {
                 Ok(None) => return Ok(None),
                 Ok(Some(reading)) => match self.timed(&reading)? {
@@ -271,7 +361,9 @@ impl<R: io::BufRead> Readings<R> {
                     .context("standard input")
                     .map_err(Failure::Input);
             }
-            warn(format_args!("{refusal:#} (passed over)"));
+            if late == 0 || self.late == late {
+                warn(format_args!("{refusal:#} (passed over)"));
+            }
         }
     }
 
@@ -298,16 +390,22 @@ impl<R: io::BufRead> Readings<R> {
                 "line {line}: times must lie within {LATEST:e} s, got {time:e} (give them in s)"
             ))),
             Some(last) if self.keeps_going && time < last - SET_BACK => {
-                warn(format_args!(
-                    "standard input: line {line}: the clock was set back from {last} s to {time} s"
-                ));
+                self.set_back += 1;
+                if self.set_back == 1 {
+                    warn(format_args!(
+                        "standard input: line {line}: the clock was set back from {last} s to {time} s"
+                    ));
+                }
                 self.take_time(time)?;
                 Ok(Ok(Sample { time, acceleration }))
             }
-            Some(last) if time <= last => Ok(Err(anyhow!(
-                "line {line}: time must increase, got {time} s after {last} s (put lines in order, drop repeated \
-                 ones, and write decimals with a point)"
-            ))),
+            Some(last) if time <= last => {
+                self.late += 1;
+                Ok(Err(anyhow!(
+                    "line {line}: time must increase, got {time} s after {last} s (put lines in order, drop repeated \
+                     ones, and write decimals with a point)"
+                )))
+            }
             _ => {
                 self.take_time(time)?;
                 Ok(Ok(Sample { time, acceleration }))

@@ -240,6 +240,11 @@ impl Live {
         self.recent.clear();
     }
 
+    /// For how long nothing has left the likeliest level, s.
+    pub fn quiet(&self) -> f64 {
+        self.tracks.first().map_or(0.0, Track::quiet)
+    }
+
     pub fn is_in_hand(&self) -> bool {
         self.hand.is_some()
     }

@@ -196,6 +196,12 @@ impl Monitor {
         self.said.state
     }
 
+    /// For how long nothing has left the sensor's level, s: the cage stands or moves uniformly.
+    #[inline]
+    pub fn quiet(&self) -> f64 {
+        self.live.quiet()
+    }
+
     /// The block that the last sample completed, if any.
     pub fn newest(&self) -> Option<&Observation> {
         self.newest.as_ref()

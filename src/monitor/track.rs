@@ -59,8 +59,8 @@ pub(super) struct Track {
     turns: VecDeque<Turn>,
     /// Where the latest pulse ended at once, since when it was all a knock, s.
     knocked: Option<f64>,
-    /// For how long there has been no pulse, s.
-    pub quiet: f64,
+    /// For how long there has been no pulse, s, but for one that goes on.
+    quiet: f64,
 }
 
 impl Track {
@@ -192,9 +192,18 @@ impl Track {
         turned.collect()
     }
 
+    /// For how long there has been no pulse, s.
+    pub fn quiet(&self) -> f64 {
+        if self.excursion.is_pulse {
+            0.0
+        } else {
+            self.quiet
+        }
+    }
+
     /// Whether no pulse is going on, nor was lately.
     pub fn is_settled(&self) -> bool {
-        !self.excursion.is_pulse && self.quiet > 1.0
+        self.quiet() > 1.0
     }
 
     /// Whether a pulse has been going on since a time.

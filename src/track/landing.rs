@@ -11,15 +11,24 @@ use serde_json::Value;
 const PREFIX: &str = "landing_";
 
 /// A longer hole may hide a ride of one floor, s.
-pub(super) const HIDES: f64 = 4.0;
+const HIDES: f64 = 4.0;
+
+/// Whether nothing says what the cage did between two samples that follow each other.
+pub(super) fn hides(one: Sample, next: Sample) -> bool {
+    let since = next.time - one.time;
+    since <= 0.0 || since > HIDES
+}
 
 impl Track {
     /// Takes the car through the trips of these samples. Where one is not measured from rest to rest, the record does not
-    /// decide what the cage did, or a hole may hide it, the car may be at any floor.
+    /// decide what the cage did, or a hole may hide it, the car may be at any floor. A hole may be before the last sample.
     pub fn land(&mut self, detection: &Detection, samples: &[Sample], floors: &mut Floors) {
         let undecided = detection.undecided.iter().map(|it| (it.from, it.to));
-        let pairs = samples.windows(2).map(|pair| (pair[0].time, pair[1].time));
-        let holes: Vec<(f64, f64)> = pairs.filter(|(from, to)| to - from > HIDES).collect();
+        let pairs = samples.windows(2).map(|pair| (pair[0], pair[1]));
+        let holes = pairs.filter(|(one, next)| hides(*one, *next));
+        // A clock that was set back hides what comes after.
+        let holes = holes.map(|(one, next)| (one.time, next.time.max(one.time)));
+        let holes: Vec<(f64, f64)> = holes.collect();
         let undecided: Vec<(f64, f64)> = undecided.collect();
         let is_in = |spans: &[(f64, f64)], from: f64, to: f64| {
             spans.iter().any(|span| span.0 < to && span.1 > from)

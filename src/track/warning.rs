@@ -39,7 +39,15 @@ pub enum Warning {
          floor of the lift)"
     )]
     Noisy(f64),
+    #[error(
+        "at rest the sensor reads {0:.2} m/s^2, neither 0 nor 9.8: it is tilted, every distance is wrong by as much, and the \
+         deviations do not hold it (lay it flat and read its vertical axis, or record all three axes for `liftsim track`)"
+    )]
+    Tilted(f64),
 }
+
+/// Between them, m/s², a sensor at rest reads gravity along an axis that is not vertical: by 14 degrees or more.
+const TILTED: (f64, f64) = (0.5, 9.5);
 
 /// A reason to distrust heights.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -108,6 +116,14 @@ impl Track {
         let filter = is_filtered.then_some(Warning::Filter).into_iter();
         let of_trips = self.trips.iter().flat_map(Tracked::warnings);
         filter.chain(of_record).chain(of_trips).collect()
+    }
+}
+
+impl Warning {
+    /// That about the axis of a sensor with this bias, m/s², if there is one.
+    pub(super) fn of_bias(bias: f64) -> Option<Self> {
+        let is_tilted = (TILTED.0..TILTED.1).contains(&bias.abs());
+        is_tilted.then_some(Self::Tilted(bias))
     }
 }
 

@@ -1,40 +1,78 @@
-//! Trips as they happen, each measured as [`Track`] measures a record: once a monitor says that the cage stands again.
+//! Trips as they happen, each measured as [`Track`] measures a record.
 //!
-//! The samples since the last rest are kept, so that a trip is seen whole and from both sides, as in a recording. What
-//! the stretch does not decide is told too, and the car may then be at any floor.
+//! The samples that are not told yet are kept, so that a trip is seen whole and from both sides, as in a recording. They are
+//! measured once the monitor says that the cage stands. Where it does not say so they are looked at when nothing has happened
+//! for some time: the cage stands or moves uniformly, and the stretch as a whole shows which. Of it what is before the last stop
+//! is told, if nothing after that is undecided. What is cut off, or too long, is told as it is.
 
 use super::floors::{Fault, Floors, Judgement};
-use super::landing::HIDES;
+use super::landing::hides;
 use super::record::{Track, Tracked};
-use crate::detection::Undecided;
+use super::warning::Warning;
+use crate::detection::{Detection, Undecided};
 use crate::monitor::{Design, State};
 use crate::recording::Sample;
 use serde::Serialize;
 use std::collections::VecDeque;
+use std::ops::Range;
 
-/// A stretch is measured after so much rest, s.
+/// A stretch is measured once nothing has happened for so long, s, if the monitor says that the cage stands;
 const SETTLED: f64 = 2.5;
 
+/// if not, for so long: no cage creeps to its floor for longer than 8 s, see
+/// [`UniformSettings::patience`](super::UniformSettings).
+const QUIET: f64 = 10.0;
+
+/// And it is not looked at for so long after the cage has stood, s: till then it mostly is on its way.
+const ON_ITS_WAY: f64 = 20.0;
+
+/// What was not decided is looked at again when it is longer by this share, so that all that is measured is at most five times
+/// the record.
+const GROWS: f64 = 0.25;
+
 /// The rest that is kept before the next trip, s.
-const KEPT: f64 = 5.0;
+const KEPT: f64 = 10.0;
 
 /// What remains of a stop is over, s.
 const OVER: f64 = 0.2;
 
-/// A longer stretch without rest is measured as it is, s.
+/// A longer stretch is measured as it is, s.
 const LONGEST: f64 = 900.0;
 
 /// A lift that is watched.
 #[derive(Clone, Debug)]
 pub struct Watch {
     design: Design,
+    /// What is not told yet.
     samples: VecDeque<Sample>,
-    /// Whether the samples begin at rest, if that is known.
+    /// Whether it begins at rest, if that is known.
     begins_at_rest: Option<bool>,
-    /// Since when the cage is said to stand, s.
-    rests: Option<f64>,
-    has_moved: bool,
+    cage: Cage,
     rides: usize,
+    /// The bias of the sensor, m/s², where trips were measured.
+    bias: Option<f64>,
+}
+
+/// What the cage has done in a stretch that is not told yet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Cage {
+    /// It stands.
+    Stands,
+    /// It may have moved. Where the monitor does not say that it stands, that is not looked at before this time, s.
+    MayMove { look: f64 },
+}
+
+/// Why a stretch is measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Due {
+    /// It is over: the cage stands, or there are no more samples.
+    Over,
+    /// It is over, and nothing says what the cage did between the last sample but one and the last.
+    CutOff,
+    /// It may be decided.
+    Look,
+    /// It is too long.
+    Long,
 }
 
 /// Something that is told of a trip.
@@ -68,124 +106,188 @@ pub enum Found {
 }
 
 impl Watch {
-    /// Watches a cage of which a monitor of this design tells when it stands; it begins at rest or in motion, if that is known.
+    /// Watches a cage with a monitor of this design; it begins at rest or in motion, if that is known.
     pub fn new(design: Design, begins_at_rest: Option<bool>) -> Self {
         Self {
             design,
             samples: VecDeque::new(),
             begins_at_rest,
-            rests: None,
-            has_moved: false,
+            cage: Cage::MayMove {
+                look: f64::NEG_INFINITY,
+            },
             rides: 0,
+            bias: None,
         }
     }
 
-    /// Takes a sample, and what the monitor says after it; the car goes among these floors, if any are known.
+    /// A reason to distrust every distance so far.
+    pub fn warning(&self) -> Option<Warning> {
+        self.bias.and_then(Warning::of_bias)
+    }
+
+    /// Takes a sample, the monitor's state after it, and for how long it has been [quiet](crate::monitor::Monitor::quiet), s;
+    /// the car goes among these floors, if any are known.
     #[inline]
     pub fn step(
         &mut self,
         sample: Sample,
         state: State,
-        mut floors: Option<&mut Floors>,
+        quiet: f64,
+        floors: Option<&mut Floors>,
     ) -> Vec<Happened> {
-        let told = if self.is_cut_off(sample) {
-            self.leave(floors.as_deref_mut())
-        } else {
-            Vec::new()
-        };
+        let last = self.samples.back().copied();
         self.samples.push_back(sample);
-        if state == State::REST {
-            self.rests.get_or_insert(sample.time);
-        } else {
-            self.rests = None;
-            self.has_moved = true;
+        if last.is_some_and(|last| hides(last, sample)) {
+            return self.begin_anew(sample, floors);
         }
-        let is_settled = self.rests.is_some_and(|from| sample.time - from >= SETTLED);
-        if is_settled && self.has_moved {
-            return [told, self.measure(floors)].concat();
+        match self.due(sample.time, state, quiet) {
+            Some(due) => self.measure(due, floors),
+            None => Vec::new(),
         }
-        if is_settled {
-            self.drop_before(sample.time - KEPT);
-        } else if sample.time - self.samples[0].time > LONGEST {
-            let more = self.measure(floors);
-            // What goes on is not over.
-            self.has_moved = true;
-            self.begins_at_rest = None;
-            return [told, more].concat();
-        }
-        told
     }
 
-    /// Whether nothing says what the cage did between the last sample and this.
-    fn is_cut_off(&self, sample: Sample) -> bool {
-        let since = self.samples.back().map(|it| sample.time - it.time);
-        since.is_some_and(|it| it <= 0.0 || it > HIDES)
-    }
-
-    /// Tells what the samples so far hold, and forgets them: the car may be at any floor then.
-    fn leave(&mut self, mut floors: Option<&mut Floors>) -> Vec<Happened> {
-        let told = if self.has_moved {
-            self.measure(floors.as_deref_mut())
-        } else {
+    /// The samples end: tells what is not told yet.
+    pub fn end(&mut self, floors: Option<&mut Floors>) -> Vec<Happened> {
+        if self.samples.is_empty() || self.cage == Cage::Stands {
             Vec::new()
-        };
-        if let Some(floors) = floors {
-            floors.lose();
+        } else {
+            self.measure(Due::Over, floors)
         }
-        let rides = self.rides;
+    }
+
+    /// Tells what is not told yet, since nothing says what the cage did before this sample.
+    fn begin_anew(&mut self, sample: Sample, floors: Option<&mut Floors>) -> Vec<Happened> {
+        let told = self.measure(Due::CutOff, floors);
         *self = Self {
-            rides,
+            samples: VecDeque::from([sample]),
+            rides: self.rides,
+            bias: self.bias,
             ..Self::new(self.design.clone(), None)
         };
         told
     }
 
-    /// The samples end: tells what is not told yet.
-    pub fn end(mut self, floors: Option<&mut Floors>) -> Vec<Happened> {
-        if self.has_moved && !self.samples.is_empty() {
-            self.measure(floors)
-        } else {
-            Vec::new()
+    /// Why to measure the stretch now, if so.
+    fn due(&mut self, now: f64, state: State, quiet: f64) -> Option<Due> {
+        let stands = state == State::REST;
+        match self.cage {
+            Cage::Stands if stands => self.forget_before(now - KEPT),
+            Cage::Stands => {
+                self.cage = Cage::MayMove {
+                    look: now + ON_ITS_WAY,
+                };
+            }
+            Cage::MayMove { .. } if stands && quiet >= SETTLED => return Some(Due::Over),
+            Cage::MayMove { .. } if now - self.samples[0].time > LONGEST => return Some(Due::Long),
+            Cage::MayMove { look } => {
+                return (now >= look && quiet >= QUIET).then_some(Due::Look);
+            }
         }
+        None
     }
 
-    fn drop_before(&mut self, time: f64) {
-        while self.samples.front().is_some_and(|it| it.time < time) {
-            self.samples.pop_front();
-        }
+    fn forget_before(&mut self, time: f64) {
+        let old = self.samples.iter().take_while(|it| it.time < time).count();
+        self.samples.drain(..old);
     }
 
-    fn measure(&mut self, floors: Option<&mut Floors>) -> Vec<Happened> {
+    /// Tells what is decided of the stretch, and forgets it.
+    fn measure(&mut self, due: Due, mut floors: Option<&mut Floors>) -> Vec<Happened> {
         let samples = &*self.samples.make_contiguous();
-        let reported = samples.last().map_or(0.0, |it| it.time);
-        let (detection, mut track) = Track::found(&self.design, samples, self.begins_at_rest);
-        if let Some(floors) = floors {
+        let known = &samples[..samples.len() - usize::from(due == Due::CutOff)];
+        let (first, now) = (known[0].time, known[known.len() - 1].time);
+        let (mut detection, mut track) = Track::found(&self.design, known, self.begins_at_rest);
+        let stood = self.begins_at_rest == Some(true);
+        let Some(until) = due.until(&detection, &track, stood, first..now) else {
+            let wait = QUIET.max(GROWS * (now - first));
+            self.cage = Cage::MayMove { look: now + wait };
+            return Vec::new();
+        };
+        let mut trips = detection.trips.iter();
+        let later = trips.position(|it| it.stop.unwrap_or(now) > until);
+        if let Some(later) = later {
+            detection.trips.truncate(later);
+            track.trips.truncate(later);
+        }
+        detection.undecided.retain(|it| it.to <= until);
+        if let Some(floors) = &mut floors {
             track.land(&detection, samples, floors);
         }
+        if !track.trips.is_empty() {
+            self.bias = Some(track.level.bias);
+        }
+        // Of what is told nothing may be left, or it is told again.
+        let told = self.told(track.trips, detection.undecided, now);
+        let last = told.last().map_or(f64::NEG_INFINITY, |it| it.time);
+        self.forget_before(last.max(until.min(now - KEPT)) + OVER);
+        self.begins_at_rest = (due == Due::Over || until.is_finite()).then_some(true);
+        self.cage = match due {
+            Due::Over => Cage::Stands,
+            _ => Cage::MayMove { look: now + QUIET },
+        };
+        told
+    }
+
+    /// What is told of these, in order of time.
+    fn told(&mut self, trips: Vec<Tracked>, undecided: Vec<Undecided>, now: f64) -> Vec<Happened> {
         let happened = |time: f64, what| Happened {
             time,
-            reported,
+            reported: now,
             what,
         };
         let mut told = Vec::new();
-        for mut trip in track.trips {
+        for mut trip in trips {
             self.rides += 1;
             trip.trip.ride = self.rides;
-            let time = trip.trip.stop.unwrap_or(reported);
+            let time = trip.trip.stop.unwrap_or(now);
             told.push(happened(time, Found::Trip(Box::new(trip))));
-            let judgement = trip.landing.and_then(|it| it.judgement);
-            if let Some((alarm, judgement)) = judgement.and_then(|it| Some((it.fault?, it))) {
+            if let Some(judgement) = trip.landing.and_then(|it| it.judgement)
+                && let Some(alarm) = judgement.fault
+            {
                 told.push(happened(time, Found::Alarm { alarm, judgement }));
             }
         }
-        let undecided = detection.undecided.into_iter();
+        let undecided = undecided.into_iter();
         told.extend(undecided.map(|it| happened(it.to, Found::Undecided(it))));
         told.sort_by(|a, b| a.time.total_cmp(&b.time));
-        let stop = detection.trips.last().and_then(|trip| trip.stop);
-        self.drop_before(stop.map_or(reported - KEPT, |stop| stop + OVER));
-        self.begins_at_rest = self.rests.map(|_| true);
-        self.has_moved = false;
         told
+    }
+}
+
+impl Due {
+    /// Up to when a stretch, s, is told, if it is: what comes later is left to the next. `stood`: as it began.
+    fn until(
+        self,
+        detection: &Detection,
+        track: &Track,
+        stood: bool,
+        stretch: Range<f64>,
+    ) -> Option<f64> {
+        let undecided = &detection.undecided;
+        let mut stops = detection.trips.iter().rev().filter_map(|it| it.stop);
+        match self {
+            Self::Over | Self::CutOff => Some(f64::INFINITY),
+            Self::Long => {
+                // At least half of it, so that it comes to an end.
+                let half = stretch.start.midpoint(stretch.end);
+                let is_outside = |stop: f64| move |it: &Undecided| it.to <= stop || it.from >= stop;
+                let stop =
+                    stops.find(|stop| *stop > half && undecided.iter().all(is_outside(*stop)));
+                Some(stop.unwrap_or(f64::INFINITY))
+            }
+            Self::Look => {
+                let past = stretch.end - 0.5 * QUIET;
+                // A cage that stood, and made no trip, stands.
+                let has_stood = stood && detection.trips.is_empty() && undecided.is_empty();
+                let stands = has_stood.then_some(past);
+                let stop = stops.find(|stop| *stop <= past).or(stands)?;
+                // Behind a high-pass filter a start looks like a hop, until more is seen.
+                let least = track.settings.least_distance;
+                let is_hop = |it: &Tracked| it.distance.is_some_and(|it| it.abs() < least);
+                let is_decided = undecided.iter().all(|it| it.to <= stop);
+                (is_decided && !track.trips.iter().any(is_hop)).then_some(stop)
+            }
+        }
     }
 }
 
@@ -200,11 +302,15 @@ mod tests {
 
     /// What is told of a lift that makes these trips, m, among floors 4 m apart.
     fn told(trips: &[f64]) -> (Vec<Happened>, Ride) {
-        told_of(trips, Some)
+        told_of(trips, |state| state, Some)
     }
 
-    /// The same where the clock tells another time, or nothing is recorded.
-    fn told_of(trips: &[f64], clock: impl Fn(f64) -> Option<f64>) -> (Vec<Happened>, Ride) {
+    /// The same where the monitor says something else, and the clock tells another time, or nothing is recorded.
+    fn told_of(
+        trips: &[f64],
+        says: impl Fn(State) -> State,
+        clock: impl Fn(f64) -> Option<f64>,
+    ) -> (Vec<Happened>, Ride) {
         let drive = Drive {
             speed: 1.6,
             acceleration: 1.0,
@@ -235,29 +341,44 @@ mod tests {
             };
             let sample = Sample { time, acceleration };
             monitor.step(sample, None);
-            told.extend(watch.step(sample, monitor.state(), Some(&mut floors)));
+            let state = says(monitor.state());
+            told.extend(watch.step(sample, state, monitor.quiet(), Some(&mut floors)));
         }
         told.extend(watch.end(Some(&mut floors)));
         (told, ride)
     }
 
-    /// Every trip once, with its distance, its floor and its time, a few seconds after the stop.
+    /// Every trip once, with its distance, its floor and its time, a few seconds after the stop; also where the monitor never
+    /// knows what the cage does.
     #[test]
     fn trips_are_told_as_they_happen() {
-        let (told, ride) = told(&[4.0, 8.0, -12.0, 4.0]);
-        let trips: Vec<&Happened> = told.iter().collect();
-        assert_eq!(trips.len(), 4, "{told:?}");
-        for ((happened, journey), floor) in trips.iter().zip(ride.journeys()).zip([1, 3, 0, 1]) {
-            let Found::Trip(trip) = &happened.what else {
-                panic!("{happened:?}");
-            };
-            assert!(
-                (trip.distance.unwrap() - journey.distance).abs() < 0.1,
-                "{trip:?}"
-            );
-            assert_eq!(trip.landing.unwrap().floor, Some(floor));
-            assert!((happened.time - journey.stop).abs() < 0.5, "{happened:?}");
-            assert!(happened.reported - journey.stop < 8.0, "{happened:?}");
+        let knows: fn(State) -> State = |state| state;
+        for (says, most) in [(knows, 8.0), (|_| State::Unknown, 15.0)] {
+            let (told, ride) = told_of(&[4.0, 8.0, -12.0, 4.0], says, Some);
+            assert_eq!(floors_of(&told), [1, 3, 0, 1].map(Some), "{told:?}");
+            assert_eq!(told.len(), 4, "{told:?}");
+            for ((happened, journey), number) in told.iter().zip(ride.journeys()).zip(1..) {
+                let Found::Trip(trip) = &happened.what else {
+                    panic!("{happened:?}");
+                };
+                let error = trip.distance.unwrap() - journey.distance;
+                assert!(error.abs() < 0.1, "{trip:?}");
+                assert_eq!(trip.trip.ride, number);
+                assert!((happened.time - journey.stop).abs() < 0.5, "{happened:?}");
+                assert!(happened.reported - journey.stop < most, "{happened:?}");
+            }
+        }
+    }
+
+    /// A minute of uniform motion is as quiet as rest: nothing is told before the stop, whatever the monitor knows.
+    #[test]
+    fn uniform_motion_is_not_over() {
+        let (told, ride) = told_of(&[100.0, 4.0], |_| State::Unknown, Some);
+        assert_eq!(floors_of(&told).len(), 2, "{told:?}");
+        let is_trip = |it: &&Happened| matches!(it.what, Found::Trip(_));
+        for (happened, journey) in told.iter().filter(is_trip).zip(ride.journeys()) {
+            assert!(happened.reported > journey.stop, "{happened:?}");
+            assert!(happened.reported - journey.stop < 20.0, "{happened:?}");
         }
     }
 
@@ -294,7 +415,7 @@ mod tests {
         let stop = ride.journeys()[0].stop;
         let next = ride.journeys()[1].stop;
         let hole = |time: f64| (time < stop + 1.5 || time > next + 3.0).then_some(time);
-        let (told, _) = told_of(&trips, hole);
+        let (told, _) = told_of(&trips, |state| state, hole);
         assert_eq!(floors_of(&told).len(), 2, "{told:?}");
         assert_eq!(floors_of(&told)[0], Some(1));
         assert!(
@@ -302,7 +423,7 @@ mod tests {
             "{told:?}"
         );
         let back = |time: f64| Some(if time < stop + 1.5 { time } else { time - 5.0 });
-        let (told, _) = told_of(&trips, back);
+        let (told, _) = told_of(&trips, |state| state, back);
         assert_eq!(floors_of(&told).len(), 3, "{told:?}");
     }
 
@@ -333,7 +454,7 @@ mod tests {
             } else {
                 State::Unknown
             };
-            told.extend(watch.step(Sample { time, acceleration }, state, None));
+            told.extend(watch.step(Sample { time, acceleration }, state, 0.0, None));
         }
         told.extend(watch.end(None));
         let decided = |it: &&Happened| matches!(it.what, Found::Trip(_));

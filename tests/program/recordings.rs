@@ -673,6 +673,13 @@ fn keeps_going() {
     assert_eq!(code, 0, "{err}");
     assert_eq!(out, expected);
     insta::assert_snapshot!("passed_over", err);
+    // What a clock that is often set back does is said once, and counted.
+    let late = "0.0,9.8\n".repeat(5);
+    let (code, _, err) = monitor(path, &going, lines(path, ",") + &late);
+    assert_eq!(code, 0, "{err}");
+    assert_eq!(err.matches("the clock was set back").count(), 1, "{err}");
+    assert_eq!(err.matches("time must increase").count(), 1, "{err}");
+    assert!(err.contains("does not increase, passed over: 4"), "{err}");
 }
 
 /// Warnings are best effort: if standard error is closed, the work continues.

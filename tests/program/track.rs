@@ -837,6 +837,7 @@ fn a_monitor_tells_trips() {
         let cells: Vec<&str> = line.split(',').collect();
         format!("{},{}\n", cells[0], cells[3])
     });
+    let lines: String = lines.collect();
     let flags = [
         "monitor", "--begins", "rest", "--floors", "0,4,12", "--at", "0",
     ];
@@ -845,7 +846,8 @@ fn a_monitor_tells_trips() {
         .current_dir(path)
         .args(flags)
         .args(["--map", "lift.json"]);
-    let out = well(outcome(command.write_stdin(lines.collect::<String>())));
+    let (code, out, said) = outcome(command.write_stdin(lines.clone()));
+    assert_eq!(code, 0, "{said}");
     let events: Vec<Value> = out
         .lines()
         .map(|line| serde_json::from_str(line).unwrap())
@@ -863,6 +865,18 @@ fn a_monitor_tells_trips() {
     let alarms: Vec<&Value> = events.iter().filter_map(|it| it.get("alarm")).collect();
     assert_eq!(alarms, ["between_floors"], "{out}");
     assert!(path.join("lift.json").exists());
+    assert!(!said.contains("tilted"), "{said}");
+    // Read by an axis that is not vertical.
+    let first: f64 = lines.split([',', '\n']).nth(1).unwrap().parse().unwrap();
+    let tilted = lines.lines().map(|line| {
+        let (time, reading) = line.split_once(',').unwrap();
+        let reading: f64 = reading.parse().unwrap();
+        format!("{time},{}\n", reading - first + 7.0)
+    });
+    let mut command = liftsim();
+    command.args(["monitor", "--begins", "rest", "--trips"]);
+    let (_, _, said) = outcome(command.write_stdin(tilted.collect::<String>()));
+    assert_eq!(said.matches("it is tilted").count(), 1, "{said}");
     // From the map alone.
     let mut command = liftsim();
     command

@@ -121,6 +121,17 @@ fn what_is_left_waits_for_the_next_start() {
     );
     assert!(said.contains(&left), "{said}");
     store.serve(address);
+    // Even one that is given no sample.
+    let (code, _, said) = bench.start(address).end();
+    let delivered = format!("delivered now: {}", expected.len());
+    assert!(
+        said.contains("holds no reading") && said.contains(&delivered),
+        "{said}"
+    );
+    assert_eq!(code, Some(0));
+    let (code, _, said) = bench.start(address).end();
+    assert!(said.contains("holds no reading"), "{said}");
+    assert_eq!(code, Some(2));
     let mut monitor = bench.start(address);
     monitor.feed("9.8\n");
     let (code, printed, said) = monitor.end();
@@ -257,6 +268,10 @@ fn what_cannot_be_used_is_refused() {
         (
             &["--tcp", "[::1]:9", "--spool", "ride.csv"],
             "ride.csv: is no spool of liftsim (move it away",
+        ),
+        (
+            &["--tcp", "[::1]:9", "--spool", "y", "--map", "./y"],
+            "y: is written to and used for something else too (give another name)",
         ),
         (
             &["--tcp", "[::1]:9", "--spool", "no/x"],
