@@ -9,7 +9,7 @@
 //! The standard deviation of σx is gσ with g² = Σ h_k², the energy of the sensor's impulse response; g = 1 for
 //! white noise. In uniform motion at the drive's full speed it is √(g² + v²) σ.
 
-use crate::signal::{Digitiser, Disturbance, Impulses, Law, Noise, Sensor};
+use crate::signal::{Digitiser, Disturbance, Impulses, Noise, Sensor};
 
 /// A sensor in the cage.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,7 +62,7 @@ impl Pickup {
         Self {
             sigma,
             sensor: Sensor::from_ar(Vec::new()).expect("white noise is stable"),
-            noise: Noise::new(Law::Normal).expect("the normal law has no parameter"),
+            noise: Noise::default(),
             digitiser: Digitiser::default(),
             bias: 0.0,
             cosine: 1.0,

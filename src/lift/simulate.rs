@@ -6,7 +6,7 @@
 use super::pulse::add_speed;
 use super::{Course, Journey, Pickup, Ride, Stretch};
 use crate::rng::{Generator, Stream};
-use crate::signal::{During, ImpulseMemory, Law, Noise, Phase};
+use crate::signal::{During, ImpulseMemory, Phase, white_noise};
 use libm::sqrt;
 use rand::Rng;
 use std::ops::Range;
@@ -52,10 +52,12 @@ impl Ride {
     /// The times of the samples on the record's clock, s: they vary with a deviation of `jitter`, cut off so that they
     /// increase. A record says when its samples were stored, not when they were taken.
     pub fn clock(&self, jitter: f64, seed: u64) -> Vec<f64> {
-        let mut late = vec![0.0; self.samples()];
-        if jitter > 0.0 {
-            normal().fill(&mut Stream::new(seed, "ride clock", "").at(0), &mut late);
-        }
+        let mut generator = Stream::new(seed, "ride clock", "").at(0);
+        let late = if jitter > 0.0 {
+            white_noise(self.samples(), &mut generator)
+        } else {
+            vec![0.0; self.samples()]
+        };
         let most = 0.4 / self.rate;
         let times = late.iter().enumerate();
         times
@@ -69,8 +71,7 @@ impl Ride {
         }
         for ((start, course), trip) in self.started().zip(&self.trips) {
             let range = self.in_motion(start, course, record.len());
-            let mut draws = vec![0.0; range.len()];
-            normal().fill(generator, &mut draws);
+            let draws = white_noise(range.len(), generator);
             let strength = pickup.vibration / trip.drive.speed;
             for (i, draw) in range.zip(draws) {
                 let speed = course.speed_at(i as f64 / self.rate - start).abs();
@@ -135,18 +136,13 @@ fn wander(pickup: &Pickup, rate: f64, generator: &mut Generator, record: &mut [f
     if pickup.walk == 0.0 {
         return;
     }
-    let mut steps = vec![0.0; record.len()];
-    normal().fill(generator, &mut steps);
+    let steps = white_noise(record.len(), generator);
     let scale = pickup.walk / sqrt(rate) / pickup.sigma;
     let mut bias = 0.0;
     for (r, step) in record.iter_mut().zip(steps) {
         bias += scale * step;
         *r += bias;
     }
-}
-
-fn normal() -> Noise {
-    Noise::new(Law::Normal).expect("the normal law has no parameter")
 }
 
 /// x, stationary from the first sample.

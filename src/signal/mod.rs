@@ -20,6 +20,6 @@ pub use digitiser::{Digitiser, Quantum};
 pub use disturbance::{Disturbance, Jolt};
 pub use impulses::{During, ImpulseMemory, Impulses};
 pub use motion::{DeltaAt, Motion, MotionError, Profile};
-pub use noise::{Law, LawError, Noise};
+pub use noise::{Law, LawError, Noise, white_noise};
 pub use phase::Phase;
 pub use sensor::{Choice as SensorChoice, Sensor, SensorError, Transfer};

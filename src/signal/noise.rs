@@ -85,6 +85,13 @@ impl Default for Noise {
     }
 }
 
+/// So many independent draws of the normal law.
+pub fn white_noise(count: usize, generator: &mut Generator) -> Vec<f64> {
+    let mut noise = vec![0.0; count];
+    Noise::default().fill(generator, &mut noise);
+    noise
+}
+
 impl Noise {
     /// Configures the sampler.
     ///

@@ -5,6 +5,7 @@
 //! numbers (`quantities.csv`). Counts of trials go through [`run`](crate::run). Everything else that it
 //! computes is a function of the config alone.
 
+pub mod air;
 mod along;
 mod any;
 pub(crate) mod autocorrelation;
@@ -57,12 +58,13 @@ pub const STUDIES: &[Entry] = &[
     Entry::of::<outcomes::Of<ride::Table>>(),
     Entry::of::<outcomes::Of<records::Table>>(),
     Entry::of::<outcomes::Of<floors::Table>>(),
-    Entry::of::<outcomes::Of<trips::Trips>>(),
+    Entry::of::<outcomes::Of<trips::Table>>(),
     Entry::of::<outcomes::Of<gravity::Windows>>(),
-    Entry::of::<outcomes::Of<quality::Rides>>(),
-    Entry::of::<outcomes::Of<phases::Phases>>(),
-    Entry::of::<outcomes::Of<height::Heights>>(),
+    Entry::of::<outcomes::Of<quality::Table>>(),
+    Entry::of::<outcomes::Of<phases::Table>>(),
+    Entry::of::<outcomes::Of<height::Table>>(),
     Entry::of::<outcomes::Of<vibration::Table>>(),
+    Entry::of::<outcomes::Of<air::Table>>(),
 ];
 
 /// An entry of the list of studies.

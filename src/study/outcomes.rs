@@ -8,10 +8,11 @@ use super::kind::{Context, Counters, Study, counted};
 use crate::counts::{Counts, Shape, Sums};
 use crate::experiment::Experiment;
 use crate::figure::FigureError;
+use crate::format::thousands;
 use crate::gate::Scenario;
 use crate::plot::Plot;
 use crate::results::Quantity;
-use crate::rule::OutOfRange;
+use crate::rule::{OutOfRange, Rule};
 use crate::run::{Group, Identity, StudyError, Target, Trials};
 use schemars::SchemaGenerator;
 use serde::Serialize;
@@ -38,7 +39,7 @@ pub trait Outcomes: Send + Sync + Sized + 'static {
     fn schema(generator: &mut SchemaGenerator) -> Value;
 
     /// In the order of the rows.
-    fn points(&self) -> &[Self::Point];
+    fn points(&self) -> Vec<Self::Point>;
 
     /// Every parameter of a point.
     fn identity(&self, point: &Self::Point) -> Identity;
@@ -58,7 +59,9 @@ pub trait Outcomes: Send + Sync + Sized + 'static {
     ///
     /// # Errors
     /// If they cannot.
-    fn check(&self, point: &Self::Point, sums: &Sums, trials: u64) -> Result<(), OutOfRange>;
+    fn check(&self, _: &Self::Point, _: &Sums, _trials: u64) -> Result<(), OutOfRange> {
+        Ok(())
+    }
 
     /// The outcomes of so many trials of a point.
     fn estimates(
@@ -86,10 +89,41 @@ pub trait Outcomes: Send + Sync + Sized + 'static {
     }
 
     /// Draws the rows.
-    ///
-    /// # Errors
-    /// If drawing fails.
-    fn plot(&self, rows: &[Self::Row], seed: u64) -> Result<Plot, FigureError>;
+    fn plot(&self, rows: &[Self::Row], seed: u64) -> Plot;
+}
+
+/// Reads a table and checks it.
+///
+/// # Errors
+/// If it is invalid.
+pub fn checked<T: DeserializeOwned>(
+    experiment: &Experiment,
+    check: impl Fn(&T) -> Result<(), OutOfRange>,
+) -> Result<T, StudyError> {
+    let table = experiment.read()?;
+    check(&table).map_err(|error| experiment.refuse(error))?;
+    Ok(table)
+}
+
+/// Checks the values of a key: that there are some, within this rule, each larger than that before it.
+///
+/// # Errors
+/// If they are not.
+pub fn ascending(key: &str, values: &str, rule: Rule, of: &[f64]) -> Result<(), OutOfRange> {
+    let refuse = |got: String| {
+        let rule = format!("name {values} in ascending order");
+        Err(OutOfRange::new(key, rule, got))
+    };
+    if of.is_empty() {
+        return refuse("none".to_owned());
+    }
+    for value in of {
+        rule.check(key, value)?;
+    }
+    match of.windows(2).find(|pair| pair[0] >= pair[1]) {
+        Some(pair) => refuse(format!("{} before {}", pair[0], pair[1])),
+        None => Ok(()),
+    }
 }
 
 /// A row of such a study.
@@ -98,11 +132,24 @@ pub trait OutcomeRow: Serialize + DeserializeOwned {
     fn outcome(&self) -> &str;
     /// The estimate, and the ends of its interval.
     fn value(&self) -> [f64; 3];
+    /// The number of trials, and the confidence of the interval.
+    fn counted(&self) -> (u64, f64);
+}
+
+/// The end of a caption: how many trials of this kind there are to a point, the seed, and what shows the intervals.
+pub fn facts(rows: &[impl OutcomeRow], trials: &str, seed: u64, shown: &str) -> [String; 3] {
+    let (count, confidence) = rows[0].counted();
+    [
+        format!("{} {trials} a point", thousands(count)),
+        format!("seed {seed}"),
+        format!("{shown}: {} % intervals", 100.0 * confidence),
+    ]
 }
 
 /// Such a study, with its counters.
-pub struct Of<T> {
+pub struct Of<T: Outcomes> {
     study: T,
+    points: Vec<T::Point>,
     context: Context,
     counters: Counters,
 }
@@ -117,6 +164,7 @@ impl<T: Outcomes> Study for Of<T> {
         let study = T::read(experiment)?;
         let shape = study.shape();
         let mut of = Self {
+            points: study.points(),
             study,
             context,
             counters: Counters::default(),
@@ -130,7 +178,7 @@ impl<T: Outcomes> Study for Of<T> {
     }
 
     fn identities(&self) -> Vec<Identity> {
-        let points = self.study.points().iter();
+        let points = self.points.iter();
         points.map(|point| self.study.identity(point)).collect()
     }
 
@@ -142,7 +190,7 @@ impl<T: Outcomes> Study for Of<T> {
     fn rows(&self, counts: &Counts) -> Vec<T::Row> {
         let Self { study, context, .. } = self;
         let shape = study.shape();
-        let points = study.points().iter().zip(&self.counters.keys);
+        let points = self.points.iter().zip(&self.counters.keys);
         let rows = points.flat_map(|(point, key)| {
             let (trials, sums) = counted(counts, key, &shape);
             let estimates = study.estimates(point, &sums, trials, context.confidence);
@@ -172,7 +220,7 @@ impl<T: Outcomes> Study for Of<T> {
     }
 
     fn plot(&self, rows: &[T::Row], seed: u64) -> Result<Plot, FigureError> {
-        self.study.plot(rows, seed)
+        Ok(self.study.plot(rows, seed))
     }
 }
 
@@ -186,7 +234,7 @@ impl<T: Outcomes> Trials for &Of<T> {
     }
 
     fn check(&self, counts: &Counts) -> Result<(), StudyError> {
-        for (point, key) in self.study.points().iter().zip(&self.counters.keys) {
+        for (point, key) in self.points.iter().zip(&self.counters.keys) {
             if let Some(counter) = counts.get(key) {
                 let checked = self.study.check(point, &counter.sums, counter.trials.len());
                 checked.map_err(|error| format!("counter {key}: {error}"))?;
@@ -198,7 +246,7 @@ impl<T: Outcomes> Trials for &Of<T> {
     /// Points of one family form a group.
     fn groups(&self, targets: &[usize]) -> Vec<Group<'_>> {
         let (study, seed) = (&self.study, self.context.seed);
-        let point = |target: usize| &study.points()[self.counters.points[target]];
+        let point = |target: usize| &self.points[self.counters.points[target]];
         let mut families: BTreeMap<Identity, Vec<usize>> = BTreeMap::new();
         for target in targets {
             let family = families.entry(study.family(point(*target)));
@@ -280,6 +328,10 @@ macro_rules! outcome_row {
 
             fn value(&self) -> [f64; 3] {
                 [self.estimate, self.low, self.high]
+            }
+
+            fn counted(&self) -> (u64, f64) {
+                (self.trials, self.confidence)
             }
         }
     };

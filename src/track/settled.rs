@@ -67,17 +67,14 @@ fn means(samples: &[Sample], uniform: &Range<f64>) -> Option<Vec<f64>> {
 mod tests {
     use super::*;
     use crate::rng::Stream;
-    use crate::signal::{Law, Noise};
+    use crate::signal::white_noise;
 
     const RATE: f64 = 50.0;
 
     /// 20 s of noise about a level, with so much more in its first second, and as much less in its last.
     fn motion(seed: u64, off: f64) -> Vec<Sample> {
-        let mut noise = vec![0.0; 1000];
         let mut draws = Stream::new(seed, "settled", "").at(0);
-        Noise::new(Law::Normal)
-            .unwrap()
-            .fill(&mut draws, &mut noise);
+        let noise = white_noise(1000, &mut draws);
         let samples = noise.iter().enumerate().map(|(place, noise)| {
             let time = place as f64 / RATE;
             let end = f64::from(time < 1.0) - f64::from(time >= 19.0);

@@ -5,7 +5,7 @@ use super::class::{Class, Ranges};
 use crate::lift::draws::Draws;
 use crate::recording::GRAVITY;
 use crate::rng::Generator;
-use crate::signal::{Law, Noise, Sensor};
+use crate::signal::{Noise, Sensor, white_noise};
 use libm::{exp, sqrt};
 
 /// A sensor in a cage, and what is wrong with it.
@@ -113,7 +113,7 @@ impl Mounted {
     }
 
     fn add_noise(&self, record: &mut [f64], generator: &mut Generator) {
-        normal().fill(generator, record);
+        Noise::default().fill(generator, record);
         Sensor::from_ar(vec![self.phi])
             .expect("φ lies within the unit circle")
             .colour_stationary(record);
@@ -123,8 +123,7 @@ impl Mounted {
 
     /// White noise, in motion in proportion to the speed, at rest that of people.
     fn add_vibration(&self, cage: &Cage, record: &mut [f64], generator: &mut Generator) {
-        let mut draws = vec![0.0; record.len()];
-        normal().fill(generator, &mut draws);
+        let draws = white_noise(record.len(), generator);
         let full = cage.lift.drive.speed;
         for (i, (a, draw)) in record.iter_mut().zip(draws).enumerate() {
             let speed = cage.speed_at(i as f64 / self.rate).abs();
@@ -147,10 +146,6 @@ impl Mounted {
             *a += level + settles * exp(-time / tau);
         }
     }
-}
-
-fn normal() -> Noise {
-    Noise::new(Law::Normal).expect("the normal law has no parameter")
 }
 
 /// y = a − l, where l follows a by a first-order low pass whose time constant is `tau` samples, exactly for a

@@ -75,7 +75,7 @@ fn a_decision_at_rest_has_its_exact_size() {
     let design = settings.at(20.0).unwrap();
     let trials = 40_000;
     let mut alarms = 0;
-    let normal = Noise::new(Law::Normal).unwrap();
+    let normal = crate::signal::Noise::default();
     let stream = Stream::new(2014, "monitor size", "");
     let mut blocks = vec![0.0; 24 + 24 + 24];
     for trial in 0..trials {

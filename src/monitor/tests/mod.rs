@@ -3,7 +3,7 @@
 use super::*;
 use crate::detect::Statistics;
 use crate::rng::Stream;
-use crate::signal::{Law, Noise, Phase};
+use crate::signal::{Phase, white_noise};
 use crate::stats::binomial;
 use crate::whiten::Order;
 
@@ -27,11 +27,8 @@ struct Record {
 impl Record {
     /// An empty record whose noise at rest has this standard deviation, m/s².
     fn new(sigma: f64, index: u64) -> Self {
-        let mut noise = vec![0.0; 400_000];
         let mut generator = Stream::new(2014, "monitor tests", "").at(index);
-        Noise::new(Law::Normal)
-            .unwrap()
-            .fill(&mut generator, &mut noise);
+        let noise = white_noise(400_000, &mut generator);
         Self {
             samples: Vec::new(),
             acceleration: 0.0,

@@ -2,7 +2,7 @@
 
 use crate::recording::GRAVITY;
 use crate::rng::{self, Generator, Stream};
-use crate::signal::{Law, Noise};
+use crate::signal::white_noise;
 use crate::track::Densities;
 use crate::vector::{Vector, mix, unit};
 use libm::{exp, round, sin, sqrt};
@@ -111,9 +111,7 @@ impl Window {
         let mut draws = Stream::new(seed, "gravity", "").at(trial);
         let up = direction(&mut draws);
         let sigma = sqrt(Densities::of_sheet(400e-6) * RATE);
-        let mut noise = vec![0.0; 3 * SAMPLES];
-        let normal = Noise::new(Law::Normal).expect("the normal law has no parameter");
-        normal.fill(&mut draws, &mut noise);
+        let noise = white_noise(3 * SAMPLES, &mut draws);
         let step = condition.step();
         let added = condition.added(up, &mut draws);
         let readings = added.iter().zip(noise.chunks(3)).map(|(added, noise)| {

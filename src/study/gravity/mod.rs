@@ -21,7 +21,6 @@ pub use row::Row;
 
 use crate::counts::{Fixed, Shape, Sums};
 use crate::experiment::Experiment;
-use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::rule::OutOfRange;
 use crate::run::{Identity, StudyError};
@@ -71,8 +70,8 @@ impl Outcomes for Windows {
         Self::json_schema(generator).to_value()
     }
 
-    fn points(&self) -> &[Condition] {
-        &self.condition
+    fn points(&self) -> Vec<Condition> {
+        self.condition.clone()
     }
 
     fn identity(&self, condition: &Condition) -> Identity {
@@ -136,7 +135,7 @@ impl Outcomes for Windows {
         row.condition.to_string()
     }
 
-    fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        Ok(picture::plot(rows, &self.condition, seed))
+    fn plot(&self, rows: &[Row], seed: u64) -> Plot {
+        picture::plot(rows, &self.condition, seed)
     }
 }

@@ -2,9 +2,9 @@
 
 use super::condition::Condition;
 use super::row::Row;
-use crate::format::thousands;
 use crate::plot::Plot;
 use crate::study::dots;
+use crate::study::outcomes::facts;
 use crate::track::gravity::Estimator;
 
 /// The picture of a study.
@@ -18,12 +18,12 @@ pub fn plot(rows: &[Row], conditions: &[Condition], seed: u64) -> Plot {
         });
         (condition.to_string().replace('_', " "), estimates.to_vec())
     });
+    let facts = facts(rows, "windows", seed, "bars");
     let caption = [
-        "gravity from 2 s of an MPU-6050 at rest".to_owned(),
-        format!("{} windows a point", thousands(rows[0].trials)),
-        format!("seed {seed}"),
-        format!("bars: {} % intervals", 100.0 * rows[0].confidence),
-    ];
+        vec!["gravity from 2 s of an MPU-6050 at rest".to_owned()],
+        facts.to_vec(),
+    ]
+    .concat();
     let series = Estimator::ALL.map(|it| it.name().to_owned());
     dots::plot(
         &named.collect(),

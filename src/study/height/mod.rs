@@ -28,25 +28,20 @@ pub use row::Row;
 
 use crate::counts::{Shape, Sums};
 use crate::experiment::Experiment;
-use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::results::Quantity;
-use crate::rule::OutOfRange;
 use crate::run::{Identity, StudyError};
 use crate::study::estimate::{Estimate, Mean, quantile};
 use crate::study::kind::Context;
-use crate::study::outcomes::Outcomes;
+use crate::study::outcomes::{Outcomes, checked};
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::Value;
-use table::{Point, Table};
+use table::Point;
+pub(super) use table::Table;
+pub(super) use watched::Watched;
 use way::Way;
 
-/// A lift under several weathers.
-pub(super) struct Heights {
-    points: Vec<Point>,
-}
-
-impl Outcomes for Heights {
+impl Outcomes for Table {
     const NAME: &'static str = "height";
     /// One takes a second.
     const BLOCK: u64 = 1;
@@ -54,18 +49,15 @@ impl Outcomes for Heights {
     type Row = Row;
 
     fn read(experiment: &Experiment) -> Result<Self, StudyError> {
-        let table: Table = experiment.read()?;
-        table.check().map_err(|error| experiment.refuse(error))?;
-        let points = table.points();
-        Ok(Self { points })
+        checked(experiment, Self::check)
     }
 
     fn schema(generator: &mut SchemaGenerator) -> Value {
-        Table::json_schema(generator).to_value()
+        Self::json_schema(generator).to_value()
     }
 
-    fn points(&self) -> &[Point] {
-        &self.points
+    fn points(&self) -> Vec<Point> {
+        self.grid()
     }
 
     fn identity(&self, point: &Point) -> Identity {
@@ -83,10 +75,6 @@ impl Outcomes for Heights {
 
     fn trials(&self, points: &[&Point], seed: u64, trial: u64) -> Vec<Sums> {
         trial::run(points, seed, trial)
-    }
-
-    fn check(&self, _: &Point, _: &Sums, _: u64) -> Result<(), OutOfRange> {
-        Ok(())
     }
 
     fn estimates(&self, _: &Point, sums: &Sums, trials: u64, confidence: f64) -> Vec<Estimate> {
@@ -143,7 +131,7 @@ impl Outcomes for Heights {
         }]
     }
 
-    fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        Ok(picture::plot(rows, seed))
+    fn plot(&self, rows: &[Row], seed: u64) -> Plot {
+        picture::plot(rows, seed)
     }
 }

@@ -2,9 +2,9 @@
 
 use super::row::Row;
 use super::way::Way;
-use crate::format::thousands;
 use crate::plot::{Limit, Plot};
 use crate::study::along::{self, Kind, Outcome, Shown};
+use crate::study::outcomes::facts;
 
 /// The picture of a study.
 pub fn plot(rows: &[Row], seed: u64) -> Plot {
@@ -24,12 +24,12 @@ pub fn plot(rows: &[Row], seed: u64) -> Plot {
         Kind::Positive(Limit::Upper),
         230.0,
     );
+    let facts = facts(rows, "lifts", seed, "bands");
     let caption = [
-        "ten floors 4 m apart; MPU-6050, BMP180".to_owned(),
-        format!("{} lifts a point", thousands(rows[0].trials)),
-        format!("seed {seed}"),
-        format!("bands: {} % intervals", 100.0 * rows[0].confidence),
-    ];
+        vec!["ten floors 4 m apart; MPU-6050, BMP180".to_owned()],
+        facts.to_vec(),
+    ]
+    .concat();
     along::plot(
         outcomes,
         &labels,

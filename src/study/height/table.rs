@@ -2,6 +2,7 @@
 
 use crate::rule::{OutOfRange, Rule};
 use crate::run::Identity;
+use crate::study::outcomes::ascending;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -29,23 +30,11 @@ impl Table {
     /// If there are none, one is there twice, or a number breaks its rule.
     pub fn check(&self) -> Result<(), OutOfRange> {
         Rule::Within(2.0, 1000.0, "trips").check("height.trips", &self.trips)?;
-        let refuse = |got: String| {
-            let rule = "name drifts in ascending order";
-            Err(OutOfRange::new("height.drift", rule, got))
-        };
-        if self.drift.is_empty() {
-            return refuse("none".to_owned());
-        }
-        for drift in &self.drift {
-            Rule::Within(0.0, 20.0, "hPa an hour").check("height.drift", drift)?;
-        }
-        match self.drift.windows(2).find(|pair| pair[0] >= pair[1]) {
-            Some(pair) => refuse(format!("{} before {}", pair[0], pair[1])),
-            None => Ok(()),
-        }
+        let drift = Rule::Within(0.0, 20.0, "hPa an hour");
+        ascending("height.drift", "drifts", drift, &self.drift)
     }
 
-    pub fn points(&self) -> Vec<Point> {
+    pub fn grid(&self) -> Vec<Point> {
         let trips = self.trips;
         let points = self.drift.iter().map(|&drift| Point { trips, drift });
         points.collect()

@@ -29,7 +29,7 @@ fn a_record_is_of_its_truth() {
 #[test]
 fn weather_is_what_the_floors_and_slow_heights_withstand() {
     let all = rows(
-        &read::<Of<Heights>>(&config("trips = 12\ndrift = [0.0, 1.0]")),
+        &read::<Of<Table>>(&config("trips = 12\ndrift = [0.0, 1.0]")),
         4,
     );
     let of = |drift: f64, way: Way| {
@@ -48,7 +48,7 @@ fn weather_is_what_the_floors_and_slow_heights_withstand() {
 fn refusals() {
     let refused = |table: &str| {
         let experiment = parse("test", &config(table)).unwrap();
-        Heights::read(&experiment)
+        Table::read(&experiment)
             .err()
             .map(|error| error.to_string())
     };

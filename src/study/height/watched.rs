@@ -1,11 +1,11 @@
 //! A simulated lift, as its sensors record it.
 
 use crate::lift::{Ending, Ride, Trip};
-use crate::recording::{GRAVITY, Sample};
+use crate::recording::{GRAVITY, Pressure, Sample};
 use crate::rng::{self, Generator, Stream};
-use crate::signal::{Law, Noise};
+use crate::signal::white_noise;
 use crate::study::trips::{Condition, Numbers};
-use libm::round;
+use libm::{exp, round};
 
 /// Floors, and how far apart they are, m.
 const FLOORS: usize = 10;
@@ -26,10 +26,19 @@ pub struct Watched {
     pub truth: Vec<f64>,
     /// Heights of the floors above the first one, m.
     pub floors: Vec<f64>,
-    /// Time of each reading of the barometer, s, and its height in steady weather, m.
-    readings: Vec<(f64, f64)>,
+    readings: Vec<Reading>,
     /// Whether the weather makes the height rise, 1 or −1.
     sign: f64,
+}
+
+/// A reading of the barometer.
+struct Reading {
+    /// s.
+    time: f64,
+    /// Where the car is, m.
+    height: f64,
+    /// In deviations.
+    noise: f64,
 }
 
 impl Watched {
@@ -50,11 +59,28 @@ impl Watched {
         }
     }
 
+    /// What it reads in steady air of so many °C and, at the first floor, so many Pa, with this deviation of a reading.
+    pub fn pressures(&self, celsius: f64, pascal: f64, noise: f64) -> Vec<Pressure> {
+        // The height in which the pressure of such air falls by a factor e.
+        let scale = 287.05 * (celsius + 273.15) / GRAVITY;
+        let read = self.readings.iter();
+        read.map(|it| Pressure {
+            time: it.time,
+            pascal: pascal * exp(-it.height / scale) + noise * it.noise,
+        })
+        .collect()
+    }
+
     /// The barometer's readings where the weather moves its height by so much, m/s.
     pub fn barometer(&self, rate: f64) -> Vec<(f64, f64)> {
         let read = self.readings.iter();
-        read.map(|(time, height)| (*time, height + self.sign * rate * time))
-            .collect()
+        read.map(|it| {
+            (
+                it.time,
+                it.height + NOISE * it.noise + self.sign * rate * it.time,
+            )
+        })
+        .collect()
     }
 }
 
@@ -102,7 +128,7 @@ fn truth(ride: &Ride) -> Vec<f64> {
 
 fn samples(ride: &Ride, numbers: &Numbers, draws: &mut Generator) -> Vec<Sample> {
     let level = GRAVITY + rng::unit(draws) - 0.5;
-    let noise = normal(ride.samples(), draws);
+    let noise = white_noise(ride.samples(), draws);
     let sigma = numbers.sigma();
     let samples = ride.acceleration().into_iter().zip(noise).enumerate();
     let samples = samples.map(|(place, (acceleration, noise))| {
@@ -115,19 +141,16 @@ fn samples(ride: &Ride, numbers: &Numbers, draws: &mut Generator) -> Vec<Sample>
     samples.collect()
 }
 
-fn readings(truth: &[f64], rate: f64, draws: &mut Generator) -> Vec<(f64, f64)> {
+fn readings(truth: &[f64], rate: f64, draws: &mut Generator) -> Vec<Reading> {
     let count = (truth.len() as f64 / rate * RATE) as usize;
-    let noise = normal(count, draws).into_iter().enumerate();
+    let noise = white_noise(count, draws).into_iter().enumerate();
     let readings = noise.map(|(place, noise)| {
         let time = place as f64 / RATE;
-        (time, truth[(time * rate) as usize] + NOISE * noise)
+        Reading {
+            time,
+            height: truth[(time * rate) as usize],
+            noise,
+        }
     });
     readings.collect()
-}
-
-fn normal(count: usize, draws: &mut Generator) -> Vec<f64> {
-    let mut noise = vec![0.0; count];
-    let normal = Noise::new(Law::Normal).expect("the normal law has no parameter");
-    normal.fill(draws, &mut noise);
-    noise
 }

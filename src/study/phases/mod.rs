@@ -25,26 +25,19 @@ pub use row::Row;
 
 use crate::counts::{Shape, Sums};
 use crate::experiment::Experiment;
-use crate::figure::FigureError;
 use crate::plot::Plot;
-use crate::rule::OutOfRange;
 use crate::run::{Identity, StudyError};
 use crate::stats::tally::Tally;
 use crate::study::estimate::{Estimate, Mean, quantile, share};
 use crate::study::kind::Context;
-use crate::study::outcomes::Outcomes;
+use crate::study::outcomes::{Outcomes, checked};
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::Value;
-use table::{Point, Table};
+use table::Point;
+pub(super) use table::Table;
 use trial::Way;
 
-/// Trips under several conditions, followed with several thresholds.
-pub(super) struct Phases {
-    table: Table,
-    points: Vec<Point>,
-}
-
-impl Outcomes for Phases {
+impl Outcomes for Table {
     const NAME: &'static str = "phases";
     /// One takes some milliseconds.
     const BLOCK: u64 = 16;
@@ -52,18 +45,15 @@ impl Outcomes for Phases {
     type Row = Row;
 
     fn read(experiment: &Experiment) -> Result<Self, StudyError> {
-        let table: Table = experiment.read()?;
-        table.check().map_err(|error| experiment.refuse(error))?;
-        let points = table.points();
-        Ok(Self { table, points })
+        checked(experiment, Self::check)
     }
 
     fn schema(generator: &mut SchemaGenerator) -> Value {
-        Table::json_schema(generator).to_value()
+        Self::json_schema(generator).to_value()
     }
 
-    fn points(&self) -> &[Point] {
-        &self.points
+    fn points(&self) -> Vec<Point> {
+        self.grid()
     }
 
     fn identity(&self, point: &Point) -> Identity {
@@ -81,10 +71,6 @@ impl Outcomes for Phases {
 
     fn trials(&self, points: &[&Point], seed: u64, trial: u64) -> Vec<Sums> {
         trial::run(points, seed, trial)
-    }
-
-    fn check(&self, _: &Point, _: &Sums, _: u64) -> Result<(), OutOfRange> {
-        Ok(())
     }
 
     fn estimates(&self, _: &Point, sums: &Sums, trials: u64, confidence: f64) -> Vec<Estimate> {
@@ -130,7 +116,7 @@ impl Outcomes for Phases {
         format!("{}_{vibration}_{threshold}", row.condition)
     }
 
-    fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        Ok(picture::plot(rows, &self.table, seed))
+    fn plot(&self, rows: &[Row], seed: u64) -> Plot {
+        picture::plot(rows, self, seed)
     }
 }

@@ -3,9 +3,9 @@
 use super::row::Row;
 use super::table::{Measure, Table};
 use super::trial::Way;
-use crate::format::thousands;
 use crate::plot::Plot;
 use crate::study::dots;
+use crate::study::outcomes::facts;
 
 /// A threshold with which less than one trip in so many is told is left out.
 const SHOWN: u64 = 10;
@@ -44,12 +44,12 @@ pub fn plot(rows: &[Row], table: &Table, seed: u64) -> Plot {
             }
         }
     }
+    let facts = facts(rows, "trips", seed, "bars");
     let caption = [
-        format!("trips of {} m", table.distance),
-        format!("{} trips a point", thousands(rows[0].trials)),
-        format!("seed {seed}"),
-        format!("bars: {} % intervals", 100.0 * rows[0].confidence),
-    ];
+        vec![format!("trips of {} m", table.distance)],
+        facts.to_vec(),
+    ]
+    .concat();
     let series = table.threshold.iter().map(|it| format!("{it} m/s²"));
     dots::plot(&named, series.collect(), axis, &caption)
 }

@@ -68,7 +68,7 @@ impl Table {
     }
 
     /// Condition by condition, vibration by vibration.
-    pub fn points(&self) -> Vec<Point> {
+    pub fn grid(&self) -> Vec<Point> {
         let shaken = Grid::points(&self.condition, &self.vibration);
         let each = shaken.into_iter().flat_map(|(condition, vibration)| {
             self.threshold.iter().map(move |threshold| Point {

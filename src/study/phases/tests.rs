@@ -14,7 +14,7 @@ fn config(table: &str) -> String {
 #[test]
 fn a_quiet_sensor_shows_every_phase() {
     let table = "condition = [\"phone\"]\nvibration = [0.0, 0.1]\nthreshold = [0.1, 0.4]";
-    let all = rows(&read::<Of<Phases>>(&config(table)), 30);
+    let all = rows(&read::<Of<Table>>(&config(table)), 30);
     let of = |vibration: f64, threshold: f64, outcome: &str| {
         let here = |row: &&Row| {
             (row.vibration, row.threshold) == (vibration, threshold) && row.outcome == outcome
@@ -39,7 +39,7 @@ fn a_quiet_sensor_shows_every_phase() {
 fn refusals() {
     let refused = |table: &str| {
         let experiment = parse("test", &config(table)).unwrap();
-        Phases::read(&experiment)
+        Table::read(&experiment)
             .err()
             .map(|error| error.to_string())
     };

@@ -23,25 +23,19 @@ pub use row::Row;
 
 use crate::counts::{Shape, Sums};
 use crate::experiment::Experiment;
-use crate::figure::FigureError;
 use crate::plot::Plot;
-use crate::rule::OutOfRange;
 use crate::run::{Identity, StudyError};
 use crate::stats::tally::Tally;
 use crate::study::estimate::{Estimate, Mean, share};
 use crate::study::kind::Context;
-use crate::study::outcomes::Outcomes;
+use crate::study::outcomes::{Outcomes, checked};
 use crate::track::quality::Measure;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::Value;
-use table::{Point, Table};
+use table::Point;
+pub(super) use table::Table;
 
-/// Rides shaken in several ways, recorded by several sensors.
-pub(super) struct Rides {
-    points: Vec<Point>,
-}
-
-impl Outcomes for Rides {
+impl Outcomes for Table {
     const NAME: &'static str = "quality";
     /// One takes some tens of milliseconds.
     const BLOCK: u64 = 4;
@@ -49,18 +43,15 @@ impl Outcomes for Rides {
     type Row = Row;
 
     fn read(experiment: &Experiment) -> Result<Self, StudyError> {
-        let table: Table = experiment.read()?;
-        table.check().map_err(|error| experiment.refuse(error))?;
-        let points = table.points().collect();
-        Ok(Self { points })
+        checked(experiment, Self::check)
     }
 
     fn schema(generator: &mut SchemaGenerator) -> Value {
-        Table::json_schema(generator).to_value()
+        Self::json_schema(generator).to_value()
     }
 
-    fn points(&self) -> &[Point] {
-        &self.points
+    fn points(&self) -> Vec<Point> {
+        self.grid()
     }
 
     fn identity(&self, point: &Point) -> Identity {
@@ -78,10 +69,6 @@ impl Outcomes for Rides {
 
     fn trials(&self, points: &[&Point], seed: u64, trial: u64) -> Vec<Sums> {
         trial::run(points, seed, trial)
-    }
-
-    fn check(&self, _: &Point, _: &Sums, _: u64) -> Result<(), OutOfRange> {
-        Ok(())
     }
 
     fn estimates(&self, _: &Point, sums: &Sums, trials: u64, confidence: f64) -> Vec<Estimate> {
@@ -109,7 +96,7 @@ impl Outcomes for Rides {
         format!("{}_{vibration}", row.condition)
     }
 
-    fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        Ok(picture::plot(rows, &self.points, seed))
+    fn plot(&self, rows: &[Row], seed: u64) -> Plot {
+        picture::plot(rows, &self.grid(), seed)
     }
 }

@@ -2,9 +2,9 @@
 
 use super::row::Row;
 use super::table::Point;
-use crate::format::thousands;
 use crate::plot::Plot;
 use crate::study::dots;
+use crate::study::outcomes::facts;
 use crate::track::quality::Measure;
 
 /// The picture of a study.
@@ -25,12 +25,12 @@ pub fn plot(rows: &[Row], points: &[Point], seed: u64) -> Plot {
         });
         (measure.name().replace('_', " "), estimates.collect())
     });
+    let facts = facts(rows, "rides", seed, "bars");
     let caption = [
-        format!("rides of 20 m that shake with {most} m/s²"),
-        format!("{} rides a point", thousands(rows[0].trials)),
-        format!("seed {seed}"),
-        format!("bars: {} % intervals", 100.0 * rows[0].confidence),
-    ];
+        vec![format!("rides of 20 m that shake with {most} m/s²")],
+        facts.to_vec(),
+    ]
+    .concat();
     let series = shown
         .iter()
         .map(|it| it.condition.to_string().replace('_', " "));

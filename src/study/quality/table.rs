@@ -40,12 +40,13 @@ impl Table {
     }
 
     /// Condition by condition.
-    pub fn points(&self) -> impl Iterator<Item = Point> {
+    pub fn grid(&self) -> Vec<Point> {
         let points = Grid::points(&self.condition, &self.vibration).into_iter();
-        points.map(|(condition, vibration)| Point {
+        let point = |(condition, vibration)| Point {
             condition,
             vibration,
-        })
+        };
+        points.map(point).collect()
     }
 }
 

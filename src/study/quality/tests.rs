@@ -14,7 +14,7 @@ fn config(list: &str, vibration: &str) -> String {
 /// Without vibration what a sensor shows of it is noise, and nearly always called so; the drive is told right.
 #[test]
 fn a_quiet_ride_shows_the_sensor() {
-    let study = read::<Of<Rides>>(&config("[\"typical\"]", "[0.0, 0.1]"));
+    let study = read::<Of<Table>>(&config("[\"typical\"]", "[0.0, 0.1]"));
     let all = rows(&study, 40);
     let of = |vibration: f64, outcome: &str| {
         let here = |row: &&Row| row.vibration == vibration && row.outcome == outcome;
@@ -34,7 +34,7 @@ fn a_quiet_ride_shows_the_sensor() {
 fn refusals() {
     let refused = |list: &str, vibration: &str| {
         let experiment = parse("test", &config(list, vibration)).unwrap();
-        Rides::read(&experiment)
+        Table::read(&experiment)
             .err()
             .map(|error| error.to_string())
     };

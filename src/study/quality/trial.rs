@@ -5,7 +5,7 @@ use crate::counts::{Shape, Sums};
 use crate::lift::{Journey, Ride as Trips};
 use crate::recording::Sample;
 use crate::rng::{self, Generator, Stream};
-use crate::signal::{Law, Noise};
+use crate::signal::white_noise;
 use crate::study::trips::Numbers;
 use crate::track::Phases;
 use crate::track::quality::{Measure, Quality, Ride};
@@ -139,11 +139,9 @@ impl Record {
     /// As the sensor reads it.
     fn sensed(mut self, draws: &mut Generator) -> Self {
         let (sigma, step) = (self.numbers.sigma(), self.numbers.step);
-        let normal = Noise::new(Law::Normal).expect("the normal law has no parameter");
         for samples in &mut self.directions {
             let offset = rng::unit(draws) - 0.5;
-            let mut noise = vec![0.0; samples.len()];
-            normal.fill(draws, &mut noise);
+            let noise = white_noise(samples.len(), draws);
             for (sample, noise) in samples.iter_mut().zip(noise) {
                 let read = sample.acceleration + offset + sigma * noise;
                 sample.acceleration = step * round(read / step);

@@ -37,7 +37,6 @@ pub use row::Row;
 
 use crate::counts::{Shape, Sums};
 use crate::experiment::Experiment;
-use crate::figure::FigureError;
 use crate::lift::{Class, Record};
 use crate::plot::Plot;
 use crate::results::Quantity;
@@ -99,8 +98,8 @@ impl Outcomes for Table {
         Self::json_schema(generator).to_value()
     }
 
-    fn points(&self) -> &[Class] {
-        &self.class
+    fn points(&self) -> Vec<Class> {
+        self.class.clone()
     }
 
     fn identity(&self, class: &Class) -> Identity {
@@ -164,7 +163,7 @@ impl Outcomes for Table {
         quantities
     }
 
-    fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        Ok(picture::plot(rows, self.watch, seed))
+    fn plot(&self, rows: &[Row], seed: u64) -> Plot {
+        picture::plot(rows, self.watch, seed)
     }
 }

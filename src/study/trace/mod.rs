@@ -25,7 +25,7 @@ use crate::plot::Plot;
 use crate::results::{self, Quantity, eight_digits};
 use crate::rng::Stream;
 use crate::run::{Identity, StudyError};
-use crate::signal::{During, ImpulseMemory, Law, Motion, Noise, Phase};
+use crate::signal::{During, ImpulseMemory, Motion, Phase, white_noise};
 use crate::study::kind::{Context, Study};
 use crate::whiten::{Fitter, whiten};
 use rand::Rng;
@@ -313,10 +313,8 @@ fn impulses(config: &Realisation, trace: &Trace) -> Vec<f64> {
 }
 
 fn vibration(config: &Realisation, trace: &Trace) -> Vec<f64> {
-    let mut vibration = vec![0.0; trace.length()];
     let mut generator = stream(config, "trace vibration").at(0);
-    let normal = Noise::new(Law::Normal).expect("the normal law has no parameter");
-    normal.fill(&mut generator, &mut vibration);
+    let mut vibration = white_noise(trace.length(), &mut generator);
     for (value, (part, _)) in vibration.iter_mut().zip(samples(trace)) {
         *value *= if part.phase.moves() {
             trace.vibration

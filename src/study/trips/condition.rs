@@ -4,6 +4,7 @@ use crate::lift::{Braking, Drive, Ending, Ride, Trip};
 use crate::recording::GRAVITY;
 use crate::rule::{OutOfRange, Rule};
 use crate::run::Identity;
+use crate::study::outcomes::ascending;
 use crate::track::Densities;
 use libm::sqrt;
 use schemars::JsonSchema;
@@ -187,14 +188,7 @@ impl Grid {
             let rule = format!("name a condition and a {key}");
             return Err(OutOfRange::new(*table, rule, "none"));
         }
-        for value in values {
-            self.rule.check(&of(key), value)?;
-        }
-        if let Some(pair) = values.windows(2).find(|pair| pair[0] >= pair[1]) {
-            let got = format!("{} before {}", pair[0], pair[1]);
-            let rule = format!("name {} in ascending order", self.values);
-            return Err(OutOfRange::new(of(key), rule, got));
-        }
+        ascending(&of(key), self.values, self.rule, values)?;
         let mut conditions = conditions.to_vec();
         conditions.sort_unstable();
         match conditions.windows(2).find(|pair| pair[0] == pair[1]) {

@@ -33,24 +33,18 @@ pub use row::Row;
 
 use crate::counts::{Shape, Sums};
 use crate::experiment::Experiment;
-use crate::figure::FigureError;
 use crate::plot::Plot;
 use crate::rule::{OutOfRange, Rule};
 use crate::run::{Identity, StudyError};
 use crate::study::estimate::Estimate;
 use crate::study::kind::Context;
-use crate::study::outcomes::Outcomes;
+use crate::study::outcomes::{Outcomes, checked};
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::Value;
-use table::{Point, Table};
+use table::Point;
+pub(super) use table::Table;
 
-/// Trips of several lengths under several conditions.
-pub(super) struct Trips {
-    table: Table,
-    points: Vec<Point>,
-}
-
-impl Outcomes for Trips {
+impl Outcomes for Table {
     const NAME: &'static str = "trips";
     /// One takes some milliseconds.
     const BLOCK: u64 = 16;
@@ -58,18 +52,15 @@ impl Outcomes for Trips {
     type Row = Row;
 
     fn read(experiment: &Experiment) -> Result<Self, StudyError> {
-        let table: Table = experiment.read()?;
-        table.check().map_err(|error| experiment.refuse(error))?;
-        let points = table.points().collect();
-        Ok(Self { table, points })
+        checked(experiment, Self::check)
     }
 
     fn schema(generator: &mut SchemaGenerator) -> Value {
-        Table::json_schema(generator).to_value()
+        Self::json_schema(generator).to_value()
     }
 
-    fn points(&self) -> &[Point] {
-        &self.points
+    fn points(&self) -> Vec<Point> {
+        self.grid()
     }
 
     fn identity(&self, point: &Point) -> Identity {
@@ -105,7 +96,7 @@ impl Outcomes for Trips {
         format!("{}_{distance}_m", row.condition)
     }
 
-    fn plot(&self, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
-        Ok(picture::plot(rows, &self.table.condition, seed))
+    fn plot(&self, rows: &[Row], seed: u64) -> Plot {
+        picture::plot(rows, &self.condition, seed)
     }
 }

@@ -3,9 +3,9 @@
 use super::condition::Condition;
 use super::row::Row;
 use super::trial::Way;
-use crate::format::thousands;
 use crate::plot::Plot;
 use crate::study::dots;
+use crate::study::outcomes::facts;
 
 /// The picture of a study.
 pub fn plot(rows: &[Row], conditions: &[Condition], seed: u64) -> Plot {
@@ -24,12 +24,12 @@ pub fn plot(rows: &[Row], conditions: &[Condition], seed: u64) -> Plot {
     lengths.sort_unstable_by(f64::total_cmp);
     lengths.dedup();
     let lengths = lengths.iter().map(|length| format!("{length} m"));
+    let facts = facts(rows, "trips", seed, "bars");
     let caption = [
-        "each trip simulated with its accelerometer record".to_owned(),
-        format!("{} trips a point", thousands(rows[0].trials)),
-        format!("seed {seed}"),
-        format!("bars: {} % intervals", 100.0 * rows[0].confidence),
-    ];
+        vec!["each trip simulated with its accelerometer record".to_owned()],
+        facts.to_vec(),
+    ]
+    .concat();
     let named = ways.chain(others).collect();
     dots::plot(
         &named,

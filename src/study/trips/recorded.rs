@@ -5,7 +5,7 @@ use crate::lift::Journey;
 use crate::monitor;
 use crate::recording::Sample;
 use crate::rng::{self, Generator};
-use crate::signal::{Law, Noise};
+use crate::signal::white_noise;
 use crate::track::{Densities, Phases, Steps, Track, Uncertain, moments};
 use libm::{fabs, round};
 
@@ -37,9 +37,7 @@ impl Recorded {
         let ride = numbers.ride(distance, [start, RESTS[1]]);
         let truth = ride.acceleration();
         let sigma = numbers.sigma();
-        let mut noise = vec![0.0; 2 * truth.len()];
-        let normal = Noise::new(Law::Normal).expect("the normal law has no parameter");
-        normal.fill(draws, &mut noise);
+        let noise = white_noise(2 * truth.len(), draws);
         let mut speed = 0.0;
         let samples = truth.into_iter().zip(noise.chunks(2)).enumerate();
         let samples = samples.map(|(place, (acceleration, noise))| {

@@ -40,12 +40,13 @@ impl Table {
     }
 
     /// Condition by condition.
-    pub fn points(&self) -> impl Iterator<Item = Point> {
+    pub fn grid(&self) -> Vec<Point> {
         let points = Grid::points(&self.condition, &self.distance).into_iter();
-        points.map(|(condition, distance)| Point {
+        let point = |(condition, distance)| Point {
             condition,
             distance,
-        })
+        };
+        points.map(point).collect()
     }
 }
 

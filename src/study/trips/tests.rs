@@ -67,7 +67,7 @@ fn tables_that_mean_nothing_are_refused() {
     let refusal = |table: &str| {
         let text = format!("question = \"?\"\nseed = 1\ntrials = 2\n[trips]\n{table}");
         let experiment = parse("trips", &text).unwrap();
-        Trips::read(&experiment)
+        Table::read(&experiment)
             .err()
             .map(|error| error.to_string())
     };

@@ -9,7 +9,7 @@ use super::keys::Keys;
 use crate::lift::{Drive, Ending, Trip};
 use crate::recording::Sample;
 use crate::rng::{self, Generator};
-use crate::signal::{Law, Noise};
+use crate::signal::white_noise;
 use crate::track::Densities;
 use crate::track::vibration::windows;
 use libm::{cos, exp, fabs, floor, log, sin, sqrt};
@@ -63,7 +63,6 @@ pub struct Car {
     strengths: Vec<f64>,
     /// The knock of each joint, m/s², in both directions.
     knocks: Vec<[f64; 2]>,
-    normal: Noise,
 }
 
 /// From which height to which, m, and how much of the usual energy it has.
@@ -76,7 +75,6 @@ pub struct Way {
 
 impl Car {
     pub fn new(keys: &Keys, draws: &mut Generator) -> Self {
-        let normal = Noise::new(Law::Normal).expect("the normal law has no parameter");
         let height = STOREY * (FLOORS - 1) as f64;
         let waves = [(); WAVES].map(|()| {
             let (short, long) = LENGTHS;
@@ -94,8 +92,7 @@ impl Car {
         let energies: Vec<f64> = energies.collect();
         let mean = energies.iter().sum::<f64>() / energies.len() as f64;
         let joints = floor(height / JOINT) as usize + 1;
-        let mut sizes = vec![0.0; joints];
-        normal.fill(draws, &mut sizes);
+        let sizes = white_noise(joints, draws);
         let knocks = sizes.iter().map(|size| {
             let turn = TAU * rng::unit(draws);
             [cos(turn), sin(turn)].map(|along| along * keys.joints * exp(JOINTS * size))
@@ -105,7 +102,6 @@ impl Car {
             unlike: keys.unlike,
             strengths: energies.iter().map(|it| sqrt(it / mean)).collect(),
             knocks: knocks.collect(),
-            normal,
         }
     }
 
@@ -121,9 +117,8 @@ impl Car {
 
     /// A trip from one height to another, m, as unlike others as any.
     pub fn way_between(&self, draws: &mut Generator, [from, to]: [f64; 2]) -> Way {
-        let mut normal = [0.0];
-        self.normal.fill(draws, &mut normal);
-        let energy = exp(self.unlike * (normal[0] - self.unlike / 2.0));
+        let normal = white_noise(1, draws)[0];
+        let energy = exp(self.unlike * (normal - self.unlike / 2.0));
         Way { from, to, energy }
     }
 
@@ -166,8 +161,7 @@ impl Car {
                 knock_at(&mut readings, *place, fast * knock);
             }
             let sigma = sqrt(Densities::of_sheet(DENSITY) * RATE);
-            let mut noise = vec![0.0; readings.len()];
-            self.normal.fill(draws, &mut noise);
+            let noise = white_noise(readings.len(), draws);
             let samples = readings.iter().zip(noise).enumerate();
             let samples = samples.map(|(place, (shaken, noise))| Sample {
                 time: place as f64 / RATE,
@@ -179,8 +173,7 @@ impl Car {
 
     /// The swing of the car, of these strengths.
     fn shaking(&self, draws: &mut Generator, strengths: &[f64]) -> Vec<f64> {
-        let mut noise = vec![0.0; strengths.len()];
-        self.normal.fill(draws, &mut noise);
+        let noise = white_noise(strengths.len(), draws);
         let (frequency, damping) = SWING;
         let radius = exp(-damping * TAU * frequency / RATE);
         let turn = TAU * frequency * sqrt(1.0 - damping * damping) / RATE;

@@ -4,7 +4,7 @@ use crate::detection::{End, Trip};
 use crate::monitor::Direction;
 use crate::recording::{Barometer, Pressure, PressureUnit};
 use crate::rng::Stream;
-use crate::signal::{Law, Noise};
+use crate::signal::white_noise;
 use crate::stats::binomial::lower_tail;
 use crate::track::{Air, Climbs, Tracked};
 
@@ -73,11 +73,8 @@ impl Building {
     fn barometer(&self, seed: u64) -> Barometer {
         let to = Self::start(self.distances.len());
         let count = (to * self.rate) as usize;
-        let mut noise = vec![0.0; count];
         let mut draws = Stream::new(seed, "air", "").at(0);
-        Noise::new(Law::Normal)
-            .unwrap()
-            .fill(&mut draws, &mut noise);
+        let noise = white_noise(count, &mut draws);
         let kelvin = self.celsius + 273.15;
         let readings = noise.iter().enumerate().map(|(at, noise)| {
             let time = at as f64 / self.rate;
