@@ -31,8 +31,8 @@ const FLOORS: &[&[&str]] = &[
     &["chain", "detection", "experiment"],
     // How far trips went; trials, planned and drawn.
     &["track", "schedule"],
-    &["plan", "figure", "page"],
-    &["pilot", "gate", "results"],
+    &["plan", "figure"],
+    &["page", "pilot", "gate", "results"],
     // Counted.
     &["run"],
     &["study"],

@@ -77,7 +77,8 @@ impl AirArguments {
                 heights = climbs(&measured.track);
             }
         }
-        measured.track.rise(&heights);
+        let undecided = &measured.rides.detection.undecided;
+        measured.track.rise(&heights, undecided);
         measured.heights = Some((barometer, heights));
         Ok(measured)
     }

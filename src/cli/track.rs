@@ -12,11 +12,12 @@ use super::{CommandResult, Failure, print, table, warn};
 use anyhow::anyhow;
 use clap::{ArgGroup, Args};
 use liftsim::detection::no_rides;
+use liftsim::figure::track::Beside;
 use liftsim::figure::{self, FigureError};
 use liftsim::page;
 use liftsim::plot::Plot;
 use liftsim::track::floors::Floors;
-use liftsim::track::{ByRules, Climbs, Move, Track, TrackReport, Tracked};
+use liftsim::track::{ByRules, Climbs, Move, Track, TrackReport, Tracked, calibrated};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -90,7 +91,12 @@ const SHOWN: [&str; 9] = [
 ];
 
 /// Those of a barometer, and where they stand among them.
-const HEIGHT: [&str; 2] = ["height", "height_deviation"];
+const HEIGHT: [&str; 4] = [
+    "height",
+    "height_deviation",
+    "position",
+    "position_deviation",
+];
 const BESIDE: usize = 6;
 
 impl TrackCommand {
@@ -111,7 +117,9 @@ impl TrackCommand {
         let mut building = self.floors.building(self.force)?;
         let mut kept = self.vibration.kept(self.force)?;
         let is_judged = self.quality.is_wanted() || page.is_some();
-        let rides = self.rides.find(is_judged || kept.is_some())?;
+        let rides = self
+            .rides
+            .find(is_judged || kept.is_some() || figure.is_some())?;
         let Measured {
             rides,
             mut track,
@@ -162,7 +170,10 @@ impl TrackCommand {
             let origin = format!("recording {}", report.recording.file);
             figure.draw(&plot()?, &origin)
         });
-        let page = page.map(|page| page.write(written(&report, &plot()?)?.as_bytes()));
+        let page = page.map(|page| {
+            let html = page::html(&report, &plot()?).map_err(Failure::run)?;
+            page.write(html.as_bytes())
+        });
         let ready: Result<Vec<Ready>, Failure> = figure.into_iter().chain(page).collect();
         for it in ready? {
             it.publish()?;
@@ -202,8 +213,12 @@ impl TrackCommand {
         let floors = floors.into_iter().flat_map(Floors::floors);
         let floors: Vec<f64> = floors.map(|floor| floor.height).collect();
         let barometer = climbs.map_or(&[][..], |climbs| &climbs.readings);
-        let plot =
-            figure::track::plot(&rides.detection, track, &floors, barometer, (&name, offset));
+        let beside = Beside {
+            horizontal: &track.horizontal(&rides.recording),
+            floors: &floors,
+            barometer,
+        };
+        let plot = figure::track::plot(&rides.detection, track, &beside, (&name, offset));
         plot.map_err(|error| match error {
             FigureError::Short => self.rides.refused(error.into()),
             error => Failure::run(error),
@@ -220,15 +235,12 @@ impl TrackCommand {
     }
 }
 
-/// The page of a report, with its picture.
-fn written(report: &TrackReport, plot: &Plot) -> Result<String, Failure> {
-    let picture = figure::inline(plot, page::PICTURE).map_err(Failure::run)?;
-    Ok(page::html(report, &picture))
-}
-
 fn text(report: &TrackReport) -> String {
     [
         found::recording(&report.recording),
+        calibrated(&report.calibration)
+            .map(|(name, it)| format!("{name} at rest: {it}\n"))
+            .unwrap_or_default(),
         report.barometer.as_ref().map(air::text).unwrap_or_default(),
         trips(report),
         report.rules.as_ref().map(rules).unwrap_or_default(),

@@ -6,6 +6,7 @@
 
 pub mod detection;
 mod error;
+pub mod quality;
 mod raster;
 mod record;
 mod svg;

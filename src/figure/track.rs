@@ -10,6 +10,7 @@ use crate::track::{self, Track, Update};
 
 /// Heights of the panels, points.
 const RECORD: f64 = 110.0;
+const ACROSS: f64 = 60.0;
 const SPEED: f64 = 80.0;
 const POSITION: f64 = 130.0;
 
@@ -23,22 +24,35 @@ const READING: Style = Style {
 /// The most readings of a barometer that are drawn.
 const MOST_READINGS: usize = 300;
 
+/// The most sizes across gravity that are drawn, and of so many one may leave the panel.
+const MOST_SIZES: usize = 2048;
+const RARE: usize = 500;
+
 /// Deviations on either side of a position.
 const WIDE: f64 = 2.0;
 
 /// So many rides are named in the caption.
 const NAMED: usize = 12;
 
-/// The picture of a recording, whose name is `name` and whose times count from `clock_offset`, and its trips among
-/// floors at these heights, m.
+/// What is drawn beside the record and its trips, each where it is known.
+#[derive(Default)]
+pub struct Beside<'a> {
+    /// What is read across gravity, m/s², at its time, s.
+    pub horizontal: &'a [(f64, f64)],
+    /// The heights of the floors, m.
+    pub floors: &'a [f64],
+    /// Heights by a barometer, m, at their times, s.
+    pub barometer: &'a [(f64, f64)],
+}
+
+/// The picture of a recording, whose name is `name` and whose times count from `clock_offset`, and its trips.
 ///
 /// # Errors
 /// Where the recording has not even one block.
 pub fn plot(
     detection: &Detection,
     track: &Track,
-    floors: &[f64],
-    barometer: &[(f64, f64)],
+    beside: &Beside,
     (name, clock_offset): (&str, Option<f64>),
 ) -> Result<Plot, FigureError> {
     let recorded = Recorded::of(detection)?;
@@ -46,11 +60,13 @@ pub fn plot(
     let record = (RECORD, record.labelled("record, m/s²"));
     // Where nothing is measured a speed of 0 and a position of 0 would say nothing.
     let is_measured = track.trips.iter().any(|it| it.distance.is_some());
-    let panels: Vec<(f64, Axis)> = if is_measured {
-        [record].into_iter().chain(course_panels(track)).collect()
-    } else {
-        vec![record]
-    };
+    let across = across(beside.horizontal);
+    let has_across = !across.is_empty();
+    let mut panels = vec![record];
+    panels.extend(has_across.then(|| across_panel(&across)));
+    if is_measured {
+        panels.extend(course_panels(track));
+    }
     let mut plot = recorded.panels(&panels);
     for (span, update) in track.course.updates() {
         if let Some(colour) = phase(*update).map(phase_colour) {
@@ -59,22 +75,27 @@ pub fn plot(
     }
     recorded.hatch(&mut plot, &panels);
     plot.add(0, recorded.values(|column| column.record));
+    if has_across {
+        plot.add(1, Mark::Dense(across, Style::of(0)));
+    }
     if !is_measured {
         return Ok(recorded.finish(plot, [], (name, clock_offset), []));
     }
-    plot.add(1, Mark::Level(0.0, &[]));
+    let (speed, position) = (panels.len() - 2, panels.len() - 1);
+    plot.add(speed, Mark::Level(0.0, &[]));
     let (from, to) = recorded.span();
-    let y = &panels[2].1;
-    for height in floors.iter().filter(|it| (y.from..=y.to).contains(*it)) {
-        plot.add(2, Mark::Line(vec![(from, *height), (to, *height)], FLOOR));
+    let y = &panels[position].1;
+    for height in (beside.floors.iter()).filter(|it| (y.from..=y.to).contains(*it)) {
+        let line = vec![(from, *height), (to, *height)];
+        plot.add(position, Mark::Line(line, FLOOR));
     }
     for places in track.course.stretches() {
-        add_places(&mut plot, places);
+        add_places(&mut plot, speed, places);
     }
-    let readings = readings(barometer, track);
+    let readings = readings(beside.barometer, track);
     let has_readings = !readings.is_empty();
-    plot.add(2, Mark::Markers(readings, READING));
-    let entries = entries(!floors.is_empty(), has_readings);
+    plot.add(position, Mark::Markers(readings, READING));
+    let entries = entries(!beside.floors.is_empty(), has_readings);
     let trips = in_words(track);
     Ok(recorded.finish(plot, entries, (name, clock_offset), trips))
 }
@@ -95,6 +116,25 @@ fn in_words(track: &Track) -> Vec<String> {
         words.push(format!("and {more} more"));
     }
     words
+}
+
+/// The largest of so many readings each, as a line.
+fn across(horizontal: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let together = horizontal.chunks(horizontal.len().div_ceil(MOST_SIZES).max(1));
+    let largest = together.map(|some| {
+        let size = some.iter().fold(0.0, |most: f64, it| most.max(it.1));
+        (some[0].0, size)
+    });
+    largest.collect()
+}
+
+/// The panel of what is read across gravity: what all but a few sizes need.
+fn across_panel(across: &[(f64, f64)]) -> (f64, Axis) {
+    let mut sizes: Vec<f64> = across.iter().map(|it| it.1).collect();
+    sizes.sort_unstable_by(f64::total_cmp);
+    let most = sizes[sizes.len() - 1 - sizes.len() / RARE];
+    let axis = Axis::linear(0.0, 1.2 * most.max(1e-9), 3);
+    (ACROSS, axis.labelled("across, m/s²"))
 }
 
 /// The panels of the speed and of the position.
@@ -141,17 +181,18 @@ fn within(place: &track::Place) -> (f64, f64) {
     (place.position.mean - wide, place.position.mean + wide)
 }
 
-fn add_places(plot: &mut Plot, places: &[track::Place]) {
+/// In the panel of the speed and the next.
+fn add_places(plot: &mut Plot, speed: usize, places: &[track::Place]) {
     let speeds = places.iter().map(|it| (it.time, it.speed));
-    plot.add(1, Mark::Line(speeds.collect(), Style::of(0)));
+    plot.add(speed, Mark::Line(speeds.collect(), Style::of(0)));
     let points = places.iter().map(|it| {
         let (low, high) = within(it);
         Point::new(it.time, [low, it.position.mean, high])
     });
     let points: Vec<Point> = points.collect();
     let line = points.iter().map(Point::place).collect();
-    plot.add(2, Mark::Band(points, Style::of(1).faded(0.3)));
-    plot.add(2, Mark::Line(line, Style::of(0)));
+    plot.add(speed + 1, Mark::Band(points, Style::of(1).faded(0.3)));
+    plot.add(speed + 1, Mark::Line(line, Style::of(0)));
 }
 
 /// The phase whose shade an update has.

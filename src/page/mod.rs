@@ -5,29 +5,42 @@
 //! flags give the same bytes. Everything that comes from a file is escaped.
 
 mod alarms;
+mod judged;
 mod made;
 mod numbers;
 mod parts;
-mod quality;
 mod rides;
 mod sensor;
 mod summary;
 mod undecided;
 
+use crate::figure::{FigureError, inline, quality};
+use crate::plot::Plot;
 use crate::track::TrackReport;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use parts::{section, sentence, wide};
 
 /// What is read aloud in place of the picture.
-pub const PICTURE: &str = "The record over time, and the speed and the position of the car within two standard deviations. The \
+const PICTURE: &str = "The record over time, and the speed and the position of the car within two standard deviations. The \
                            tables below have the numbers.";
+
+/// What is read aloud in place of that of the quality.
+const QUALITY: &str =
+    "The figures of each ride beside their limits. The table above has the numbers.";
 
 /// Nothing but what is in the page.
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
 
-/// The page of a report; `picture` is an element of HTML, as [`inline`](crate::figure::inline) draws it.
-pub fn html(report: &TrackReport, picture: &str) -> String {
+/// The page of a report, with the picture of its record.
+///
+/// # Errors
+/// Where a picture does not fit on a sheet.
+pub fn html(report: &TrackReport, record: &Plot) -> Result<String, FigureError> {
+    let picture = inline(record, PICTURE)?;
+    let quality = report.quality.as_ref();
+    let quality = quality.and_then(|it| quality::plot(report.rides, it, &report.recording.file));
+    let quality = quality.map(|it| inline(&it, QUALITY)).transpose()?;
     let file = &report.recording.file;
     let page = html! {
         (DOCTYPE)
@@ -44,10 +57,10 @@ pub fn html(report: &TrackReport, picture: &str) -> String {
                 main {
                     (summary::header(report))
                     (warnings(report))
-                    (figure(report, picture))
+                    (figure(report, &picture))
                     (rides::section(report))
                     (alarms::section(report))
-                    (quality::section(report))
+                    (judged::section(report, quality.as_deref()))
                     (undecided::section(report))
                     (sensor::section(report))
                     (made::section(report))
@@ -55,7 +68,7 @@ pub fn html(report: &TrackReport, picture: &str) -> String {
             }
         }
     };
-    page.into_string() + "\n"
+    Ok(page.into_string() + "\n")
 }
 
 fn warnings(report: &TrackReport) -> Markup {
@@ -75,6 +88,11 @@ fn figure(report: &TrackReport, picture: &str) -> Markup {
         None => "The acceleration along the vertical as it was recorded",
         Some(_) => "The acceleration along the vertical, restored from what its filter left",
     };
+    let across = if report.calibration.is_empty() {
+        ""
+    } else {
+        "; below, what is read across gravity"
+    };
     let course = if is_measured {
         "; below, the speed and the position of the car, up positive, with a band of two standard deviations on either side. \
          Shaded: where the car was known to stand or to move uniformly."
@@ -89,7 +107,7 @@ fn figure(report: &TrackReport, picture: &str) -> Markup {
     let content = html! {
         figure {
             (wide("The record as a picture", html! { (PreEscaped(picture)) }))
-            figcaption { (record) (course) (hatched) }
+            figcaption { (record) (across) (course) (hatched) }
         }
     };
     section("picture", "The record", content)

@@ -3,7 +3,7 @@
 use super::numbers::{decimals, direction, fixed, none, size, time, within};
 use super::parts::{section as titled, sentence, wide};
 use crate::detection::{End, no_rides};
-use crate::track::{Alarm, TrackReport, Tracked};
+use crate::track::{Alarm, Climb, Standing, TrackReport, Tracked};
 use maud::{Markup, html};
 
 pub(super) fn section(report: &TrackReport) -> Markup {
@@ -32,7 +32,7 @@ fn table(report: &TrackReport) -> Markup {
                 th scope="col" { "Ride" }
                 th scope="col" { "Direction" }
                 (column("Distance", "m"))
-                @if has_air { (column("Height by barometer", "m")) }
+                @if has_air { (column("Height by barometer", "m")) (column("Then at", "m")) }
                 (column("Start", "s"))
                 (column("Stop", "s"))
                 (column("Top speed", "m/s"))
@@ -44,7 +44,7 @@ fn table(report: &TrackReport) -> Markup {
                 th scope="row" { (ride.trip.ride) }
                 td { (direction(ride.trip.direction)) }
                 td.number { (distance(ride, metres)) }
-                @if has_air { td.number { (height(ride)) } }
+                @if has_air { td.number { (height(ride)) } td.number { (position(ride)) } }
                 td.number { (time(ride.trip.start)) }
                 td.number { (time(ride.trip.stop)) }
                 td.number { (fixed(ride.trip.speed, 2)) }
@@ -69,8 +69,14 @@ fn distance(ride: &Tracked, decimals: usize) -> Markup {
 }
 
 fn height(ride: &Tracked) -> Markup {
-    let height = |it: crate::track::Climb| within(it.height, it.height_deviation, 2);
+    let height = |it: Climb| within(it.height, it.height_deviation, 2);
     ride.climb.map_or(none(), height)
+}
+
+/// Above where it stood first.
+fn position(ride: &Tracked) -> Markup {
+    let position = |it: Standing| within(it.position, it.position_deviation, 2);
+    ride.standing.map_or(none(), position)
 }
 
 /// Between which floors it went, as far as that is known.

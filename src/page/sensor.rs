@@ -5,7 +5,7 @@ use super::parts::section as titled;
 use crate::detection::Recorded;
 use crate::format::thousands;
 use crate::recording::GRAVITY;
-use crate::track::{Barometric, Level, Scatter, TrackReport};
+use crate::track::{Barometric, Level, Scatter, TrackReport, calibrated};
 use maud::{Markup, html};
 use std::path::Path;
 
@@ -13,6 +13,19 @@ pub(super) fn section(report: &TrackReport) -> Markup {
     let facts = [
         read(&report.recording),
         shown(&report.recording, &report.level),
+        calibrated(&report.calibration)
+            .map(|(name, it)| {
+                (
+                    if name == "gravity" {
+                        "Gravity at rest"
+                    } else {
+                        "Offset at rest"
+                    },
+                    it,
+                )
+            })
+            .into_iter()
+            .collect(),
         report.barometer.as_ref().map(barometer).unwrap_or_default(),
     ];
     titled(

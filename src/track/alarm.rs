@@ -77,8 +77,6 @@ impl fmt::Display for Alarm {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::detection::{End, Trip};
-    use crate::monitor::Direction;
     use crate::track::floors::Stop;
 
     fn judged(fault: Option<Fault>) -> Judgement {
@@ -92,22 +90,6 @@ mod tests {
     }
 
     fn ride(ride: usize, at_once: Option<Fault>, earlier: Option<Judgement>) -> Tracked {
-        let trip = Trip {
-            ride,
-            direction: Direction::Up,
-            start: None,
-            inertial: None,
-            braking: None,
-            levelling: None,
-            landing: None,
-            stop: None,
-            speed: 1.0,
-            ended: End::Stop,
-            or_start: None,
-            or_stop: None,
-            start_decision: None,
-            stop_decision: None,
-        };
         let landing = Stop {
             position: 0.0,
             deviation: 0.1,
@@ -119,15 +101,8 @@ mod tests {
             added: None,
         };
         Tracked {
-            trip,
-            distance: None,
-            deviation: None,
-            closing_speed: None,
-            widened: None,
             landing: Some(landing),
-            climb: None,
-            quality: None,
-            unknown: None,
+            ..Tracked::told(ride, [0.0, 10.0], 3.0)
         }
     }
 

@@ -15,7 +15,7 @@
 //! [^2]: Y. Vardi, C.-H. Zhang, "The multivariate L1-median and associated data depth", PNAS 97 (2000), eq. (2.6).
 
 use crate::stats::quantile::median;
-use crate::vector::{Vector, cross, dot, length, mix, unit};
+use crate::vector::{Vector, cross, dot, length, mix};
 
 /// Readings are left out whose length is farther from the median length than this, in deviations of theirs, and in steps.
 const OUTLIER: f64 = 3.0;
@@ -97,15 +97,9 @@ pub struct Parts {
 }
 
 impl Parts {
-    /// Of a reading, where gravity is this; all of it is across if there is none.
-    pub fn of(reading: Vector, gravity: Vector) -> Self {
-        let residual = mix([(1.0, reading), (-1.0, gravity)]);
-        let Some(up) = unit(gravity) else {
-            return Self {
-                vertical: 0.0,
-                horizontal: residual,
-            };
-        };
+    /// Of a reading, where rest reads this, which is gravity if there is any, and up is there: a direction of length 1.
+    pub fn of(reading: Vector, rest: Vector, up: Vector) -> Self {
+        let residual = mix([(1.0, reading), (-1.0, rest)]);
         let vertical = dot(residual, up);
         Self {
             vertical,
@@ -264,6 +258,7 @@ fn is_lattice(points: &[Vector], step: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vector::unit;
     use proptest::prelude::*;
 
     /// The least sum by trying 26 directions and the steepest with ever smaller steps, since at a reading that nearly is the
@@ -348,8 +343,8 @@ mod tests {
             reading in [-20.0..20.0f64, -20.0..20.0, -20.0..20.0],
             gravity in [-9.0..9.0f64, -9.0..9.0, 1.0..9.0],
         ) {
-            let Parts { vertical, horizontal } = Parts::of(reading, gravity);
             let up = unit(gravity).unwrap();
+            let Parts { vertical, horizontal } = Parts::of(reading, gravity, up);
             let whole = mix([(1.0, gravity), (vertical, up), (1.0, horizontal)]);
             prop_assert!(length(mix([(1.0, whole), (-1.0, reading)])) < 1e-9);
             prop_assert!(dot(horizontal, gravity).abs() < 1e-9);

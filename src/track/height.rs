@@ -10,10 +10,12 @@
 //!
 //! [^1]: The monitor with accelerometer and barometer, in Chinese (楊昱等, 太原理工大學學報).
 
-use super::climb::Climb;
+use super::climb::{Climb, Standing};
+use super::fusion::Barometry;
 use super::record::{Track, Tracked};
+use super::rested::Rested;
+use crate::detection::Undecided;
 use crate::recording::{Barometer, GRAVITY, Pressure};
-use crate::stats::quantile::median;
 use libm::hypot;
 use serde::Serialize;
 use std::fmt;
@@ -34,12 +36,6 @@ const GAIN: f64 = 0.01;
 /// The rest that is looked at on either side of a trip, and what is left out beside the trip, where a barometer lags, s.
 const REST: f64 = 10.0;
 const LAG: f64 = 1.0;
-
-/// Of the readings of a rest those are outliers that are farther from their median than this, in deviations.
-const OUTLIER: f64 = 3.0;
-
-/// Readings are independent after so long: barometers smooth, s.
-const SMOOTH: f64 = 1.0;
 
 /// How fast the weather may change the pressure, Pa/s: 0.3 hPa an hour.
 const WEATHER: f64 = 30.0 / 3600.0;
@@ -91,6 +87,8 @@ pub struct Climbs {
     pub readings: Vec<(f64, f64)>,
     /// The deviation of a reading, m.
     pub noise: f64,
+    /// The error of the mean of a rest that lies between two steps of the sensor, m.
+    pub rounded: f64,
     /// The numbers of trips whose distances are unlike.
     pub unlike: Vec<usize>,
     /// Whether up is down, if the barometer tells.
@@ -98,10 +96,25 @@ pub struct Climbs {
 }
 
 impl Track {
-    /// Gives each trip its height.
-    pub fn rise(&mut self, climbs: &Climbs) {
-        for (trip, climb) in self.trips.iter_mut().zip(&climbs.climbs) {
+    /// Gives each trip its height, and the position after it.
+    pub fn rise(&mut self, climbs: &Climbs, undecided: &[Undecided]) {
+        let barometry = Barometry {
+            readings: &climbs.readings,
+            noise: climbs.noise,
+            rounded: climbs.rounded,
+        };
+        let unseen = undecided.iter().map(|it| it.from..it.to);
+        let unseen: Vec<Range<f64>> = unseen.collect();
+        let positions = barometry.positions(&self.trips, &unseen, |_| None);
+        // An error of the air's temperature is one of all heights.
+        let scale = climbs.air.deviation / (climbs.air.celsius + FREEZING);
+        let each = positions.into_iter().skip(1).zip(&climbs.climbs);
+        for (trip, ([position, _], climb)) in self.trips.iter_mut().zip(each) {
             trip.climb = *climb;
+            trip.standing = trip.trip.stop.map(|_| Standing {
+                position: position.mean,
+                position_deviation: hypot(position.variance.sqrt(), scale * position.mean),
+            });
         }
     }
 }
@@ -116,8 +129,10 @@ impl Climbs {
                 ..*it
             })
             .collect();
-        let rests: Vec<[Rest; 2]> = (0..trips.len())
-            .map(|at| rests(trips, at).map(|rest| Rest::of(&readings, rest.unwrap_or(NONE))))
+        let logs = readings.iter().map(|it| (it.time, it.pascal.ln()));
+        let logs: Vec<(f64, f64)> = logs.collect();
+        let rests: Vec<[Rested; 2]> = (0..trips.len())
+            .map(|at| rests(trips, at).map(|rest| Rested::of(&logs, &rest.unwrap_or(NONE))))
             .collect();
         let noise = noise(rests.as_flattened());
         let step = Some(step(&readings)).filter(|step| *step > noise);
@@ -178,6 +193,7 @@ impl Climbs {
                 .map(|it| Some((*it)?.climb(kelvin)))
                 .collect(),
             noise: metres(noise, kelvin.0),
+            rounded: metres(rounded, kelvin.0),
             readings: readings
                 .iter()
                 .map(|it| {
@@ -200,17 +216,17 @@ fn metres(log_ratio: f64, kelvin: f64) -> f64 {
 
 impl Column {
     /// Between two rests of a barometer with this noise of a reading and this error of a difference by its steps.
-    fn between(one: &Rest, other: &Rest, noise: f64, rounded: f64) -> Option<Self> {
+    fn between(one: &Rested, other: &Rested, noise: f64, rounded: f64) -> Option<Self> {
         let seconds = other.time - one.time;
         let weather = WEATHER * seconds / one.mean.exp();
-        let readings = noise * (one.per_reading() + other.per_reading()).sqrt();
+        let readings = noise * (one.of_mean() + other.of_mean()).sqrt();
         let deviation = hypot(hypot(readings, weather), rounded);
-        let printed = other.standard_altitude() - one.standard_altitude();
+        let [start, stop] = [one, other].map(standard_altitude);
         let log_ratio = one.mean - other.mean;
         (one.count > 0.0 && other.count > 0.0).then_some(Self {
             log_ratio,
             deviation,
-            printed,
+            printed: stop - start,
         })
     }
 
@@ -247,58 +263,10 @@ fn learn(trips: &[(usize, Column, f64, f64)]) -> Air {
     }
 }
 
-/// The air at rest.
-#[derive(Clone, Debug)]
-struct Rest {
-    /// Of the readings that are no outliers.
-    count: f64,
-    /// The mean of the logarithms of the pressures, and of the times.
-    mean: f64,
-    time: f64,
-    /// How far each is off.
-    off: Vec<f64>,
-    /// So many of them are independent.
-    independent: f64,
-}
-
-impl Rest {
-    fn of(readings: &[Pressure], times: Range<f64>) -> Self {
-        let first = readings.partition_point(|it| it.time < times.start);
-        let end = readings
-            .partition_point(|it| it.time <= times.end)
-            .max(first);
-        let readings = &readings[first..end];
-        let logs = || readings.iter().map(|it| it.pascal.ln());
-        let middle = median(logs().collect());
-        let deviation = 1.4826 * median(logs().map(|it| (it - middle).abs()).collect());
-        let sound = readings.iter().zip(logs());
-        let sound: Vec<(f64, f64)> = sound
-            .filter(|(_, it)| (it - middle).abs() <= OUTLIER * deviation)
-            .map(|(reading, it)| (reading.time, it))
-            .collect();
-        let count = sound.len() as f64;
-        let mean = sound.iter().map(|it| it.1).sum::<f64>() / count;
-        let (from, to) = sound
-            .first()
-            .zip(sound.last())
-            .map_or((0.0, 0.0), |(a, b)| (a.0, b.0));
-        Self {
-            count,
-            mean,
-            time: sound.iter().map(|it| it.0).sum::<f64>() / count,
-            off: sound.iter().map(|it| it.1 - mean).collect(),
-            independent: count.min(1.0 + (to - from) / SMOOTH),
-        }
-    }
-
-    fn per_reading(&self) -> f64 {
-        1.0 / self.independent
-    }
-
-    fn standard_altitude(&self) -> f64 {
-        let (time, pascal) = (self.time, self.mean.exp());
-        Pressure { time, pascal }.standard_altitude()
-    }
+/// In the standard atmosphere, m.
+fn standard_altitude(rest: &Rested) -> f64 {
+    let (time, pascal) = (rest.time, rest.mean.exp());
+    Pressure { time, pascal }.standard_altitude()
 }
 
 /// No time at all.
@@ -334,7 +302,7 @@ fn step(readings: &[Pressure]) -> f64 {
 }
 
 /// The deviation of readings among each other, as logarithms.
-fn noise(rests: &[Rest]) -> f64 {
+fn noise(rests: &[Rested]) -> f64 {
     let squares = rests.iter().flat_map(|rest| &rest.off).map(|off| off * off);
     let spare: f64 = rests.iter().map(|rest| (rest.count - 1.0).max(0.0)).sum();
     (squares.fold(0.0, |sum, square| sum + square) / spare.max(1.0)).sqrt()

@@ -31,6 +31,7 @@
 //!     动检测及异常位置停车判断), claims 1 to 3.
 
 mod alarm;
+mod calibration;
 mod climb;
 mod course;
 mod filter;
@@ -50,6 +51,7 @@ mod phases;
 pub mod quality;
 mod record;
 mod report;
+mod rested;
 mod rides;
 mod settings;
 mod settled;
@@ -65,7 +67,8 @@ mod warning;
 mod watch;
 
 pub use alarm::Alarm;
-pub use climb::Climb;
+pub use calibration::{Calibration, calibrated};
+pub use climb::{Climb, Standing};
 pub use course::{Course, Place};
 pub use filter::{TripFilter, Uncertain, Update};
 pub use height::{Air, Climbs};

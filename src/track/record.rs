@@ -1,6 +1,6 @@
 //! The trips of a record, measured.
 
-use super::climb::Climb;
+use super::climb::{Climb, Standing};
 use super::course::Course;
 use super::filter::Uncertain;
 use super::floors::Stop;
@@ -39,6 +39,9 @@ pub struct Tracked {
     /// Its height by a barometer, where there is one.
     #[serde(flatten)]
     pub climb: Option<Climb>,
+    /// Where the car stands after it, where there is one.
+    #[serde(flatten)]
+    pub standing: Option<Standing>,
     /// How smooth it was, where that is asked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub quality: Option<Quality>,
@@ -74,6 +77,8 @@ pub struct Track {
     pub trips: Vec<Tracked>,
     /// For a picture.
     pub course: Course,
+    /// When nothing moves the sensor, s.
+    pub(super) rests: Vec<Range<f64>>,
 }
 
 impl Track {
@@ -116,6 +121,7 @@ impl Track {
             level,
             trips: Vec::with_capacity(detection.trips.len()),
             course: Course::new(seconds),
+            rests,
         };
         track
             .course
@@ -208,21 +214,8 @@ impl Track {
 }
 
 impl Tracked {
-    fn of(trip: &Trip, travelled: &Travelled) -> Self {
-        Self {
-            trip: *trip,
-            distance: Some(travelled.distance.mean),
-            deviation: Some(travelled.distance.variance.sqrt()),
-            closing_speed: travelled.closing_speed,
-            widened: (travelled.widened > 0.0).then_some(travelled.widened),
-            landing: None,
-            climb: None,
-            quality: None,
-            unknown: None,
-        }
-    }
-
-    fn unknown(trip: &Trip, unknown: Unknown) -> Self {
+    /// A trip of which nothing is measured.
+    pub(super) fn bare(trip: &Trip) -> Self {
         Self {
             trip: *trip,
             distance: None,
@@ -231,8 +224,54 @@ impl Tracked {
             widened: None,
             landing: None,
             climb: None,
+            standing: None,
             quality: None,
+            unknown: None,
+        }
+    }
+
+    fn of(trip: &Trip, travelled: &Travelled) -> Self {
+        Self {
+            distance: Some(travelled.distance.mean),
+            deviation: Some(travelled.distance.variance.sqrt()),
+            closing_speed: travelled.closing_speed,
+            widened: (travelled.widened > 0.0).then_some(travelled.widened),
+            ..Self::bare(trip)
+        }
+    }
+
+    fn unknown(trip: &Trip, unknown: Unknown) -> Self {
+        Self {
             unknown: Some(unknown),
+            ..Self::bare(trip)
+        }
+    }
+}
+
+#[cfg(test)]
+impl Tracked {
+    /// A trip between these times, s, of a distance that is known to 5 cm.
+    pub(super) fn told(ride: usize, [start, stop]: [f64; 2], distance: f64) -> Self {
+        let trip = Trip {
+            ride,
+            direction: crate::monitor::Direction::of(distance),
+            start: Some(start),
+            inertial: None,
+            braking: None,
+            levelling: None,
+            landing: None,
+            stop: Some(stop),
+            speed: 1.0,
+            ended: crate::detection::End::Stop,
+            or_start: None,
+            or_stop: None,
+            start_decision: None,
+            stop_decision: None,
+        };
+        Self {
+            distance: Some(distance),
+            deviation: Some(0.05),
+            ..Self::bare(&trip)
         }
     }
 }

@@ -2,6 +2,7 @@
 
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
+use super::calibration::Calibration;
 use super::climb::CLIMB;
 use super::floors::{Floor, Floors};
 use super::height::{Air, Climbs};
@@ -26,6 +27,9 @@ pub struct TrackReport<'a> {
     pub settings: &'a TrackSettings,
     /// The sensor as the record shows it.
     pub level: Level,
+    /// Gravity at each rest, where three axes are read.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub calibration: Vec<Calibration>,
     /// The floors after the trips, from the lowest up, where any are known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub floors: Option<Vec<Floor>>,
@@ -96,6 +100,7 @@ impl<'a> TrackReport<'a> {
             recording: Recorded::of(file, recording, detection),
             settings: &track.settings,
             level: track.level,
+            calibration: track.calibrations(recording),
             floors: floors.map(Floors::floors),
             barometer: barometer.map(|(of, climbs)| Barometric::new(of, climbs)),
             quality: None,
@@ -165,6 +170,8 @@ impl Tracked {
             "height" => self.climb.map(|it| it.height),
             "height_deviation" => self.climb.map(|it| it.height_deviation),
             "height_printed" => self.climb.map(|it| it.height_printed),
+            "position" => self.standing.map(|it| it.position),
+            "position_deviation" => self.standing.map(|it| it.position_deviation),
             _ => {
                 if let Some(measure) = Measure::ALL.into_iter().find(|it| it.name() == name) {
                     return self

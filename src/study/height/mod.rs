@@ -9,7 +9,7 @@
 //! |---|---|---|
 //! | `error_…` | trials | mean size of the error of the height over time, m |
 //! | `rms_…` | trials | root of its mean square, m |
-//! | `error_95_…` | moments | the error that it stays within in 95 % of the time, m |
+//! | `error_10_…` to `error_99_…` | moments | the error that it stays within in so many % of the time, m |
 //!
 //! The ways: `ukf`, the published filter alone; `calibrated`, with the barometer calibrated at each rest; `map`, which knows the
 //! floors too; `map_printed_q` and `map_mended_q`, which adapt Q; `trips`, the distances of `liftsim track`; `slow`, with the
@@ -40,6 +40,9 @@ use table::Point;
 pub(super) use table::Table;
 pub(super) use watched::Watched;
 use way::Way;
+
+/// Of the time, %.
+const SHARES: [u8; 7] = [10, 25, 50, 75, 90, 95, 99];
 
 impl Outcomes for Table {
     const NAME: &'static str = "height";
@@ -82,18 +85,21 @@ impl Outcomes for Table {
         let estimates = each.flat_map(|(place, way)| {
             let name = |outcome: &str| format!("{outcome}_{}", way.name());
             let mean = |at| Mean::new(sums, 2 * place + at, trials, confidence);
-            let within = quantile(&name("error_95"), &sums.values[place], 0.95, confidence);
-            [
-                mean(0).named(&name("error"), trials, "trials"),
-                mean(1).root().named(&name("rms"), trials, "trials"),
+            let within = SHARES.map(|share| {
+                let outcome = name(&format!("error_{share}"));
+                let p = f64::from(share) / 100.0;
+                let within = quantile(&outcome, &sums.values[place], p, confidence);
                 // Moments of one lift tell nothing of others, so there is no interval.
                 Estimate {
                     unit: "moments",
                     low: within.value,
                     high: within.value,
                     ..within
-                },
-            ]
+                }
+            });
+            let error = mean(0).named(&name("error"), trials, "trials");
+            let rms = mean(1).root().named(&name("rms"), trials, "trials");
+            [error, rms].into_iter().chain(within)
         });
         estimates.collect()
     }

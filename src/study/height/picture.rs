@@ -1,10 +1,15 @@
-//! The mean error along the drift, a way to a curve.
+//! The mean error along the drift, and below it how often it is how large where the weather drifts most; a way to a curve.
 
+use super::SHARES;
 use super::row::Row;
 use super::way::Way;
-use crate::plot::{Limit, Plot};
+use crate::plot::{Axis, Limit, Mark, Panel, Plot, Style, ends};
 use crate::study::along::{self, Kind, Outcome, Shown};
 use crate::study::outcomes::facts;
+use libm::log10;
+
+/// The least error that is drawn, m: those of trials are in steps of it.
+const LEAST: f64 = 1e-3;
 
 /// The picture of a study.
 pub fn plot(rows: &[Row], seed: u64) -> Plot {
@@ -30,11 +35,37 @@ pub fn plot(rows: &[Row], seed: u64) -> Plot {
         facts.to_vec(),
     ]
     .concat();
-    along::plot(
-        outcomes,
-        &labels,
-        vec![shown],
-        "drift of the weather, hPa an hour",
-        &caption,
-    )
+    let axis = "drift of the weather, hPa an hour";
+    let mut plot = along::plot(outcomes, &labels, vec![shown], axis, &caption);
+    add_distribution(&mut plot, rows);
+    plot
+}
+
+/// Adds the panel of the share of the time, by the error that it stays within.
+fn add_distribution(plot: &mut Plot, rows: &[Row]) {
+    let drift = rows.iter().map(|row| row.drift).fold(0.0, f64::max);
+    let lines = Way::ALL.map(|way| {
+        let point = |share: u8| {
+            let outcome = format!("error_{share}_{}", way.name());
+            let mut rows = rows.iter();
+            let row = rows.find(|row| row.drift == drift && row.outcome == outcome)?;
+            let error = log10(row.estimate.max(LEAST));
+            error
+                .is_finite()
+                .then_some((error, f64::from(share) / 100.0))
+        };
+        SHARES.into_iter().filter_map(point).collect::<Vec<_>>()
+    });
+    let (low, high) = ends(lines.iter().flatten().map(|it| it.0));
+    let (low, high) = if low < high { (low, high) } else { (-2.0, 0.0) };
+    let x = format!("error of the height, m, where the weather drifts by {drift} hPa an hour");
+    let x = Axis::decades(low - 0.1, high + 0.1).labelled(x);
+    let y = Axis::linear(0.0, 1.0, 5).labelled("share of the time");
+    plot.panels.push(Panel::new(150.0, x, y));
+    let panel = plot.panels.len() - 1;
+    plot.add(panel, Mark::Grid);
+    for (way, line) in lines.into_iter().enumerate() {
+        plot.add(panel, Mark::Line(line, Style::of(way)));
+    }
+    plot.add(panel, Mark::Axes);
 }

@@ -6,7 +6,7 @@ use super::way::{Published, Way};
 use crate::counts::{Shape, Sums, Values};
 use crate::recording::Sample;
 use crate::study::trips::tracked;
-use crate::track::fusion::{Drift, Fusion, Position, Reference, SlowHeight};
+use crate::track::fusion::{Barometry, Fusion, Position, Reference};
 use crate::track::{Motion, Place, Rules, Track, Uncertain, Vertical, VerticalFilter};
 use libm::{fabs, round};
 
@@ -31,15 +31,9 @@ const STEP: f64 = 1e-3;
 const EVERY: f64 = 0.1;
 const COUNTED: usize = 500;
 
-/// Beside a trip a rest is left out for so long, s.
-const LAG: f64 = 1.0;
-
 /// A car that is within this of a floor is at it, m, but for so much.
 const NEAR: f64 = 1.0;
 const LEVEL: f64 = 0.005;
-
-/// The variance of a distance that is not known, m².
-const UNKNOWN: f64 = 1e6;
 
 /// The sums of these points, whose lifts are the same.
 pub(super) fn run(points: &[&Point], seed: u64, trial: u64) -> Vec<Sums> {
@@ -152,50 +146,42 @@ fn put_right(
     barometer: &[(f64, f64)],
     knows_floors: bool,
 ) -> Vec<(f64, f64)> {
-    let end = watched.samples.last().map_or(0.0, |it| it.time);
-    let starts = track.trips.iter().filter_map(|it| it.trip.start);
-    let stops = track.trips.iter().filter_map(|it| it.trip.stop);
-    let rests = [0.0].into_iter().chain(stops).zip(starts.chain([end]));
-    let mut knots = Vec::new();
-    let mut slow: Option<(SlowHeight, f64, f64)> = None;
-    for (number, (from, to)) in rests.enumerate() {
-        let read = read(barometer, from + LAG, to);
-        let middle = f64::midpoint(from, to);
-        let (mut now, gone) = match slow.take() {
-            None => (SlowHeight::new(Drift::default(), read), 0.0),
-            Some((mut slow, before, gone)) => {
-                let trip = &track.trips[number - 1];
-                let mean = trip.distance.unwrap_or(0.0);
-                let variance = trip.deviation.map_or(UNKNOWN, |it| it * it);
-                slow.travel(Uncertain { mean, variance }, middle - before);
-                slow.read(read);
-                (slow, gone + mean)
-            }
-        };
-        let height = now.position().mean;
+    let floor = |position: Uncertain| {
+        let height = position.mean;
         let near = watched.floors.iter().copied();
         let near = near.min_by(|a, b| fabs(a - height).total_cmp(&fabs(b - height)));
         let floor = near.filter(|it| knows_floors && fabs(it - height) < NEAR);
-        if let Some(mean) = floor {
-            let variance = LEVEL * LEVEL;
-            now.stand(Uncertain { mean, variance });
-        }
-        let off = now.position().mean - gone;
-        knots.extend([(from, off), (to, off)]);
-        slow = Some((now, middle, gone));
-    }
-    knots
-}
-
-/// The mean of what the barometer reads between two times, as a height with its variance.
-fn read(barometer: &[(f64, f64)], from: f64, to: f64) -> Uncertain {
-    let place = |time: f64| barometer.partition_point(|it| it.0 < time);
-    let readings = &barometer[place(from)..place(to)];
-    let number = readings.len() as f64;
-    Uncertain {
-        mean: readings.iter().map(|it| it.1).sum::<f64>() / number,
-        variance: NOISE * NOISE / number,
-    }
+        floor.map(|mean| Uncertain {
+            mean,
+            variance: LEVEL * LEVEL,
+        })
+    };
+    let heights = Barometry {
+        readings: barometer,
+        noise: NOISE,
+        rounded: 0.0,
+    };
+    let positions = heights.positions(&track.trips, &[], floor);
+    let end = watched.samples.last().map_or(0.0, |it| it.time);
+    let starts = track.trips.iter().filter_map(|it| it.trip.start);
+    let stops = track.trips.iter().filter_map(|it| it.trip.stop);
+    let distances = track.trips.iter().map(|it| it.distance.unwrap_or(0.0));
+    let gone = [0.0].into_iter().chain(distances);
+    let gone = gone.scan(0.0, |sum, distance| {
+        *sum += distance;
+        Some(*sum)
+    });
+    let rests = [0.0].into_iter().chain(stops).zip(starts.chain([end]));
+    let knots = rests
+        .zip(positions)
+        .zip(gone)
+        .flat_map(|(((from, to), position), gone)| {
+            [
+                (from, position[0].mean - gone),
+                (to, position[1].mean - gone),
+            ]
+        });
+    knots.collect()
 }
 
 /// The value at a time on straight lines between knots, and as the nearest outside; 0 without any.

@@ -16,11 +16,13 @@
 //!
 //! [^1]: The monitor with accelerometer and barometer, in Chinese (楊昱等, 太原理工大學學報).
 
+mod carried;
 mod reference;
 mod slow;
 #[cfg(test)]
 mod tests;
 
+pub use carried::Barometry;
 pub use reference::Reference;
 pub use slow::{Drift, SlowHeight};
 

@@ -5,7 +5,7 @@
 //! of the barometer's readings measures p + w. So trips carry the position over minutes and the barometer over hours, the
 //! less the more its drift has been seen to be steady. A floor at which the car is known to stand measures p alone.
 
-use crate::kalman::{Estimate, Innovation};
+use crate::kalman::Estimate;
 use crate::track::Uncertain;
 
 /// The places of the state.
@@ -16,6 +16,12 @@ const RATE: usize = 2;
 /// H of the two measurements.
 const BAROMETER: [f64; 3] = [1.0, 1.0, 0.0];
 const FLOOR: [f64; 3] = [1.0, 0.0, 0.0];
+
+/// The variance of an offset of which nothing is known, m².
+const UNKNOWN: f64 = 1e8;
+
+/// A barometer that reads something else than is expected by more than this, in deviations, has jumped.
+const JUMP: f64 = 5.0;
 
 /// How the weather moves a barometer's height.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,15 +50,15 @@ pub struct SlowHeight {
 }
 
 impl SlowHeight {
-    /// A car that stands at 0 m, where the barometer reads this height, m.
-    pub fn new(drift: Drift, read: Uncertain) -> Self {
+    /// A car that stands at 0 m; what a barometer reads there is not known yet.
+    pub fn new(drift: Drift) -> Self {
         let mut covariance = [0.0; 9];
-        covariance[4 * OFFSET] = read.variance;
+        covariance[4 * OFFSET] = UNKNOWN;
         covariance[4 * RATE] = drift.rate * drift.rate;
         Self {
             drift,
             estimate: Estimate {
-                mean: [0.0, read.mean, 0.0],
+                mean: [0.0; 3],
                 covariance,
             },
         }
@@ -75,15 +81,19 @@ impl SlowHeight {
             .predict(&transition, &[distance.mean, 0.0, 0.0], &noise);
     }
 
-    /// The barometer reads this height at rest, m.
-    pub fn read(&mut self, height: Uncertain) -> Innovation {
-        self.estimate
-            .update(&BAROMETER, height.mean, height.variance)
+    /// The barometer reads this height at rest, m. Where that cannot be it has jumped, and tells nothing yet.
+    pub fn read(&mut self, height: Uncertain) {
+        let Uncertain { mean, variance } = height;
+        let innovation = self.estimate.innovation(&BAROMETER, mean, variance);
+        if innovation.nis() > JUMP * JUMP {
+            self.estimate.covariance[4 * OFFSET] += UNKNOWN;
+        }
+        self.estimate.update(&BAROMETER, mean, variance);
     }
 
     /// The car stands at a floor of this height, m.
-    pub fn stand(&mut self, floor: Uncertain) -> Innovation {
-        self.estimate.update(&FLOOR, floor.mean, floor.variance)
+    pub fn stand(&mut self, floor: Uncertain) {
+        self.estimate.update(&FLOOR, floor.mean, floor.variance);
     }
 
     /// m above where it stood first.

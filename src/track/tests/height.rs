@@ -1,7 +1,5 @@
 //! Heights by the pressure of the air, against the standard atmosphere and generated trips whose truth is known.
 
-use crate::detection::{End, Trip};
-use crate::monitor::Direction;
 use crate::recording::{Barometer, Pressure, PressureUnit};
 use crate::rng::Stream;
 use crate::signal::white_noise;
@@ -98,31 +96,9 @@ impl Building {
     /// What an accelerometer says, whose gain is `gain`; −1 hangs upside down.
     fn trips(&self, gain: f64) -> Vec<Tracked> {
         let trips = self.distances.iter().enumerate();
-        let trips = trips.map(|(at, distance)| Tracked {
-            trip: Trip {
-                ride: at + 1,
-                direction: Direction::of(gain * distance),
-                start: Some(Self::start(at)),
-                inertial: None,
-                braking: None,
-                levelling: None,
-                landing: None,
-                stop: Some(Self::start(at) + TRIP),
-                speed: 1.0,
-                ended: End::Stop,
-                or_start: None,
-                or_stop: None,
-                start_decision: None,
-                stop_decision: None,
-            },
-            distance: Some(gain * distance),
-            deviation: Some(0.05),
-            closing_speed: None,
-            widened: None,
-            landing: None,
-            climb: None,
-            quality: None,
-            unknown: None,
+        let trips = trips.map(|(at, distance)| {
+            let start = Self::start(at);
+            Tracked::told(at + 1, [start, start + TRIP], gain * distance)
         });
         trips.collect()
     }

@@ -4,11 +4,11 @@ use super::numbers::{direction, fixed, none};
 use super::parts::{section as titled, sentence, wide};
 use crate::track::quality::{Limit, Measure, PAIRS, Quality, Verdict};
 use crate::track::{QualityReport, TrackReport, Tracked};
-use maud::{Markup, html};
+use maud::{Markup, PreEscaped, html};
 use std::iter;
 
-pub(super) fn section(report: &TrackReport) -> Markup {
-    let judged = |quality| html! { (judged(report.rides, quality)) };
+pub(super) fn section(report: &TrackReport, picture: Option<&str>) -> Markup {
+    let judged = |quality| html! { (judged(report.rides, quality, picture)) };
     let content = (report.quality.as_ref()).map_or_else(
         || html! { p { "The rides were not judged (" code { "--quality" } ")." } },
         judged,
@@ -16,7 +16,7 @@ pub(super) fn section(report: &TrackReport) -> Markup {
     titled("quality", "Ride quality", content)
 }
 
-fn judged(rides: &[Tracked], report: &QualityReport) -> Markup {
+fn judged(rides: &[Tracked], report: &QualityReport, picture: Option<&str>) -> Markup {
     let remarks = report.remarks(rides);
     let Some(speed) = report.rated_speed else {
         return html! { @for remark in remarks { p { (sentence(&remark)) } } };
@@ -26,6 +26,9 @@ fn judged(rides: &[Tracked], report: &QualityReport) -> Markup {
             "Beside the limits of " strong { (report.norm) } ", for a rated speed of " (fixed(speed, 2)) " m/s."
         }
         (wide("Ride quality", table(rides, report)))
+        @if let Some(picture) = picture {
+            figure { (wide("Ride quality as a picture", html! { (PreEscaped(picture)) })) }
+        }
         ul.notes {
             li {
                 "✓ within its limit, ✗ beyond it, ? beyond it, but it may be the noise of the sensor; a figure without a mark has \
