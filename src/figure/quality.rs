@@ -5,11 +5,14 @@ use crate::track::quality::{Measure, PAIRS};
 use crate::track::{QualityReport, Tracked};
 
 /// The height of a panel, points.
-const HEIGHT: f64 = 62.0;
+const HEIGHT: f64 = 80.0;
 
 /// Of the largest values, and of what 95 % do not exceed.
 const STYLES: [Style; 2] = [Style::of(0), Style::of(1)];
 const DASH: &[f64] = &[4.0, 3.0];
+
+/// How far they stand beside their ride, where they are alike.
+const APART: [f64; 2] = [-0.1, 0.1];
 
 /// The picture of the rides of a recording that is called `name`; none if fewer than two were judged.
 pub fn plot(rides: &[Tracked], report: &QualityReport, name: &str) -> Option<Plot> {
@@ -30,13 +33,19 @@ pub fn plot(rides: &[Tracked], report: &QualityReport, name: &str) -> Option<Plo
     plot.margins.legend = (6.0, 6.0);
     for (panel, (.., series, limits)) in panels.into_iter().enumerate() {
         plot.add(panel, Mark::Grid);
-        for ((points, limit), style) in series.into_iter().zip(limits).zip(STYLES) {
+        let series = series
+            .into_iter()
+            .zip(limits)
+            .zip(STYLES.into_iter().zip(APART));
+        for ((points, limit), (style, apart)) in series {
             let level = limit.map(|limit| vec![(x.from, limit), (x.to, limit)]);
             plot.add(
                 panel,
                 Mark::Line(level.unwrap_or_default(), style.dashed(DASH)),
             );
-            let points = points.into_iter().map(Point::at);
+            let points = points
+                .into_iter()
+                .map(|(ride, value)| Point::at((ride + apart, value)));
             plot.add(panel, Mark::Markers(points.collect(), style));
         }
         plot.add(panel, Mark::Axes);

@@ -8,7 +8,7 @@
 use super::gravity::{Estimator, Parts};
 use super::record::Track;
 use crate::plot::ends;
-use crate::recording::{Recording, Sample};
+use crate::recording::{GRAVITY, Recording, Sample};
 use crate::vector::{Vector, angle, length, unit};
 use serde::Serialize;
 
@@ -18,6 +18,9 @@ const SHORTEST: f64 = 0.5;
 
 /// Less is no gravity, m/s².
 const LEAST: f64 = 5.0;
+
+/// By so much gravity differs from place to place, and a little more, as a share.
+const ELSEWHERE: f64 = 0.005;
 
 /// The vertical of the record.
 const UP: Vector = [0.0, 0.0, 1.0];
@@ -118,14 +121,106 @@ pub fn calibrated(of: &[Calibration]) -> Option<(&'static str, String)> {
         1 => "at one rest".to_owned(),
         rests => format!("at {rests} rests"),
     };
-    let lengths = format!("{least:.3} to {most:.3} m/s² {rests}");
+    let mut words = format!("{least:.3} to {most:.3} m/s² {rests}");
     if first.tilt.is_none() {
-        return Some(("offset", lengths + ", without gravity"));
+        return Some(("offset", words + ", without gravity"));
     }
     let turned = of.iter().map(|it| angle(it.up, first.up));
     let turned = turned.fold(0.0, f64::max);
-    Some((
-        "gravity",
-        format!("{lengths}, turned by at most {turned:.1} degrees"),
-    ))
+    words += &format!(", turned by at most {turned:.1} degrees");
+    let off = f64::midpoint(least, most) / GRAVITY - 1.0;
+    if off.abs() > ELSEWHERE {
+        let way = if off > 0.0 { "more" } else { "less" };
+        let by = 100.0 * off.abs();
+        words += &format!(
+            "; {by:.1} % {way} than on earth: an offset, or a gain that every distance shares"
+        );
+    }
+    Some(("gravity", words))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::detection::Detection;
+    use crate::monitor;
+    use crate::recording::Reading;
+    use crate::track::TrackSettings;
+    use std::fmt::Write;
+
+    /// A sensor of 1.01 that stands for 10 s, goes up for 6 s, is turned by 2 degrees, and stands again.
+    fn recording(gravity: f64) -> Recording {
+        let mut text = "t (s),x (m/s^2),y (m/s^2),z (m/s^2)\n".to_owned();
+        for sample in 0..2600 {
+            let time = f64::from(sample) / 100.0;
+            let pulse = |from: f64| {
+                if (from..from + 1.5).contains(&time) {
+                    1.0
+                } else {
+                    0.0
+                }
+            };
+            let up = 1.01 * (gravity + pulse(10.0) - pulse(14.5));
+            let turned: f64 = if time < 16.0 { 0.0 } else { 2.0 };
+            let (sin, cos) = turned.to_radians().sin_cos();
+            let shake = 0.01 * f64::from(sample % 7 - 3);
+            writeln!(
+                text,
+                "{time},{},{shake},{}",
+                0.3 + up * sin,
+                up * cos + shake
+            )
+            .unwrap();
+        }
+        let reading = Reading {
+            across: true,
+            ..Reading::default()
+        };
+        Recording::from_bytes("made.csv", text.into_bytes(), &reading).unwrap()
+    }
+
+    fn tracked(recording: &Recording) -> Track {
+        let design = monitor::Settings::default().at(100.0).unwrap();
+        let detection = Detection::of(&design, recording.samples(), None, Some(true));
+        let samples = recording.samples();
+        Track::of(samples, None, &detection, TrackSettings::default())
+    }
+
+    #[test]
+    fn gravity_shows_a_gain_and_a_turn() {
+        let recording = recording(9.81);
+        let track = tracked(&recording);
+        let calibrations = track.calibrations(&recording);
+        assert_eq!(calibrations.len(), 2, "{calibrations:?}");
+        for it in &calibrations {
+            assert!((it.length - 1.01 * 9.81).abs() < 0.02, "{it:?}");
+        }
+        let turned = angle(calibrations[0].up, calibrations[1].up);
+        assert!((turned - 2.0).abs() < 0.02, "{turned}");
+        let (name, words) = calibrated(&calibrations).unwrap();
+        assert_eq!(name, "gravity");
+        let part = "at 2 rests, turned by at most 2.0 degrees; 1.0 % more than on earth";
+        assert!(words.contains(part), "{words}");
+        // In motion nothing is across but the shaking, and the turn is seen until the next rest.
+        let horizontal = track.horizontal(&recording);
+        let most = |from: f64, to: f64| {
+            let part = horizontal.iter().filter(|it| (from..to).contains(&it.0));
+            part.fold(0.0, |most: f64, it| most.max(it.1))
+        };
+        assert!(most(0.0, 15.9) < 0.05, "{}", most(0.0, 15.9));
+        assert!(most(22.0, 26.0) < 0.05, "{}", most(22.0, 26.0));
+    }
+
+    #[test]
+    fn without_gravity_rest_reads_an_offset() {
+        let recording = recording(0.0);
+        let calibrations = tracked(&recording).calibrations(&recording);
+        let (name, words) = calibrated(&calibrations).unwrap();
+        assert_eq!(name, "offset");
+        assert!(words.starts_with("0.30"), "{words}");
+        assert!(
+            words.ends_with("rests, without gravity") || words.ends_with("rest, without gravity"),
+            "{words}"
+        );
+    }
 }
