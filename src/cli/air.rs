@@ -6,7 +6,7 @@ use super::{Failure, warn};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::recording::{Barometer, Recording};
-use liftsim::track::{Barometric, Climbs, Track, TrackSettings};
+use liftsim::track::{Barometric, Climbs, Track, TrackSettings, hidden};
 use std::path::{Path, PathBuf};
 
 /// The air that lifts are in, °C.
@@ -77,8 +77,9 @@ impl AirArguments {
                 heights = climbs(&measured.track);
             }
         }
-        let undecided = &measured.rides.detection.undecided;
-        measured.track.rise(&heights, undecided);
+        let (detection, recording) = (&measured.rides.detection, &measured.rides.recording);
+        let unseen = hidden(detection, recording.samples());
+        measured.track.rise(&heights, &unseen);
         measured.heights = Some((barometer, heights));
         Ok(measured)
     }

@@ -190,10 +190,11 @@ impl TrackCommand {
         rides: &Rides,
         building: &mut Building,
     ) -> Result<(), Failure> {
-        if rides.detection.filter.time_constant().is_some() {
+        let has_height = track.trips.iter().any(|it| it.climb.is_some());
+        if rides.detection.filter.time_constant().is_some() && !has_height {
             return Err(self.rides.refused(anyhow!(
-                "behind a high-pass filter no floors are found (record the raw accelerometer, with g, or leave out \
-                 --floors and --map)"
+                "behind a high-pass filter no floors are found (record the raw accelerometer, with g, or a barometer beside it, \
+                 or leave out --floors and --map)"
             )));
         }
         let samples = rides.recording.samples();

@@ -4,13 +4,13 @@ use super::canvas::{Align, Canvas, Shape, Text};
 use super::frame::Frame;
 use super::legend::Place;
 use super::mark::Mark;
-use super::picture::{CAPTION_LEFT, Plot, WIDTH};
+use super::picture::{CAPTION_LEFT, Panel, Plot, WIDTH};
 use super::placed::Placed;
 use super::text::{CAPTION, font_width};
 
 /// From one line of a caption to the next.
 const CAPTION_STEP: f64 = 10.5;
-/// Between panels one under the other: in one column, and in rows of several with titles.
+/// Between panels one under the other: where they share what is along x, and where words stand between them.
 const BETWEEN: [f64; 2] = [10.0, 36.0];
 /// Between panels side by side.
 const BESIDE: f64 = 22.0;
@@ -84,14 +84,15 @@ impl Plot {
         let width = WIDTH - self.margins.left - self.margins.right;
         let width = (width - BESIDE * (columns - 1.0)) / columns;
         let left = self.margins.left + (index % self.columns) as f64 * (width + BESIDE);
-        let between = BETWEEN[usize::from(self.columns > 1)];
+        let has_words = |panel: &Panel| self.columns > 1 || !panel.x.label.is_empty();
+        let between = |panel| BETWEEN[usize::from(has_words(panel))];
         let over = self
             .panels
             .iter()
             .step_by(self.columns)
             .take(index / self.columns);
         let top = above + self.margins.top;
-        let top = over.fold(top, |top, panel| top + panel.height + between);
+        let top = over.fold(top, |top, panel| top + panel.height + between(panel));
         let panel = &self.panels[index.min(self.panels.len() - 1)];
         let (right, bottom) = (left + width, top + panel.height);
         Frame {

@@ -199,7 +199,7 @@ mod tests {
         assert!((turned - 2.0).abs() < 0.02, "{turned}");
         let (name, words) = calibrated(&calibrations).unwrap();
         assert_eq!(name, "gravity");
-        let part = "at 2 rests, turned by at most 2.0 degrees; 1.0 % more than on earth";
+        let part = "at 2 rests, turned by at most 2.0 degrees; 1.1 % more than on earth";
         assert!(words.contains(part), "{words}");
         // In motion nothing is across but the shaking, and the turn is seen until the next rest.
         let horizontal = track.horizontal(&recording);

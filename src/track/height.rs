@@ -11,10 +11,10 @@
 //! [^1]: The monitor with accelerometer and barometer, in Chinese (楊昱等, 太原理工大學學報).
 
 use super::climb::{Climb, Standing};
+use super::filter::Uncertain;
 use super::fusion::Barometry;
 use super::record::{Track, Tracked};
 use super::rested::Rested;
-use crate::detection::Undecided;
 use crate::recording::{Barometer, GRAVITY, Pressure};
 use libm::hypot;
 use serde::Serialize;
@@ -96,24 +96,24 @@ pub struct Climbs {
 }
 
 impl Track {
-    /// Gives each trip its height, and the position after it.
-    pub fn rise(&mut self, climbs: &Climbs, undecided: &[Undecided]) {
+    /// Gives each trip its height, and the position after it; the car may go `unseen` between these times, s.
+    pub fn rise(&mut self, climbs: &Climbs, unseen: &[Range<f64>]) {
         let barometry = Barometry {
             readings: &climbs.readings,
             noise: climbs.noise,
             rounded: climbs.rounded,
         };
-        let unseen = undecided.iter().map(|it| it.from..it.to);
-        let unseen: Vec<Range<f64>> = unseen.collect();
-        let positions = barometry.positions(&self.trips, &unseen, |_| None);
+        let stays = barometry.stays(&self.trips, unseen, |_| None);
         // An error of the air's temperature is one of all heights.
         let scale = climbs.air.deviation / (climbs.air.celsius + FREEZING);
-        let each = positions.into_iter().skip(1).zip(&climbs.climbs);
-        for (trip, ([position, _], climb)) in self.trips.iter_mut().zip(each) {
+        let each = stays.windows(2).zip(&climbs.climbs);
+        for (trip, (stays, climb)) in self.trips.iter_mut().zip(each) {
+            let Uncertain { mean, variance } = stays[1].begin;
             trip.climb = *climb;
+            trip.unseen = stays[0].unseen;
             trip.standing = trip.trip.stop.map(|_| Standing {
-                position: position.mean,
-                position_deviation: hypot(position.variance.sqrt(), scale * position.mean),
+                position: mean,
+                position_deviation: hypot(variance.sqrt(), scale * mean),
             });
         }
     }

@@ -1,11 +1,13 @@
 //! The trips of a record among the floors of a building.
 
+use super::filter::Uncertain;
 use super::floors::{Floors, Judgement, Stop};
 use super::record::{Track, Tracked};
 use crate::detection::Detection;
 use crate::fields::names;
 use crate::recording::Sample;
 use serde_json::Value;
+use std::ops::Range;
 
 /// What the columns of a landing begin with.
 const PREFIX: &str = "landing_";
@@ -19,48 +21,83 @@ pub(super) fn hides(one: Sample, next: Sample) -> bool {
     since <= 0.0 || since > HIDES
 }
 
+/// What a barometer does not know better says nothing of floors, and what is less is no ride, m.
+const VAGUE: f64 = 0.5;
+const NO_RIDE: f64 = 1.5;
+
+/// Where the cage may go unseen, s: what a record does not decide, and its holes.
+pub fn hidden(detection: &Detection, samples: &[Sample]) -> Vec<Range<f64>> {
+    undecided(detection).chain(holes(samples)).collect()
+}
+
+fn undecided(detection: &Detection) -> impl Iterator<Item = Range<f64>> {
+    detection.undecided.iter().map(|it| it.from..it.to)
+}
+
+/// A clock that was set back hides what comes after.
+fn holes(samples: &[Sample]) -> impl Iterator<Item = Range<f64>> {
+    let pairs = samples.windows(2).map(|pair| (pair[0], pair[1]));
+    let holes = pairs.filter(|(one, next)| hides(*one, *next));
+    holes.map(|(one, next)| one.time..next.time.max(one.time))
+}
+
 impl Track {
-    /// Takes the car through the trips of these samples. Where one is not measured from rest to rest, the record does not
-    /// decide what the cage did, or a hole may hide it, the car may be at any floor. A hole may be before the last sample.
+    /// Takes the car through the trips of these samples. Where nothing says how far it went it may be at any floor: where it
+    /// went unseen, or on a trip that the record does not decide, or does not show from rest to rest. Only a barometer may. A hole may
+    /// be before the last sample.
     pub fn land(&mut self, detection: &Detection, samples: &[Sample], floors: &mut Floors) {
-        let undecided = detection.undecided.iter().map(|it| (it.from, it.to));
-        let pairs = samples.windows(2).map(|pair| (pair[0], pair[1]));
-        let holes = pairs.filter(|(one, next)| hides(*one, *next));
-        // A clock that was set back hides what comes after.
-        let holes = holes.map(|(one, next)| (one.time, next.time.max(one.time)));
-        let holes: Vec<(f64, f64)> = holes.collect();
-        let undecided: Vec<(f64, f64)> = undecided.collect();
-        let is_in = |spans: &[(f64, f64)], from: f64, to: f64| {
-            spans.iter().any(|span| span.0 < to && span.1 > from)
+        let undecided: Vec<Range<f64>> = undecided(detection).collect();
+        let hidden = hidden(detection, samples);
+        let is_in = |spans: &[Range<f64>], from: f64, to: f64| {
+            spans.iter().any(|span| span.start < to && span.end > from)
         };
         let mut stood = f64::NEG_INFINITY;
         for it in &mut self.trips {
             let start = it.trip.start.unwrap_or(stood);
             let stop = it.trip.stop.unwrap_or(f64::INFINITY);
-            if is_in(&undecided, stood, stop) || is_in(&holes, stood, start) {
-                floors.lose();
+            if is_in(&hidden, stood, start) {
+                go_unseen(floors, it.unseen);
             }
-            it.landing = it
-                .closed()
-                .filter(|_| !is_in(&undecided, start, stop))
-                .map(|(distance, deviation)| floors.step(distance, deviation * deviation));
+            let closed = it.closed(!is_in(&undecided, start, stop));
+            it.landing = closed.map(|it| floors.step(it.mean, it.variance));
             match it.landing {
                 Some(landing) => self.course.lay(stop, landing.position),
                 None => floors.lose(),
             }
             stood = stop;
         }
-        if is_in(&undecided, stood, f64::INFINITY) || is_in(&holes, stood, f64::INFINITY) {
+        if is_in(&hidden, stood, f64::INFINITY) {
             floors.lose();
         }
     }
 }
 
+/// Takes a car as far as a barometer says that it went unseen.
+fn go_unseen(floors: &mut Floors, gone: Option<Uncertain>) {
+    match gone.filter(|gone| gone.variance < VAGUE * VAGUE) {
+        Some(Uncertain { mean, variance }) if mean.abs() > NO_RIDE => {
+            floors.step(mean, variance);
+        }
+        Some(_) => {}
+        None => floors.lose(),
+    }
+}
+
 impl Tracked {
-    /// The distance from rest to rest, and its deviation.
-    fn closed(&self) -> Option<(f64, f64)> {
+    /// The distance from rest to rest, by the accelerometer where that is decided, and by the barometer; by the former alone
+    /// where they are unlike.
+    fn closed(&self, is_decided: bool) -> Option<Uncertain> {
         self.trip.stop?;
-        self.distance.zip(self.deviation)
+        let known = |it: (f64, f64)| Uncertain {
+            mean: it.0,
+            variance: it.1 * it.1,
+        };
+        let distance = self.distance.zip(self.deviation).filter(|_| is_decided);
+        let height = self.climb.map(|it| (it.height, it.height_deviation));
+        match (distance.map(known), height.map(known)) {
+            (Some(one), Some(other)) => Some(one.with(other).unwrap_or(one)),
+            (one, other) => one.or(other),
+        }
     }
 
     /// The value of a column of [`columns`]; null if it has none, nothing of another column.

@@ -75,6 +75,7 @@ pub use height::{Air, Climbs};
 pub use integrals::{integrated, moments};
 pub use judged::{Beyond, QualityReport, QualityWarning};
 pub use kept::KeptError;
+pub use landing::hidden;
 pub use level::{Level, Scatter};
 pub use live::{LiveTrip, LiveTrips};
 pub use noise::{Densities, Deviations, Noise};

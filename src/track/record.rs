@@ -45,6 +45,9 @@ pub struct Tracked {
     /// How smooth it was, where that is asked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub quality: Option<Quality>,
+    /// How far the car went unseen before it, by a barometer, m.
+    #[serde(skip)]
+    pub unseen: Option<Uncertain>,
     /// Why there is no distance.
     #[serde(skip)]
     pub unknown: Option<Unknown>,
@@ -225,6 +228,7 @@ impl Tracked {
             landing: None,
             climb: None,
             standing: None,
+            unseen: None,
             quality: None,
             unknown: None,
         }

@@ -3,7 +3,7 @@
 use super::SHARES;
 use super::row::Row;
 use super::way::Way;
-use crate::plot::{Axis, Limit, Mark, Panel, Plot, Style, ends};
+use crate::plot::{Axis, Curve, Limit, Mark, Panel, Plot, Point, Style, add_bands, ends};
 use crate::study::along::{self, Kind, Outcome, Shown};
 use crate::study::outcomes::facts;
 use libm::log10;
@@ -44,19 +44,23 @@ pub fn plot(rows: &[Row], seed: u64) -> Plot {
 /// Adds the panel of the share of the time, by the error that it stays within.
 fn add_distribution(plot: &mut Plot, rows: &[Row]) {
     let drift = rows.iter().map(|row| row.drift).fold(0.0, f64::max);
-    let lines = Way::ALL.map(|way| {
+    let curves = (0..).zip(Way::ALL).map(|(index, way)| {
         let point = |share: u8| {
             let outcome = format!("error_{share}_{}", way.name());
             let mut rows = rows.iter();
             let row = rows.find(|row| row.drift == drift && row.outcome == outcome)?;
             let error = log10(row.estimate.max(LEAST));
-            error
-                .is_finite()
-                .then_some((error, f64::from(share) / 100.0))
+            let place = (error, f64::from(share) / 100.0);
+            error.is_finite().then_some(Point::at(place))
         };
-        SHARES.into_iter().filter_map(point).collect::<Vec<_>>()
+        Curve {
+            style: Style::of(index),
+            points: SHARES.into_iter().filter_map(point).collect(),
+        }
     });
-    let (low, high) = ends(lines.iter().flatten().map(|it| it.0));
+    let curves: Vec<Curve> = curves.collect();
+    let errors = curves.iter().flat_map(|it| &it.points).map(|it| it.x);
+    let (low, high) = ends(errors);
     let (low, high) = if low < high { (low, high) } else { (-2.0, 0.0) };
     let x = format!("error of the height, m, where the weather drifts by {drift} hPa an hour");
     let x = Axis::decades(low - 0.1, high + 0.1).labelled(x);
@@ -64,8 +68,6 @@ fn add_distribution(plot: &mut Plot, rows: &[Row]) {
     plot.panels.push(Panel::new(150.0, x, y));
     let panel = plot.panels.len() - 1;
     plot.add(panel, Mark::Grid);
-    for (way, line) in lines.into_iter().enumerate() {
-        plot.add(panel, Mark::Line(line, Style::of(way)));
-    }
+    add_bands(plot, panel, &curves, false);
     plot.add(panel, Mark::Axes);
 }

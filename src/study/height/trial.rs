@@ -161,7 +161,7 @@ fn put_right(
         noise: NOISE,
         rounded: 0.0,
     };
-    let positions = heights.positions(&track.trips, &[], floor);
+    let stays = heights.stays(&track.trips, &[], floor);
     let end = watched.samples.last().map_or(0.0, |it| it.time);
     let starts = track.trips.iter().filter_map(|it| it.trip.start);
     let stops = track.trips.iter().filter_map(|it| it.trip.stop);
@@ -173,13 +173,10 @@ fn put_right(
     });
     let rests = [0.0].into_iter().chain(stops).zip(starts.chain([end]));
     let knots = rests
-        .zip(positions)
+        .zip(stays)
         .zip(gone)
-        .flat_map(|(((from, to), position), gone)| {
-            [
-                (from, position[0].mean - gone),
-                (to, position[1].mean - gone),
-            ]
+        .flat_map(|(((from, to), stay), gone)| {
+            [(from, stay.begin.mean - gone), (to, stay.end.mean - gone)]
         });
     knots.collect()
 }

@@ -26,6 +26,17 @@ pub struct Barometry<'a> {
     pub rounded: f64,
 }
 
+/// The car between two trips, or before the first, or after the last: m above where it stood first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stay {
+    /// As it comes.
+    pub begin: Uncertain,
+    /// As it leaves.
+    pub end: Uncertain,
+    /// How far it may have gone in it, where that is not seen, m.
+    pub unseen: Option<Uncertain>,
+}
+
 /// Between two trips, or beside the only one; an end that is not known is none, that of the record infinite.
 struct Rest {
     begin: Option<f64>,
@@ -35,17 +46,17 @@ struct Rest {
 }
 
 impl Barometry<'_> {
-    /// Where the car is at the begin and at the end of each rest, m above its first: before all trips, then after each. Where
+    /// Where the car is before all trips, then after each. Where
     /// no trip says how far it went, or it may have gone `unseen` between these times, s, the barometer does. `floor` is that
     /// at which the car is known to stand, if its position is about this.
-    pub fn positions(
+    pub fn stays(
         &self,
         trips: &[Tracked],
         unseen: &[Range<f64>],
         floor: impl Fn(Uncertain) -> Option<Uncertain>,
-    ) -> Vec<[Uncertain; 2]> {
+    ) -> Vec<Stay> {
         let mut car = Carried::default();
-        let positions = rests(trips, unseen).enumerate().map(|(number, rest)| {
+        let stays = rests(trips, unseen).enumerate().map(|(number, rest)| {
             if let Some(before) = number.checked_sub(1) {
                 car.gone = car.gone.plus(distance(&trips[before]));
             }
@@ -58,13 +69,21 @@ impl Barometry<'_> {
                 car.stand(&floor)
             };
             let begin = position(Uncertain::default());
-            let end = match rest.unseen {
+            let end = match &rest.unseen {
                 Some(_) => position(UNKNOWN),
                 None => position(Uncertain::default()),
             };
-            [begin, end]
+            let gone = Uncertain {
+                mean: end.mean - begin.mean,
+                variance: end.variance + begin.variance,
+            };
+            Stay {
+                begin,
+                end,
+                unseen: rest.unseen.map(|_| gone),
+            }
         });
-        positions.collect()
+        stays.collect()
     }
 
     /// What the barometer reads in the meantime, if it reads anything.

@@ -189,8 +189,8 @@ impl Building {
             noise: Self::NOISE,
             rounded: 0.0,
         };
-        let positions = heights.positions(&self.trips, unseen, |_| None);
-        let [_, Uncertain { mean, variance }] = *positions.last().unwrap();
+        let stays = heights.stays(&self.trips, unseen, |_| None);
+        let Uncertain { mean, variance } = stays.last().unwrap().end;
         assert!(variance.sqrt() < 0.8, "{variance}");
         (mean - 12.0) / variance.sqrt()
     }

@@ -3,6 +3,7 @@
 mod bound;
 mod detector;
 mod height;
+mod landing;
 mod trips;
 
 use crate::lift::{Drive, Ending, Journey, Pickup, Ride, Trip};
