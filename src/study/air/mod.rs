@@ -91,12 +91,15 @@ impl Outcomes for Table {
                 hits,
                 trials: trips,
             };
-            [
+            // Eq. (5) states no deviation.
+            let within =
+                (way != Way::Printed).then(|| share(&name("within"), within, "trips", confidence));
+            let of_height = [
                 mean(0).named(&name("scale"), trials, "trials"),
                 mean(1).named(&name("error"), trials, "trials"),
                 mean(2).root().named(&name("rms"), trials, "trials"),
-                share(&name("within"), within, "trips", confidence),
-            ]
+            ];
+            of_height.into_iter().chain(within)
         });
         let celsius = mean(trial::PAIRS * Way::ALL.len()).root();
         estimates
