@@ -261,6 +261,29 @@ fn a_real_barometer() {
         assert!((up * climb.height - 17.9).abs() < 0.15, "{climb:?}");
         assert!((up * climb.height_printed - 16.6).abs() < 0.1, "{climb:?}");
     }
+    // Its clock behind by 123.4 s, and more where it lags: the heights are the same.
+    let design = Settings::default().at(recording.rate()).unwrap();
+    let (detection, track) = Track::found(&design, recording.samples(), None);
+    let align = |barometer: &Barometer, said| track.align(&detection, barometer, said, None, false);
+    let mut behind = barometer.clone();
+    behind.readings.iter_mut().for_each(|it| it.time -= 123.4);
+    let aligned = align(&behind, None);
+    let aligned = aligned.expect("two rides").expect("nothing is said");
+    println!("{aligned}");
+    assert!(
+        (aligned.ahead - 123.4).abs() < 1.0 && aligned.deviation < 0.2,
+        "{aligned:?}"
+    );
+    let shifted = Climbs::of(&trips, &behind, aligned.ahead, Some(20.0));
+    for (climb, there) in climbs
+        .climbs
+        .iter()
+        .flatten()
+        .zip(shifted.climbs.iter().flatten())
+    {
+        assert!((climb.height - there.height).abs() < 0.05, "{there:?}");
+    }
+    assert_eq!(align(&barometer, Some(0.0)), Ok(None));
     let turned = recording.with_up(true);
     let trips = tracked(&turned, TrackSettings::default()).trips;
     assert!(Climbs::of(&trips, &barometer, 0.0, None).upside_down == Some(true));

@@ -6,7 +6,7 @@ use super::{Failure, warn};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::recording::{Barometer, Recording};
-use liftsim::track::{Barometric, Climbs, Track, TrackSettings, hidden};
+use liftsim::track::{Alignment, Barometric, Climbs, Track, TrackSettings, hidden};
 use std::path::{Path, PathBuf};
 
 /// The air that lifts are in, °C.
@@ -21,8 +21,16 @@ pub struct AirArguments {
     /// where --rate, --time, --time-unit or --member is given].
     #[arg(long, value_name = "FILE")]
     barometer: Option<PathBuf>,
+    /// The name of the barometer's column with the pressure, where there are several.
+    #[arg(long, value_name = "COLUMN", requires = "barometer")]
+    barometer_column: Option<String>,
+    /// How far the accelerometer's clock is ahead of the barometer's, s; dates as they are, other times as they are printed
+    /// [default: as dates say, or 0 where neither clock has any; where only one has, or where the rides clearly say otherwise, as the
+    /// rides say, whose acceleration and pressure must fit].
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = seconds)]
+    barometer_ahead: Option<f64>,
     /// Use no barometer.
-    #[arg(long, conflicts_with = "barometer")]
+    #[arg(long, conflicts_with_all = ["barometer", "barometer_ahead"])]
     no_barometer: bool,
     /// The temperature of the air, °C; heights are in proportion to its distance from −273.15 [default: that with which
     /// they are the distances, near 20].
@@ -44,6 +52,11 @@ fn celsius(text: &str) -> Result<f64, String> {
     celsius.ok_or_else(|| format!("must be a temperature of {} to {} °C", AIR.0, AIR.1))
 }
 
+fn seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse().ok().filter(|it: &f64| it.is_finite());
+    seconds.ok_or_else(|| "must be a number of seconds".to_owned())
+}
+
 impl AirArguments {
     /// Refuses outputs that are the barometer.
     pub fn apart<'a>(&'a self, outputs: impl Iterator<Item = &'a PathBuf>) -> Result<(), Failure> {
@@ -58,8 +71,8 @@ impl AirArguments {
             heights: None,
             unused: None,
         };
-        let (barometer, ahead) = match self.barometer(recording, &measured.rides)? {
-            Found::Used(barometer, ahead) => (barometer, ahead),
+        let (barometer, (ahead, alignment)) = match self.barometer(recording, &measured)? {
+            Found::Used(barometer, clock) => (barometer, clock),
             Found::Unused(why) => {
                 warn(&why);
                 measured.unused = Some(without_folder(&why, recording));
@@ -67,7 +80,10 @@ impl AirArguments {
             }
             Found::None => return Ok(measured),
         };
-        let climbs = |track: &Track| Climbs::of(&track.trips, &barometer, ahead, self.temperature);
+        let climbs = |track: &Track| Climbs {
+            alignment,
+            ..Climbs::of(&track.trips, &barometer, ahead, self.temperature)
+        };
         let mut heights = climbs(&measured.track);
         let is_sign_known = measured.rides.recording.vertical().is_sign_known;
         if let (Some(is_upside_down), false) = (heights.upside_down, is_sign_known) {
@@ -84,18 +100,21 @@ impl AirArguments {
         Ok(measured)
     }
 
-    fn barometer(&self, path: &Path, rides: &Rides) -> Result<Found, Failure> {
+    fn barometer(&self, path: &Path, measured: &Measured) -> Result<Found, Failure> {
         if self.no_barometer {
             return Ok(Found::None);
         }
         let (found, is_given) = match &self.barometer {
-            Some(file) => (Barometer::open(file).map(Some), true),
-            None if rides.is_told => (Ok(None), false),
+            Some(file) => {
+                let column = self.barometer_column.as_deref();
+                (Barometer::open(file, column).map(Some), true)
+            }
+            None if measured.rides.is_told => (Ok(None), false),
             None => (Barometer::recorded_with(path), false),
         };
         let found = found.map_err(|error| anyhow!(error));
         let used = found.and_then(|it| {
-            it.map(|it| on_the_clock_of(&rides.recording, it))
+            it.map(|it| Ok((self.clock(measured, &it)?, it)))
                 .transpose()
         });
         match used {
@@ -103,17 +122,69 @@ impl AirArguments {
             Err(error) => Ok(Found::Unused(format!(
                 "the barometer is not used: {error:#}"
             ))),
-            Ok(Some((barometer, ahead))) => Ok(Found::Used(barometer, ahead)),
+            Ok(Some((clock, barometer))) => Ok(Found::Used(barometer, clock)),
+            Ok(None) if self.barometer_ahead.is_some() => Err(Failure::Input(anyhow!(
+                "--barometer-ahead: no barometer was recorded with the acceleration (give --barometer FILE)"
+            ))),
             Ok(None) => Ok(Found::None),
+        }
+    }
+
+    /// How far the recording's clock is ahead of a barometer's: as given, as they say, or as the rides say.
+    fn clock(&self, of: &Measured, barometer: &Barometer) -> anyhow::Result<Clock> {
+        let recording = &of.rides.recording;
+        let dates = [barometer.clock_offset, recording.facts().clock_offset];
+        // Times count from their dates; what is given, and printed, is between the clocks themselves.
+        let dated = match dates {
+            [Some(own), Some(other)] => own - other,
+            _ => 0.0,
+        };
+        let said = match (self.barometer_ahead, dates) {
+            (Some(given), _) => overlapping(recording, barometer, dated + given),
+            (None, [Some(_), Some(_)] | [None, None]) => overlapping(recording, barometer, dated),
+            _ => Err(anyhow!("only one of the two clocks has dates")),
+        };
+        let file = &barometer.file;
+        if self.barometer_ahead.is_some() {
+            let said =
+                said.map_err(|why| anyhow!("{file}: {why} (give another --barometer-ahead)"))?;
+            return Ok((said, None));
+        }
+        let is_up_known = recording.vertical().is_sign_known;
+        let known = said.as_ref().ok().copied();
+        let aligned = (of.track).align(
+            &of.rides.detection,
+            barometer,
+            known,
+            self.temperature,
+            is_up_known,
+        );
+        match (said, aligned) {
+            (_, Ok(Some(by_rides))) => {
+                let alignment = Alignment {
+                    ahead: by_rides.ahead - dated,
+                    instead_of: by_rides.instead_of.map(|it| it - dated),
+                    ..by_rides
+                };
+                Ok((by_rides.ahead, Some(alignment)))
+            }
+            (Ok(said), _) => Ok((said, None)),
+            (Err(why), Ok(None)) => Err(why),
+            (Err(why), Err(error)) => Err(anyhow!(
+                "{file}: {why}, and the clocks cannot be aligned, because {error} (give --barometer-ahead SECONDS, or leave it out with \
+                 --no-barometer)"
+            )),
         }
     }
 }
 
+/// How far a recording's clock is ahead of a barometer's, and how that was found by the rides.
+type Clock = (f64, Option<Alignment>);
+
 /// A barometer that was looked for.
 enum Found {
     None,
-    /// And how far the recording's clock is ahead of its, s.
-    Used(Barometer, f64),
+    Used(Barometer, Clock),
     /// It cannot be used, and why.
     Unused(String),
 }
@@ -126,36 +197,19 @@ fn without_folder(message: &str, recording: &Path) -> String {
     })
 }
 
-/// A barometer whose clock is that of a recording, and how far the latter's is ahead.
-fn on_the_clock_of(
-    recording: &Recording,
-    barometer: Barometer,
-) -> anyhow::Result<(Barometer, f64)> {
+/// The offset, if with it a barometer has times of the recording.
+fn overlapping(recording: &Recording, barometer: &Barometer, ahead: f64) -> anyhow::Result<f64> {
     let facts = recording.facts();
-    let ahead = match (barometer.clock_offset, facts.clock_offset) {
-        (Some(own), Some(other)) => own - other,
-        (None, None) => 0.0,
-        _ => {
-            return Err(anyhow!(
-                "{}: only one of the two clocks has dates (give both the same clock)",
-                barometer.file
-            ));
-        }
-    };
-    let times = || barometer.readings.iter().map(|it| it.time + ahead);
-    let (from, to) = times().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), it| {
-        (low.min(it), high.max(it))
-    });
-    if from >= facts.end || to <= facts.start {
-        return Err(anyhow!(
-            "{}: its times, {from:.1} to {to:.1} s, are not those of the recording, {:.1} to {:.1} s (give both the same \
-             clock, or leave it out with --no-barometer)",
-            barometer.file,
-            facts.start,
-            facts.end
-        ));
+    let [from, to] = [barometer.readings.first(), barometer.readings.last()]
+        .map(|it| it.map_or(f64::NAN, |it| it.time + ahead));
+    if from < facts.end && to > facts.start {
+        return Ok(ahead);
     }
-    Ok((barometer, ahead))
+    Err(anyhow!(
+        "its times, {from:.1} to {to:.1} s, are not those of the recording, {:.1} to {:.1} s",
+        facts.start,
+        facts.end
+    ))
 }
 
 fn track(rides: &Rides) -> Track {
@@ -167,8 +221,14 @@ fn track(rides: &Rides) -> Track {
 
 /// The barometer and the air, in lines.
 pub fn text(of: &Barometric) -> String {
+    let clock = of.alignment.map_or(String::new(), |it| format!(", {it}"));
     format!(
-        "barometer: {}, \"{}\" ({}), {} readings, deviation {:.2} m\nair: {}\n",
-        of.file, of.column, of.unit, of.readings, of.noise, of.air,
+        "barometer: {}, \"{}\" ({}), {} readings, {}{clock}\nair: {}\n",
+        of.file,
+        of.column,
+        of.unit,
+        of.readings,
+        of.fineness(),
+        of.air,
     )
 }

@@ -137,9 +137,8 @@ impl TrackCommand {
             warn(warning);
         }
         if let Some((barometer, climbs)) = &heights {
-            for warning in climbs.warnings(&track.trips, barometer.left_out) {
-                warn(warning);
-            }
+            barometer.warnings.iter().for_each(warn);
+            climbs.warnings(&track.trips).iter().for_each(warn);
         }
         let floors = building.as_ref().map(|building| &building.floors);
         let heights = heights.as_ref().map(|(of, climbs)| (of, climbs));

@@ -150,8 +150,8 @@ fn course_panels(track: &Track) -> [(f64, Axis); 2] {
 
 /// Readings of a barometer, few enough to be seen, at the height where most of them agree with the position.
 fn readings(barometer: &[(f64, f64)], track: &Track) -> Vec<Point> {
-    let places = || track.course.stretches().iter().flatten();
-    let (Some(first), Some(last)) = (places().next(), places().last()) else {
+    let mut places = track.course.stretches().iter().flatten();
+    let (Some(first), Some(last)) = (places.next(), places.next_back()) else {
         return Vec::new();
     };
     let together = barometer.chunks(barometer.len().div_ceil(MOST_READINGS).max(1));
@@ -164,10 +164,9 @@ fn readings(barometer: &[(f64, f64)], track: &Track) -> Vec<Point> {
     });
     let within = means.filter(|it| (first.time..=last.time).contains(&it.0));
     let readings: Vec<(f64, f64)> = within.collect();
-    let off = readings.iter().filter_map(|(time, height)| {
-        let here = places().take_while(|place| place.time <= *time).last()?;
-        Some(here.position.mean - height)
-    });
+    let off = readings
+        .iter()
+        .filter_map(|(time, height)| Some(track.course.position(*time)? - height));
     let off = median(off.collect());
     let points = readings
         .iter()

@@ -1,6 +1,6 @@
 //! How the file was read, and what the record shows of the sensor.
 
-use super::numbers::{fixed, size};
+use super::numbers::fixed;
 use super::parts::section as titled;
 use crate::detection::Recorded;
 use crate::format::thousands;
@@ -129,12 +129,13 @@ fn filter(it: &Recorded) -> String {
 fn barometer(of: &Barometric) -> Vec<Fact> {
     let file = Path::new(of.file).file_name().unwrap_or_default();
     let file = file.to_string_lossy();
-    let deviation = size(of.noise, 2);
+    let readings = thousands(of.readings as u64);
+    let clock = of.alignment.map_or(String::new(), |it| format!("; {it}"));
     let text = format!(
-        "{file}, “{}”, in {}; {} readings with a deviation of {deviation} m",
+        "{file}, “{}”, in {}; {readings} readings, {}{clock}",
         of.column,
         of.unit,
-        thousands(of.readings as u64)
+        of.fineness(),
     );
     vec![("Barometer", text), ("Air", of.air.to_string())]
 }

@@ -5,7 +5,8 @@
 //! accelerations the one with gravity is taken, because it shows which way is up.
 
 use super::error::{Names, RecordingError, RecordingProblem};
-use super::reading::{Quantity, Reading};
+use super::layout::Quantity;
+use super::reading::Reading;
 use super::source::{Member, Packing, Source};
 use super::table::Columns;
 use std::io::{self, Read};
@@ -13,6 +14,11 @@ use zip::result::ZipError;
 use zip::{CompressionMethod, ZipArchive};
 
 const NOT_A_ZIP: &str = "ends in .zip, but is not a zip archive (download it again)";
+
+const NO_ACCELERATION: &str = "zip archive: no member is a table of accelerations, it holds";
+const NO_BAROMETER: &str = "zip archive: no member is a table of a barometer, it holds";
+const ACCELERATIONS: &str = "zip archive: several members are tables of accelerations:";
+pub(super) const BAROMETERS: &str = "zip archive: several members are tables of a barometer:";
 
 /// The members of an archive, or none if the source is no archive.
 ///
@@ -45,6 +51,7 @@ pub(super) fn table(
     source: &Source,
     members: &[Member],
     reading: &Reading,
+    quantity: Quantity,
 ) -> Result<Source, RecordingError> {
     let names = || members.iter().map(|member| &*member.name);
     if let Some(wanted) = &reading.member {
@@ -63,7 +70,7 @@ pub(super) fn table(
     let mut tables = Vec::new();
     for candidate in candidates {
         let table = source.with_member(candidate)?;
-        if let Ok((parser, _)) = Columns::begin(&table, reading) {
+        if let Ok((parser, _)) = Columns::begin(&table, reading, quantity) {
             tables.push((parser.layout.includes_gravity(table.name()), table));
         }
     }
@@ -75,20 +82,15 @@ pub(super) fn table(
         return Ok(tables.remove(0).1);
     }
     let found = tables.iter().filter_map(|(_, table)| table.part());
-    let (what, names, remedy) = if tables.is_empty() {
-        let what = match reading.quantity {
-            Quantity::Acceleration => {
-                "zip archive: no member is a table of accelerations, it holds"
-            }
-            Quantity::Pressure => "zip archive: no member is a table of a barometer, it holds",
-        };
-        (what, Names::of(names()), "export as CSV")
-    } else {
-        let what = match reading.quantity {
-            Quantity::Acceleration => "zip archive: several members are tables of accelerations:",
-            Quantity::Pressure => "zip archive: several members are tables of a barometer:",
-        };
-        (what, Names::of(found), "--member NAME")
+    let (what, names, remedy) = match (quantity, tables.is_empty()) {
+        (Quantity::Acceleration, true) => (NO_ACCELERATION, Names::of(names()), "export as CSV"),
+        (Quantity::Pressure, true) => (NO_BAROMETER, Names::of(names()), "export as CSV"),
+        (Quantity::Acceleration, false) => (ACCELERATIONS, Names::of(found), "--member NAME"),
+        (Quantity::Pressure, false) => (
+            BAROMETERS,
+            Names::of(found),
+            "unpack it, and give one of them: --barometer FILE",
+        ),
     };
     let problem = RecordingProblem::Among {
         what,

@@ -19,6 +19,13 @@ pub struct RecordingError {
     pub problem: Box<RecordingProblem>,
 }
 
+impl RecordingError {
+    /// Whether names are listed under these words.
+    pub(super) fn is_among(&self, what: &str) -> bool {
+        matches!(&*self.problem, RecordingProblem::Among { what: it, .. } if *it == what)
+    }
+}
+
 /// A problem with the line to blame, if there is one.
 pub(super) type Located = (Option<u64>, RecordingProblem);
 

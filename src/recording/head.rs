@@ -163,7 +163,7 @@ fn is_header(columns: &[Column]) -> bool {
     let has = |is: fn(Role) -> bool| columns.iter().any(|column| is(column.role));
     let is_measured = has(|role| matches!(role, Role::Along { .. } | Role::Acceleration));
     has(|role| matches!(role, Role::Time { .. }))
-        && (is_measured || pressure::column(columns).is_some())
+        && (is_measured || !pressure::columns(columns).is_empty())
 }
 
 /// The splitter, if by it a line is a row: every cell is a number, a time or blank; or those are that a header

@@ -2,8 +2,9 @@
 
 use super::cell::shorten;
 use super::error::{Located, Names, RecordingError, RecordingProblem};
+use super::layout::Quantity;
 use super::lines::{LONGEST_LINE, Lines};
-use super::reading::{Quantity, Reading};
+use super::reading::Reading;
 use super::source::Source;
 use super::text_table::{LARGEST, MOST_COLUMNS, MOST_LETTERS, TextTable, too_large};
 use serde::de::{DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
@@ -28,7 +29,11 @@ const BAROMETERS: [&str; 1] = ["Barometer"];
 ///
 /// # Errors
 /// If it is JSON of another kind, or has no accelerometer.
-pub(super) fn table(source: Source, reading: &Reading) -> Result<Source, RecordingError> {
+pub(super) fn table(
+    source: Source,
+    reading: &Reading,
+    quantity: Quantity,
+) -> Result<Source, RecordingError> {
     let mut text = source.text()?;
     let start = text
         .fill_buf()
@@ -39,7 +44,7 @@ pub(super) fn table(source: Source, reading: &Reading) -> Result<Source, Recordi
             Err(source.error(None, damaged(too_large())))
         }
         (Some(b'['), member) => {
-            let (sensor, table) = of_array(text, member.as_deref(), reading.quantity)
+            let (sensor, table) = of_array(text, member.as_deref(), quantity)
                 .map_err(|problem| source.error(None, problem))?;
             let part = Some(&*sensor).filter(|sensor| !sensor.is_empty());
             Ok(source.converted(table, part, 1))
@@ -101,7 +106,10 @@ fn of_array(
                 Quantity::Pressure => "JSON: no sensor is a barometer, there are",
             },
             names: Names::of(names),
-            remedy: "--member NAME",
+            remedy: match quantity {
+                Quantity::Acceleration => "--member NAME",
+                Quantity::Pressure => "give the barometer's own table",
+            },
         },
     })
 }

@@ -5,14 +5,23 @@ use super::error::{Located, Names, RecordingProblem};
 use super::head::{Head, no_stream};
 use super::names::{self, Column, Gravity, Role};
 use super::pressure;
-use super::reading::{Quantity, Reading};
+use super::reading::Reading;
 use super::unit::{TimeUnit, Unit};
+
+/// What a sensor measures.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum Quantity {
+    /// Along one axis or three.
+    Acceleration,
+    /// Of the air.
+    Pressure,
+}
 
 /// Where a table comes from.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(super) enum Input {
-    /// A file, of which everything is known.
-    File,
+    /// A file, of which everything is known, and what is read of it.
+    File(Quantity),
     /// A stream of one acceleration, each line with a last cell for the drum if there is one.
     Stream { has_drum: bool },
 }
@@ -42,7 +51,7 @@ pub(super) struct Layout {
     pub is_given: bool,
     /// Given, or in the file.
     pub unit: Option<Unit>,
-    /// Whether nameless columns were taken for time, x, y, z.
+    /// Whether nameless columns were taken for time, x, y, z, or for time and a pressure.
     pub is_guessed: bool,
 }
 
@@ -87,22 +96,26 @@ impl Layout {
         reading.unit.check()?;
         let is_told = reading.time.is_some() && reading.acceleration.is_some();
         let has_roles = columns.iter().any(|column| column.role != Role::Other);
-        if !is_headed && !has_roles && !is_told {
+        let is_pressure = input == Input::File(Quantity::Pressure);
+        if !is_headed && !has_roles && !is_told && !is_pressure {
             return Err(match input {
-                Input::File => RecordingProblem::Unnamed {
+                Input::File(_) => RecordingProblem::Unnamed {
                     width: columns.len(),
                 },
                 Input::Stream { has_drum } => no_stream(has_drum),
             });
         }
         let time = match (reading.rate, input) {
-            (Some(_), Input::File) => None,
-            (_, Input::Stream { .. }) if reading.time.is_none() => time(&columns, reading).ok(),
-            _ => Some(time(&columns, reading)?),
+            (Some(_), Input::File(_)) => None,
+            (_, Input::Stream { .. }) if reading.time.is_none() => {
+                time(&columns, reading, is_pressure).ok()
+            }
+            _ => Some(time(&columns, reading, is_pressure)?),
         };
-        let axes = match reading.quantity {
-            Quantity::Acceleration => accelerations(&columns, reading, time)?,
-            Quantity::Pressure => vec![(None, pressure(&columns)?)],
+        let axes = if is_pressure {
+            vec![(None, pressure(&columns, reading, is_headed)?)]
+        } else {
+            accelerations(&columns, reading, time)?
         };
         if let (Input::Stream { .. }, true) = (input, axes.len() > 1) {
             return Err(RecordingProblem::Simple(STREAM_OF_AXES));
@@ -120,7 +133,7 @@ impl Layout {
                 Unit::Found => columns[first].unit,
                 given => Some(given),
             },
-            is_guessed: !is_headed && axes.len() == 3,
+            is_guessed: !is_headed && (axes.len() == 3 || is_pressure),
             axes,
             columns,
         })
@@ -153,7 +166,7 @@ impl Layout {
 /// for the user to name.
 fn numbered(width: usize, reading: &Reading, input: Input) -> Vec<Column> {
     let is_timed = match input {
-        Input::File => reading.rate.is_none(),
+        Input::File(_) => reading.rate.is_none(),
         Input::Stream { .. } => width > 1,
     };
     let width = match input {
@@ -200,7 +213,11 @@ fn no_column(columns: &[Column], what: &'static str, remedy: &'static str) -> Re
 }
 
 /// The column named by the user, or else the best clock.
-fn time(columns: &[Column], reading: &Reading) -> Result<usize, RecordingProblem> {
+fn time(
+    columns: &[Column],
+    reading: &Reading,
+    is_pressure: bool,
+) -> Result<usize, RecordingProblem> {
     if let Some(name) = &reading.time {
         return named(columns, "time column", name);
     }
@@ -213,14 +230,29 @@ fn time(columns: &[Column], reading: &Reading) -> Result<usize, RecordingProblem
         });
     let best = clocks.min().map(|(_, index)| index);
     let what = "no column looks like time, the columns are";
-    let remedy = "--time COLUMN, or --rate HZ where rows are evenly spaced";
+    let remedy = if is_pressure {
+        "name it `time (s)` in the header"
+    } else {
+        "--time COLUMN, or --rate HZ where rows are evenly spaced"
+    };
     best.ok_or_else(|| no_column(columns, what, remedy))
 }
 
-fn pressure(columns: &[Column]) -> Result<usize, RecordingProblem> {
+/// The column named by the user, or else the first that looks like a pressure, or else the only nameless one.
+fn pressure(
+    columns: &[Column],
+    reading: &Reading,
+    is_headed: bool,
+) -> Result<usize, RecordingProblem> {
+    if let Some(name) = &reading.acceleration {
+        return named(columns, "column of the barometer", name);
+    }
+    let is_only = |of: &Column| !is_headed && of.role == Role::Acceleration;
+    let found = pressure::columns(columns).first().copied();
+    let found = found.or_else(|| columns.iter().position(is_only));
     let what = "no column looks like the pressure of the air, the columns are";
-    let remedy = "name it `pressure (hPa)` in the header";
-    pressure::column(columns).ok_or_else(|| no_column(columns, what, remedy))
+    let remedy = "name it `pressure (hPa)` in the header, or give --barometer-column COLUMN";
+    found.ok_or_else(|| no_column(columns, what, remedy))
 }
 
 /// The column named by the user, or else the axes, or else the only one.

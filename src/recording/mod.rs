@@ -73,16 +73,17 @@ pub use axis::{Axis, UnknownName};
 pub use error::{Names, RecordingError, RecordingProblem};
 pub use facts::{Facts, Gap};
 
-pub use barometer::Barometer;
+pub use barometer::{Barometer, BarometerWarning};
 pub use line_reader::{LineError, LineReader, LineReading};
 pub use pressure::{Pressure, PressureUnit};
-pub use reading::{Quantity, Reading};
+pub use reading::Reading;
 pub use sample::Sample;
 pub use unit::{GRAVITY, TimeUnit, Unit, UnitError};
 
 pub use vertical::{Reason, Vertical};
 pub use warning::Warning;
 
+use layout::Quantity;
 use source::Source;
 use std::path::Path;
 use std::sync::Arc;
@@ -128,8 +129,8 @@ impl Recording {
     }
 
     fn of(source: Source, reading: &Reading) -> Result<Self, RecordingError> {
-        let source = container::table(source, reading)?;
-        let columns = Columns::read(&source, reading)?;
+        let source = container::table(source, reading, Quantity::Acceleration)?;
+        let columns = Columns::read(&source, reading, Quantity::Acceleration)?;
         let recording = Self::of_columns(columns, source.part().map(str::to_owned), reading);
         recording.map_err(|problem| source.error(None, problem))
     }

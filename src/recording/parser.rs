@@ -65,7 +65,7 @@ impl Parser {
         lines.give_back(head.lines.split_off(first));
         Ok(Self {
             clock: match input {
-                Input::File => Clock::of_file(layout.time_unit),
+                Input::File(_) => Clock::of_file(layout.time_unit),
                 Input::Stream { .. } => Clock::of_stream(layout.time_unit),
             },
             layout,

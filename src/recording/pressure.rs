@@ -115,15 +115,22 @@ impl fmt::Display for PressureUnit {
     }
 }
 
-/// The place of the column with the pressure, or else with an altitude.
-pub(super) fn column(columns: &[Column]) -> Option<usize> {
-    let is_pressure = |of: &&Column| match PressureUnit::named(&of.name) {
-        Some(unit) => unit != PressureUnit::Metres,
-        None => is_one(&PRESSURES, &of.name),
+/// The places of the columns with the pressure, or else with one in a unit that is not known, or else with an altitude.
+pub(super) fn columns(columns: &[Column]) -> Vec<usize> {
+    let rank = |of: &Column| {
+        let is_named = is_one(&PRESSURES, &of.name);
+        match (PressureUnit::named(&of.name), unit_name(&of.name)) {
+            (Some(unit), _) if unit != PressureUnit::Metres => Some(0),
+            (None, None) if is_named => Some(0),
+            (None, Some(_)) if is_named => Some(1),
+            _ => is_one(&ALTITUDES, &of.name).then_some(2),
+        }
     };
-    let is_altitude = |of: &&Column| is_one(&ALTITUDES, &of.name);
-    let place = |is_it: &dyn Fn(&&Column) -> bool| columns.iter().position(|of| is_it(&of));
-    place(&is_pressure).or_else(|| place(&is_altitude))
+    let ranks: Vec<Option<i32>> = columns.iter().map(rank).collect();
+    let best = ranks.iter().flatten().min();
+    let places =
+        (0..columns.len()).filter(|place| best.is_some() && ranks[*place].as_ref() == best);
+    places.collect()
 }
 
 /// The unit in brackets behind a name.

@@ -3,24 +3,12 @@
 use super::axis::Axis;
 use super::unit::{TimeUnit, Unit};
 
-/// What a sensor measures.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Quantity {
-    /// Along one axis or three.
-    #[default]
-    Acceleration,
-    /// Of the air.
-    Pressure,
-}
-
 /// Options for reading a file. By default all are found from the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
-    /// What to read.
-    pub quantity: Quantity,
     /// The name of the time column. Columns of a file without a header are named "1", "2", ….
     pub time: Option<String>,
-    /// The name of the one column that holds the vertical acceleration.
+    /// The name of the one column that holds the vertical acceleration, or a barometer's pressure.
     pub acceleration: Option<String>,
     /// The unit of time.
     pub time_unit: Option<TimeUnit>,

@@ -1,7 +1,7 @@
 //! The rows of a file as columns in memory, in one pass.
 
 use super::error::{Located, RecordingError, RecordingProblem};
-use super::layout::Input;
+use super::layout::{Input, Quantity};
 use super::lines::{Line, Lines};
 use super::parser::Parser;
 use super::reading::Reading;
@@ -48,9 +48,10 @@ impl Columns {
     pub fn begin(
         source: &Source,
         reading: &Reading,
+        quantity: Quantity,
     ) -> Result<(Parser, Lines<Text>), RecordingError> {
         let mut lines = Lines::new(source.text()?);
-        let begun = Parser::begin(&mut lines, source.name(), reading, Input::File);
+        let begun = Parser::begin(&mut lines, source.name(), reading, Input::File(quantity));
         let blame = |(line, problem)| source.error(line, problem);
         begun.map(|parser| (parser, lines)).map_err(blame)
     }
@@ -59,14 +60,18 @@ impl Columns {
     ///
     /// # Errors
     /// If it is no table of numbers, its times go back, or it is too large.
-    pub fn read(source: &Source, reading: &Reading) -> Result<Self, RecordingError> {
+    pub fn read(
+        source: &Source,
+        reading: &Reading,
+        quantity: Quantity,
+    ) -> Result<Self, RecordingError> {
         if let Some(rate) = reading.rate
             && !(1e-3..=1e7).contains(&rate)
         {
             let rule = "rate must lie in [0.001, 1e7] Hz";
             return Err(source.error(None, RecordingProblem::must(rule, rate, "--rate HZ")));
         }
-        let (parser, mut lines) = Self::begin(source, reading)?;
+        let (parser, mut lines) = Self::begin(source, reading, quantity)?;
         let blame = |(line, problem)| source.error(line, problem);
         let across = if reading.across { 48.0 } else { 0.0 };
         let mut columns = Self {

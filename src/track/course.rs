@@ -47,18 +47,13 @@ impl Course {
 
     /// The position at a time, s, on the line between the moments around it, m; none where it is not known.
     pub fn position(&self, time: f64) -> Option<f64> {
+        self.stretches.iter().find_map(|places| at(places, time))
+    }
+
+    /// How far it moves from one time to a later one, s; none where that is not known.
+    pub(super) fn change(&self, from: f64, to: f64) -> Option<f64> {
         let mut stretches = self.stretches.iter();
-        stretches.find_map(|places| {
-            let next = places.partition_point(|it| it.time < time);
-            let here = places.get(next)?;
-            if here.time == time {
-                return Some(here.position.mean);
-            }
-            let before = &places[next.checked_sub(1)?];
-            let share = (time - before.time) / (here.time - before.time);
-            let gone = here.position.mean - before.position.mean;
-            Some(before.position.mean + share * gone)
-        })
+        stretches.find_map(|places| Some(at(places, to)? - at(places, from)?))
     }
 
     /// When the filter knew something beside the acceleration.
@@ -140,4 +135,17 @@ impl Course {
             }
         }
     }
+}
+
+/// The position at a time in a stretch.
+fn at(places: &[Place], time: f64) -> Option<f64> {
+    let next = places.partition_point(|it| it.time < time);
+    let here = places.get(next)?;
+    if here.time == time {
+        return Some(here.position.mean);
+    }
+    let before = &places[next.checked_sub(1)?];
+    let share = (time - before.time) / (here.time - before.time);
+    let gone = here.position.mean - before.position.mean;
+    Some(before.position.mean + share * gone)
 }

@@ -10,32 +10,24 @@
 //!
 //! [^1]: The monitor with accelerometer and barometer, in Chinese (楊昱等, 太原理工大學學報).
 
+use super::air::{Air, FREEZING, INDOORS, above_first, kelvin, metres};
+use super::alignment::Alignment;
 use super::climb::{Climb, Standing};
 use super::filter::Uncertain;
 use super::fusion::Barometry;
+use super::height_warning::HeightWarning;
 use super::record::{Track, Tracked};
-use super::rested::Rested;
-use crate::recording::{Barometer, GRAVITY, Pressure};
+use super::rested::noise;
+use super::still::{Rest, is_frozen, silence, step};
+use crate::recording::{Barometer, Pressure};
 use libm::hypot;
-use serde::Serialize;
-use std::fmt;
 use std::ops::Range;
-
-/// The gas constant of dry air, J/(kg K).
-const DRY_AIR: f64 = 287.05;
-
-/// 0 °C, K.
-const FREEZING: f64 = 273.15;
-
-/// The air of a building where nothing is known of it, and its deviation, K.
-const INDOORS: (f64, f64) = (FREEZING + 20.0, 10.0);
 
 /// The error of an accelerometer's gain.
 const GAIN: f64 = 0.01;
 
-/// The rest that is looked at on either side of a trip, and what is left out beside the trip, where a barometer lags, s.
-const REST: f64 = 10.0;
-const LAG: f64 = 1.0;
+/// The error of a difference between two rests of which each lies between two steps of the sensor, in steps.
+const ROUNDED: f64 = 0.408_248_290_463_863;
 
 /// How fast the weather may change the pressure, Pa/s: 0.3 hPa an hour.
 const WEATHER: f64 = 30.0 / 3600.0;
@@ -53,29 +45,6 @@ struct Column {
     printed: f64,
 }
 
-/// The temperature of the air.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Air {
-    /// °C
-    pub celsius: f64,
-    /// Its standard deviation, K; 0 if it is given.
-    pub deviation: f64,
-    /// The number of trips that it is learnt from.
-    pub learnt: usize,
-}
-
-impl fmt::Display for Air {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:.1} ± {:.1} °C, ", self.celsius, self.deviation)?;
-        match self.learnt {
-            0 if self.deviation == 0.0 => f.write_str("as given"),
-            0 => f.write_str("not learnt: as usual indoors"),
-            1 => f.write_str("learnt from 1 ride and what is usual indoors"),
-            rides => write!(f, "learnt from {rides} rides and what is usual indoors"),
-        }
-    }
-}
-
 /// The trips of a record by a barometer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Climbs {
@@ -87,8 +56,14 @@ pub struct Climbs {
     pub readings: Vec<(f64, f64)>,
     /// The deviation of a reading, m.
     pub noise: f64,
-    /// The error of the mean of a rest that lies between two steps of the sensor, m.
-    pub rounded: f64,
+    /// That of the mean of a second of them, m.
+    pub second: f64,
+    /// Its steps, where they are coarser than that, m.
+    pub step: Option<f64>,
+    /// How the clocks were brought together, where that was needed.
+    pub alignment: Option<Alignment>,
+    /// What is wrong with the barometer.
+    pub faults: Vec<HeightWarning>,
     /// The numbers of trips whose distances are unlike.
     pub unlike: Vec<usize>,
     /// Whether up is down, if the barometer tells.
@@ -96,20 +71,26 @@ pub struct Climbs {
 }
 
 impl Track {
-    /// Gives each trip its height, and the position after it; the car may go `unseen` between these times, s.
+    /// Gives each trip its height, and the position after it, unless the barometer froze; the car may go `unseen` between these
+    /// times, s.
     pub fn rise(&mut self, climbs: &Climbs, unseen: &[Range<f64>]) {
+        for (trip, climb) in self.trips.iter_mut().zip(&climbs.climbs) {
+            trip.climb = *climb;
+        }
+        let is_frozen = |it: &HeightWarning| matches!(it, HeightWarning::Frozen { .. });
+        if climbs.faults.iter().any(is_frozen) {
+            return;
+        }
         let barometry = Barometry {
             readings: &climbs.readings,
-            noise: climbs.noise,
-            rounded: climbs.rounded,
+            second: climbs.second,
+            rounded: climbs.step.unwrap_or_default() * ROUNDED,
         };
         let stays = barometry.stays(&self.trips, unseen, |_| None);
         // An error of the air's temperature is one of all heights.
         let scale = climbs.air.deviation / (climbs.air.celsius + FREEZING);
-        let each = stays.windows(2).zip(&climbs.climbs);
-        for (trip, (stays, climb)) in self.trips.iter_mut().zip(each) {
+        for (trip, stays) in self.trips.iter_mut().zip(stays.windows(2)) {
             let Uncertain { mean, variance } = stays[1].begin;
-            trip.climb = *climb;
             trip.unseen = stays[0].unseen;
             trip.standing = trip.trip.stop.map(|_| Standing {
                 position: mean,
@@ -129,25 +110,28 @@ impl Climbs {
                 ..*it
             })
             .collect();
-        let logs = readings.iter().map(|it| (it.time, it.pascal.ln()));
-        let logs: Vec<(f64, f64)> = logs.collect();
-        let rests: Vec<[Rested; 2]> = (0..trips.len())
-            .map(|at| rests(trips, at).map(|rest| Rested::of(&logs, &rest.unwrap_or(NONE))))
+        let finest = step(&readings);
+        let rests: Vec<[Rest; 2]> = (0..trips.len())
+            .map(|at| Rest::around(trips, at, &readings, finest))
             .collect();
-        let noise = noise(rests.as_flattened());
-        let step = Some(step(&readings)).filter(|step| *step > noise);
+        let (noise, second) = noise(rests.iter().flatten().map(|it| &it.read));
+        let step = Some(finest).filter(|step| *step > noise);
         // A rest that lies between two steps reads one of them all the time.
-        let rounded = step.unwrap_or(0.0) / 6f64.sqrt();
-        let columns: Vec<Option<Column>> = rests
-            .iter()
-            .map(|[before, after]| Column::between(before, after, noise, rounded))
-            .collect();
+        let rounded = step.unwrap_or_default() * ROUNDED;
+        let columns = trips.iter().zip(&rests).map(|(trip, [before, after])| {
+            let column = Column::between(before, after, second, rounded);
+            column.filter(|_| !is_frozen(trip, &readings, finest))
+        });
+        let columns: Vec<Option<Column>> = columns.collect();
         let known: Vec<(usize, Column)> = columns
             .iter()
             .enumerate()
             .filter_map(|(place, column)| Some((place, (*column)?)))
             .collect();
-        let usual = celsius.map_or(INDOORS, |it| (it + FREEZING, GAIN * INDOORS.0));
+        let usual = (
+            kelvin(celsius),
+            celsius.map_or(INDOORS.1, |_| GAIN * INDOORS.0),
+        );
         let is_like = |column: &Column, distance: f64, deviation: f64| {
             let climb = column.climb(usual);
             (climb.height - distance).abs() <= UNLIKE * hypot(climb.height_deviation, deviation)
@@ -193,40 +177,74 @@ impl Climbs {
                 .map(|it| Some((*it)?.climb(kelvin)))
                 .collect(),
             noise: metres(noise, kelvin.0),
-            rounded: metres(rounded, kelvin.0),
-            readings: readings
-                .iter()
-                .map(|it| {
-                    (
-                        it.time,
-                        metres((readings[0].pascal / it.pascal).ln(), kelvin.0),
-                    )
-                })
-                .collect(),
+            second: metres(second, kelvin.0),
+            step: step.map(|it| metres(it, kelvin.0)),
+            alignment: None,
+            faults: faults(trips, &rests, &readings, (second, finest, rounded)),
+            readings: above_first(&readings, kelvin.0),
             unlike: unlike.into_iter().map(|(ride, ..)| ride).collect(),
             upside_down,
         }
     }
 }
 
-/// The height of the air between pressures of which this is the logarithm of the ratio, m.
-fn metres(log_ratio: f64, kelvin: f64) -> f64 {
-    DRY_AIR * kelvin / GRAVITY * log_ratio
+/// What is wrong with a barometer with this noise of a second, these steps, and this error of a difference by them.
+fn faults(
+    trips: &[Tracked],
+    rests: &[[Rest; 2]],
+    readings: &[Pressure],
+    (second, step, rounded): (f64, f64, f64),
+) -> Vec<HeightWarning> {
+    let jumps = |log: f64| log.abs() > Rest::jump(step);
+    let of_trips = trips
+        .iter()
+        .zip(rests)
+        .zip(1..)
+        .flat_map(|((trip, [before, after]), next)| {
+            let ride = trip.trip.ride;
+            let frozen = is_frozen(trip, readings, step);
+            let frozen = frozen.then_some(HeightWarning::Frozen {
+                ride,
+                distance: trip.distance,
+            });
+            let silent =
+                silence(trip, readings).map(|seconds| HeightWarning::Silent { ride, seconds });
+            let within = [before, after].map(|it| it.jump);
+            // The rest after it, which may be too long to be looked at as a whole.
+            let across = rests.get(next).and_then(|[other, _]| {
+                let column = Column::between(after, other, second, rounded)?;
+                let is_clear = column.log_ratio.abs() > UNLIKE * column.deviation;
+                let is_within = after.jump.or(other.jump).is_some();
+                (is_clear && !is_within && jumps(column.log_ratio)).then_some(column.log_ratio)
+            });
+            let jumped = within.into_iter().chain([across]).flatten();
+            let jumped = jumped.map(move |log| HeightWarning::Jump {
+                ride,
+                metres: metres(log, INDOORS.0),
+            });
+            frozen
+                .into_iter()
+                .chain(silent)
+                .chain(jumped)
+                .collect::<Vec<_>>()
+        });
+    of_trips.collect()
 }
 
 impl Column {
-    /// Between two rests of a barometer with this noise of a reading and this error of a difference by its steps.
-    fn between(one: &Rested, other: &Rested, noise: f64, rounded: f64) -> Option<Self> {
+    /// Between two rests of a barometer with this noise of the mean of a second and this error of a difference by its steps.
+    fn between(one: &Rest, other: &Rest, second: f64, rounded: f64) -> Option<Self> {
+        let printed = other.standard_altitude() - one.standard_altitude();
+        let [one, other] = [one, other].map(|it| &it.read);
         let seconds = other.time - one.time;
         let weather = WEATHER * seconds / one.mean.exp();
-        let readings = noise * (one.of_mean() + other.of_mean()).sqrt();
+        let readings = second * (one.of_mean() + other.of_mean()).sqrt();
         let deviation = hypot(hypot(readings, weather), rounded);
-        let [start, stop] = [one, other].map(standard_altitude);
         let log_ratio = one.mean - other.mean;
         (one.count > 0.0 && other.count > 0.0).then_some(Self {
             log_ratio,
             deviation,
-            printed: stop - start,
+            printed,
         })
     }
 
@@ -261,49 +279,4 @@ fn learn(trips: &[(usize, Column, f64, f64)]) -> Air {
         deviation: (1.0 / all).sqrt(),
         learnt: trips.len(),
     }
-}
-
-/// In the standard atmosphere, m.
-fn standard_altitude(rest: &Rested) -> f64 {
-    let (time, pascal) = (rest.time, rest.mean.exp());
-    Pressure { time, pascal }.standard_altitude()
-}
-
-/// No time at all.
-const NONE: Range<f64> = f64::INFINITY..f64::NEG_INFINITY;
-
-/// The rest before a trip and that after it, as far as they are looked at; none where that end is not recorded, nor that of
-/// the trip on its other side.
-fn rests(trips: &[Tracked], at: usize) -> [Option<Range<f64>>; 2] {
-    let trip = &trips[at].trip;
-    let begin = trips[..at]
-        .last()
-        .map_or(Some(f64::NEG_INFINITY), |it| it.trip.stop);
-    let end = trips
-        .get(at + 1)
-        .map_or(Some(f64::INFINITY), |it| it.trip.start);
-    let before = begin.zip(trip.start);
-    let after = trip.stop.zip(end);
-    [
-        before.map(|(begin, start)| (begin + LAG).max(start - REST)..start),
-        after.map(|(stop, end)| stop + LAG..end.min(stop + LAG + REST)),
-    ]
-}
-
-/// The smallest change from one reading to the next, as a logarithm.
-fn step(readings: &[Pressure]) -> f64 {
-    let changes = readings
-        .windows(2)
-        .map(|pair| (pair[1].pascal / pair[0].pascal).ln().abs());
-    let step = changes
-        .filter(|change| *change > 0.0)
-        .fold(f64::INFINITY, f64::min);
-    if step.is_finite() { step } else { 0.0 }
-}
-
-/// The deviation of readings among each other, as logarithms.
-fn noise(rests: &[Rested]) -> f64 {
-    let squares = rests.iter().flat_map(|rest| &rest.off).map(|off| off * off);
-    let spare: f64 = rests.iter().map(|rest| (rest.count - 1.0).max(0.0)).sum();
-    (squares.fold(0.0, |sum, square| sum + square) / spare.max(1.0)).sqrt()
 }

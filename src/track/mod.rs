@@ -15,8 +15,8 @@
 //! to 1.39 with levelling (`configs/trip_error.toml`). The second is as good without levelling; a creep of 0.08 m/s it may
 //! take for a stop, since a gain's error leaves as much.
 //!
-//! A barometer gives [heights](Climbs) beside them, and which way is up. [`vibration`] across the vertical is set beside what
-//! is usual in the lift.
+//! A barometer gives [heights](Climbs) beside them, and which way is up; its clock and the accelerometer's are [brought
+//! together](Track::align). [`vibration`] across the vertical is set beside what is usual in the lift.
 //!
 //! # What the deviation holds
 //! The noise of the sensor and of its bias, that of the motion as far as a uniform motion shows it, steps coarser than the noise,
@@ -30,7 +30,9 @@
 //! [^1]: A patent on the detection of lift motion and abnormal stops by an accelerometer, in Chinese (基于加速度传感器的电梯运
 //!     动检测及异常位置停车判断), claims 1 to 3.
 
+mod air;
 mod alarm;
+mod alignment;
 mod calibration;
 mod climb;
 mod course;
@@ -39,6 +41,7 @@ pub mod floors;
 pub mod fusion;
 pub mod gravity;
 mod height;
+mod height_warning;
 mod integrals;
 mod judged;
 mod kept;
@@ -57,6 +60,7 @@ mod settings;
 mod settled;
 mod shaken;
 mod steps;
+mod still;
 #[cfg(test)]
 mod tests;
 mod travelled;
@@ -66,12 +70,15 @@ pub mod vibration;
 mod warning;
 mod watch;
 
+pub use air::Air;
 pub use alarm::Alarm;
+pub use alignment::{Alignment, AlignmentError};
 pub use calibration::{Calibration, calibrated};
 pub use climb::{Climb, Standing};
 pub use course::{Course, Place};
 pub use filter::{TripFilter, Uncertain, Update};
-pub use height::{Air, Climbs};
+pub use height::Climbs;
+pub use height_warning::HeightWarning;
 pub use integrals::{integrated, moments};
 pub use judged::{Beyond, QualityReport, QualityWarning};
 pub use kept::KeptError;
@@ -88,5 +95,5 @@ pub use steps::{Step, Steps};
 pub use travelled::Travelled;
 pub use uniform::UniformDetector;
 pub use vertical::{ByRules, Motion, Move, Moves, Rules, Vertical, VerticalFilter};
-pub use warning::{HeightWarning, Warning};
+pub use warning::Warning;
 pub use watch::{Found, Happened, Watch};

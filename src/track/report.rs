@@ -2,10 +2,12 @@
 
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
+use super::air::Air;
+use super::alignment::Alignment;
 use super::calibration::Calibration;
 use super::climb::CLIMB;
 use super::floors::{Floor, Floors};
-use super::height::{Air, Climbs};
+use super::height::Climbs;
 use super::judged::QualityReport;
 use super::landing;
 use super::level::Level;
@@ -59,6 +61,11 @@ pub struct Barometric<'a> {
     pub readings: usize,
     /// The deviation of a reading, m.
     pub noise: f64,
+    /// Its steps, where they are coarser than that, m.
+    pub step: Option<f64>,
+    /// How its clock was aligned by the rides, where that was needed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub alignment: Option<Alignment>,
     pub air: Air,
 }
 
@@ -70,7 +77,18 @@ impl<'a> Barometric<'a> {
             unit: of.unit.to_string(),
             readings: of.readings.len(),
             noise: climbs.noise,
+            step: climbs.step,
+            alignment: climbs.alignment,
             air: climbs.air,
+        }
+    }
+
+    /// How fine its readings are.
+    pub fn fineness(&self) -> String {
+        match self.step {
+            Some(step) => format!("steps of {step:.2} m"),
+            None if self.noise == 0.0 => "no changes at rest".to_owned(),
+            None => format!("deviation {:.2} m", self.noise.max(0.01)),
         }
     }
 }
@@ -88,13 +106,15 @@ impl<'a> TrackReport<'a> {
         let of_recording = recording.warnings().iter().map(ToString::to_string);
         let of_detection = detection.warnings(recording.rate()).into_iter();
         let of_track = track.warnings().into_iter();
+        let of_barometer = barometer.iter().flat_map(|(of, _)| &of.warnings);
         let of_heights = barometer
             .iter()
-            .flat_map(|(of, climbs)| climbs.warnings(&track.trips, of.left_out).into_iter());
+            .flat_map(|(_, climbs)| climbs.warnings(&track.trips));
         Self {
             warnings: of_recording
                 .chain(of_detection.map(|it| it.to_string()))
                 .chain(of_track.map(|it| it.to_string()))
+                .chain(of_barometer.map(ToString::to_string))
                 .chain(of_heights.map(|it| it.to_string()))
                 .collect(),
             recording: Recorded::of(file, recording, detection),

@@ -3,6 +3,7 @@
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
 use super::height::Climbs;
+use super::height_warning::HeightWarning;
 use super::record::{Track, Tracked, Unknown};
 
 /// A reason to distrust distances.
@@ -49,42 +50,21 @@ pub enum Warning {
 /// Between them, m/s², a sensor at rest reads gravity along an axis that is not vertical: by 14 degrees or more.
 const TILTED: (f64, f64) = (0.5, 9.5);
 
-/// A reason to distrust heights.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum HeightWarning {
-    #[error(
-        "ride {ride}: by the barometer it went {height:+.1} m, by the accelerometer {distance:+.1} m (look at the barometer: did it \
-         freeze, jump, or have another clock? or was --temperature wrong?)"
-    )]
-    Unlike {
-        ride: usize,
-        height: f64,
-        distance: f64,
-    },
-    #[error(
-        "ride {0}: no height, the barometer has no reading in the 10 s of rest before it or after it (record it for as long as the \
-         acceleration, and every second)"
-    )]
-    Missing(usize),
-    #[error(
-        "by the barometer up is down in this recording (look at --axis and --invert, and at the sensor's mounting)"
-    )]
-    UpsideDown,
-    #[error("{0} readings of the barometer are of no air on earth, and were left out")]
-    LeftOut(usize),
-}
-
 impl Climbs {
     /// The warnings about the heights of these trips, if the vertical of the record is known.
-    pub fn warnings(&self, trips: &[Tracked], left_out: usize) -> Vec<HeightWarning> {
-        let left_out = (left_out > 0).then_some(HeightWarning::LeftOut(left_out));
+    pub fn warnings(&self, trips: &[Tracked]) -> Vec<HeightWarning> {
+        let clocks = self.alignment.and_then(|by_rides| {
+            let said = by_rides.instead_of?;
+            Some(HeightWarning::Clocks { by_rides, said })
+        });
         let upside_down = self.upside_down.filter(|it| *it);
         let upside_down = upside_down.map(|_| HeightWarning::UpsideDown);
         let of_trips = trips.iter().zip(&self.climbs).filter_map(|(it, climb)| {
             let ride = it.trip.ride;
             let Some(climb) = climb else {
                 let is_whole = it.trip.start.and(it.trip.stop).is_some();
-                return is_whole.then_some(HeightWarning::Missing(ride));
+                let is_said = self.faults.iter().any(|it| it.is_frozen(ride));
+                return (is_whole && !is_said).then_some(HeightWarning::Missing(ride));
             };
             let unlike = self.unlike.contains(&ride);
             it.distance
@@ -95,8 +75,9 @@ impl Climbs {
                     distance,
                 })
         });
-        left_out
+        clocks
             .into_iter()
+            .chain(self.faults.iter().cloned())
             .chain(upside_down)
             .chain(of_trips)
             .collect()

@@ -424,8 +424,16 @@ fn with_a_barometer(scale: f64) -> tempfile::TempDir {
     let end: f64 = last.split(',').next().unwrap().parse().unwrap();
     let rows = (0..=end as usize).map(|second| {
         let time = second as f64;
+        // The speed rises to 1.2 m/s in a ramp, and falls as it rose.
         let gone = |(start, stop, distance): &(f64, f64, f64)| {
-            distance * ((time - start) / (stop - start)).clamp(0.0, 1.0)
+            let uniform = distance.abs() / 1.2;
+            let ramp = stop - start - uniform;
+            let begun = |time: f64| {
+                let rising = time.clamp(0.0, ramp);
+                1.2 * (rising * rising / (2.0 * ramp) + (time - ramp).max(0.0))
+            };
+            let moved = time - start;
+            distance.signum() * (begun(moved) - begun(moved - uniform))
         };
         let height: f64 = truth.iter().map(gone).sum();
         let pressure = 755.0 * scale * (-height * 9.80665 / (287.05 * 293.15)).exp();
@@ -512,13 +520,14 @@ fn a_barometer_says_which_way_is_up() {
 fn a_barometer_that_cannot_be_used() {
     let directory = with_a_barometer(1.0);
     let path = directory.path();
-    let air = fs::read_to_string(path.join("air.csv")).unwrap();
-    let late = air.lines().skip(1).map(|line| format!("1000{line}\n"));
-    let late: String = late.collect();
     for (text, message) in [
         (
-            "time,pressure\n".to_owned() + &late,
-            "are not those of the recording",
+            "time,pressure\n100,755\n101,755\n".to_owned(),
+            "are not those of the recording, 0.0 to",
+        ),
+        (
+            "time,pressure\n1700000000,755\n1700000050,755\n".to_owned(),
+            "only one of the two clocks has dates, and the clocks cannot be aligned, because nowhere",
         ),
         (
             "time,pressure\n0,7\n1,7\n".to_owned(),
@@ -553,6 +562,260 @@ fn a_barometer_that_cannot_be_used() {
     assert_eq!(code, 0, "{err}");
     assert!(
         err.contains("the barometer is not used: ") && !out.contains("barometer:"),
+        "{err}"
+    );
+}
+
+/// A change of the readings of a barometer: times, s, and pressures, hPa.
+type Change<'a> = &'a dyn Fn(&mut Vec<(f64, f64)>);
+
+fn readings(path: &Path) -> Vec<(f64, f64)> {
+    let text = fs::read_to_string(path.join("air.csv")).unwrap();
+    let rows = text
+        .lines()
+        .skip(1)
+        .map(|line| line.split_once(',').unwrap());
+    let rows = rows.map(|(time, pressure)| (time.parse().unwrap(), pressure.parse().unwrap()));
+    rows.collect()
+}
+
+fn written(path: &Path, header: &str, readings: &[(f64, f64)]) {
+    let rows = readings
+        .iter()
+        .map(|(time, pressure)| format!("{time},{pressure}\n"));
+    fs::write(
+        path.join("bad.csv"),
+        header.to_owned() + &rows.collect::<String>(),
+    )
+    .unwrap();
+}
+
+/// What is wrong with a barometer is said, and the rides that it does not concern keep their heights.
+#[test]
+fn faults_of_a_barometer_are_said() {
+    let directory = with_a_barometer(1.0);
+    let path = directory.path();
+    let sound = readings(path);
+    let truth = rides(&track(path, &["ride.csv", "--format", "json"]).1);
+    let [start, stop, next, end] = [(0, "start"), (0, "stop"), (1, "start"), (1, "stop")]
+        .map(|(ride, name)| truth[ride][name].as_f64().unwrap());
+    let within = |from: f64, to: f64| move |it: &(f64, f64)| from < it.0 && it.0 < to;
+    let named = "time,pressure (hPa)\n";
+    let cases: &[(&str, &str, Change, &str, [bool; 2])] = &[
+        (
+            "frozen",
+            named,
+            &|it| it.iter_mut().for_each(|it| it.1 = 755.0),
+            "ride 1: no height, the barometer is frozen",
+            [false; 2],
+        ),
+        (
+            "frozen later",
+            named,
+            &|it| {
+                it.iter_mut()
+                    .filter(|it| it.0 > next - 1.0)
+                    .for_each(|it| it.1 = 753.4)
+            },
+            "ride 2: no height, the barometer is frozen",
+            [true, false],
+        ),
+        (
+            "coarse",
+            named,
+            &|it| it.iter_mut().for_each(|it| it.1 = it.1.round()),
+            "steps of 11.",
+            [false; 2],
+        ),
+        (
+            "NaN",
+            named,
+            &|it| it[3].1 = f64::NAN,
+            "1 rows of the barometer have NaN",
+            [true; 2],
+        ),
+        (
+            "repeated",
+            named,
+            &|it| it[3].0 = it[2].0,
+            "1 readings of the barometer repeat a time",
+            [true; 2],
+        ),
+        (
+            "no air",
+            named,
+            &|it| it[3].1 = 0.0,
+            "1 readings of the barometer are of no air on earth",
+            [true; 2],
+        ),
+        (
+            "silent in a ride",
+            named,
+            &|it| it.retain(|it| !within(start + 3.0, stop - 3.0)(it)),
+            "ride 1: the barometer has no reading for",
+            [true; 2],
+        ),
+        (
+            "silent after it",
+            named,
+            &|it| it.retain(|it| it.0 < end),
+            "ride 2: no height, the barometer has no reading",
+            [true, false],
+        ),
+        (
+            "a jump at rest",
+            named,
+            &|it| {
+                it.iter_mut()
+                    .filter(|it| it.0 > next - 3.0)
+                    .for_each(|it| it.1 -= 0.3)
+            },
+            "ride 2: at rest beside it the barometer jumps by +3.",
+            [true; 2],
+        ),
+        (
+            "a jump in a ride",
+            named,
+            &|it| {
+                it.iter_mut()
+                    .filter(|it| it.0 > start + 6.0)
+                    .for_each(|it| it.1 -= 0.5)
+            },
+            "ride 1: by the barometer it went +2",
+            [false, true],
+        ),
+        (
+            "no header",
+            "",
+            &|_| {},
+            "the barometer's columns have no names",
+            [true; 2],
+        ),
+        (
+            "Pa",
+            "",
+            &|it| it.iter_mut().for_each(|it| it.1 *= 100.0),
+            "(Pa)",
+            [true; 2],
+        ),
+        (
+            "kPa",
+            "",
+            &|it| it.iter_mut().for_each(|it| it.1 /= 10.0),
+            "(kPa)",
+            [true; 2],
+        ),
+        (
+            "not overlapping",
+            named,
+            &|it| it.iter_mut().for_each(|it| it.0 += 500.0),
+            "behind by the rides",
+            [true; 2],
+        ),
+        (
+            "dates",
+            named,
+            &|it| it.iter_mut().for_each(|it| it.0 += 1.7e9),
+            "behind by the rides",
+            [true; 2],
+        ),
+        (
+            "another clock",
+            named,
+            &|it| it.iter_mut().for_each(|it| it.0 += 7.0),
+            "the rides are believed",
+            [true; 2],
+        ),
+    ];
+    for (name, header, change, sentence, has_height) in cases {
+        let mut rows = sound.clone();
+        change(&mut rows);
+        written(path, header, &rows);
+        let flags = ["ride.csv", "--barometer", "bad.csv"];
+        let (code, out, err) = track(path, &flags);
+        assert_eq!(code, 0, "{name}: {err}");
+        assert!(
+            [&out, &err].iter().any(|it| it.contains(sentence)),
+            "{name}: {out} {err}"
+        );
+        assert!(!out.contains("deviation 0.00 m"), "{name}: {out}");
+        let (_, out, _) = track(path, &[&flags[..], &["--format", "json"]].concat());
+        for ((ride, distance), has_height) in rides(&out).iter().zip([18.0, -9.0]).zip(has_height) {
+            let height = ride["height"].as_f64();
+            let is_right = height.is_some_and(|it| (it - distance).abs() < 0.3);
+            assert_eq!(is_right, *has_height, "{name}: {ride}");
+        }
+    }
+    // Sound ones are passed over.
+    let (_, _, err) = track(path, &["ride.csv", "--barometer", "air.csv"]);
+    assert!(!err.contains("barometer"), "{err}");
+}
+
+/// The offset of two clocks is in the report; a flag overrides it.
+#[test]
+fn clocks_are_aligned_by_the_rides() {
+    let directory = with_a_barometer(1.0);
+    let path = directory.path();
+    let mut rows = readings(path);
+    rows.iter_mut().for_each(|it| it.0 += 7.0);
+    written(path, "time,pressure (hPa)\n", &rows);
+    let flags = ["ride.csv", "--barometer", "bad.csv", "--format", "json"];
+    let report = |more: &[&str]| {
+        let (code, out, err) = track(path, &[&flags, more].concat());
+        assert_eq!(code, 0, "{err}");
+        serde_json::from_str::<Value>(&out).unwrap()["barometer"]["alignment"].clone()
+    };
+    let alignment = report(&[]);
+    let number = |name: &str| alignment[name].as_f64().unwrap();
+    assert!(
+        (number("ahead") + 7.0).abs() < 0.3 && number("deviation") < 0.2,
+        "{alignment}"
+    );
+    assert_eq!(number("instead_of"), 0.0);
+    for given in ["0", "-7"] {
+        assert!(report(&["--barometer-ahead", given]).is_null(), "{given}");
+    }
+    let far = [&flags[..], &["--barometer-ahead", "900"]].concat();
+    let none = ["ride.csv", "--barometer-ahead", "9"];
+    for (flags, message) in [
+        (&far[..], "give another --barometer-ahead"),
+        (&none, "give --barometer FILE"),
+    ] {
+        let (code, _, err) = track(path, flags);
+        assert!(code == 2 && err.contains(message), "{err}");
+    }
+}
+
+/// Of two columns the first is taken, aloud, unless one is named.
+#[test]
+fn the_column_of_a_barometer_is_chosen() {
+    let directory = with_a_barometer(1.0);
+    let path = directory.path();
+    let rows = readings(path).into_iter();
+    let rows = rows.map(|(time, pressure)| format!("{time},{pressure},{}\n", pressure - 10.0));
+    let text = "time,pressure (hPa),baro (hPa)\n".to_owned() + &rows.collect::<String>();
+    fs::write(path.join("two.csv"), text).unwrap();
+    let flags = ["ride.csv", "--barometer", "two.csv"];
+    let (_, out, err) = track(path, &flags);
+    let said = "\"pressure (hPa)\" is read, and not \"baro (hPa)\" (--barometer-column COLUMN";
+    assert!(
+        out.contains("two.csv, \"pressure (hPa)\"") && err.contains(said),
+        "{err}"
+    );
+    let (_, out, err) = track(
+        path,
+        &[&flags[..], &["--barometer-column", "baro (hPa)"]].concat(),
+    );
+    assert!(
+        out.contains("two.csv, \"baro (hPa)\"") && !err.contains("is read, and not"),
+        "{err}"
+    );
+    let (code, _, err) = track(
+        path,
+        &[&flags[..], &["--barometer-column", "bar (hPa)"]].concat(),
+    );
+    assert!(
+        code == 2 && err.contains("did you mean \"baro (hPa)\"?"),
         "{err}"
     );
 }

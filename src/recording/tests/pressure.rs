@@ -1,7 +1,8 @@
 //! Barometers, in the units and the tables in which they come.
 
 use super::archive as zipped;
-use crate::recording::{Barometer, PressureUnit};
+use crate::recording::BarometerWarning::{Missing, NoAir, NoNames, Repeated, Several};
+use crate::recording::{Barometer, Names, PressureUnit};
 
 fn read(text: &str) -> Barometer {
     let read = Barometer::from_bytes("air.csv", text.as_bytes());
@@ -60,7 +61,8 @@ fn pressure_before_altitude() {
 #[test]
 fn what_is_no_air_is_left_out_or_refused() {
     let gaps = read("time,pressure (hPa)\n0,1000\n1,0\n2,NaN\n3,1001\n3,1002\n");
-    assert_eq!((gaps.readings.len(), gaps.left_out), (2, 1));
+    let warnings = [Missing(1), Repeated(1), NoAir(1)];
+    assert_eq!((gaps.readings.len(), gaps.warnings), (2, warnings.to_vec()));
     for (text, message) in [
         (
             "time,pressure (hPa)\n0,0\n1,0\n",
@@ -80,6 +82,39 @@ fn what_is_no_air_is_left_out_or_refused() {
     ] {
         let error = refused(text);
         assert!(error.contains(message), "{text}: {error}");
+    }
+}
+
+/// What was taken of several columns, or without names, is said, and how to choose.
+#[test]
+fn columns_that_are_taken_for_it() {
+    let two =
+        read("time,pressure (hPa),baro (hPa),noise pressure (dB)\n0,1000,990,40\n1,999,989,41\n");
+    let column = "pressure (hPa)".to_owned();
+    let others = Names::of(["baro (hPa)"]);
+    assert_eq!(two.warnings, [Several { column, others }]);
+    let nameless = read("0,98000\n1,98001\n");
+    assert_eq!(
+        (nameless.unit, nameless.warnings),
+        (PressureUnit::Pascal, vec![NoNames])
+    );
+    for (text, message) in [
+        ("0,98000,9\n1,98001,9\n", "name it `time (s)` in the header"),
+        ("0,210.5\n1,210.6\n", "name its unit in the header"),
+    ] {
+        let error = refused(text);
+        assert!(error.contains(message), "{error}");
+    }
+    let table = "time,seconds_elapsed,pressure\n1,0.0,1000.5\n2,1.0,1000.4\n";
+    let archive = zipped(&[("Barometer.csv", table), ("b/Barometer.csv", table)]);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("ride.zip");
+    std::fs::write(&path, &archive).unwrap();
+    let given = Barometer::from_bytes("ride.zip", archive).expect_err("there are two");
+    let found = Barometer::recorded_with(&path).expect_err("there are two");
+    for error in [given.to_string(), found.to_string()] {
+        let is_told = error.contains("several members") && error.contains("unpack it");
+        assert!(is_told && !error.contains("--member"), "{error}");
     }
 }
 

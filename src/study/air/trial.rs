@@ -135,6 +135,6 @@ fn barometer(readings: Vec<Pressure>) -> Barometer {
         column: String::new(),
         unit: PressureUnit::Pascal,
         clock_offset: None,
-        left_out: 0,
+        warnings: Vec::new(),
     }
 }

@@ -1,14 +1,14 @@
 //! One lift, followed in every way.
 
 use super::table::Point;
-use super::watched::{NOISE, Watched};
+use super::watched::{NOISE, RATE, Watched};
 use super::way::{Published, Way};
 use crate::counts::{Shape, Sums, Values};
 use crate::recording::Sample;
 use crate::study::trips::tracked;
 use crate::track::fusion::{Barometry, Fusion, Position, Reference};
 use crate::track::{Motion, Place, Rules, Track, Uncertain, Vertical, VerticalFilter};
-use libm::{fabs, round};
+use libm::{fabs, round, sqrt};
 
 /// The sums and the sums of squares of the mean size of the error and of its mean square.
 pub(super) fn shape() -> Shape {
@@ -158,7 +158,7 @@ fn put_right(
     };
     let heights = Barometry {
         readings: barometer,
-        noise: NOISE,
+        second: NOISE / sqrt(RATE),
         rounded: 0.0,
     };
     let stays = heights.stays(&track.trips, &[], floor);

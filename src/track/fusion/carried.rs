@@ -20,8 +20,8 @@ const UNKNOWN: Uncertain = Uncertain {
 pub struct Barometry<'a> {
     /// Times, s, and heights above any level, m, in order of time.
     pub readings: &'a [(f64, f64)],
-    /// The deviation of a reading, m.
-    pub noise: f64,
+    /// The deviation of the mean of a second of them, m.
+    pub second: f64,
     /// The error of the mean of a rest that lies between two steps of the sensor, m.
     pub rounded: f64,
 }
@@ -88,9 +88,11 @@ impl Barometry<'_> {
 
     /// What the barometer reads in the meantime, if it reads anything.
     fn read(&self, car: &mut Carried, window: &Range<f64>) {
-        let read = Rested::of(self.readings, window);
+        let place = |time: f64| self.readings.partition_point(|it| it.0 < time);
+        let (first, end) = (place(window.start), place(window.end));
+        let read = Rested::of(&self.readings[first..end.max(first)]);
         if read.count > 0.0 {
-            let noise = self.noise * self.noise * read.of_mean();
+            let noise = self.second * self.second * read.of_mean();
             car.arrive(read.time);
             car.height.read(Uncertain {
                 mean: read.mean,

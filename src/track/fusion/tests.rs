@@ -186,7 +186,7 @@ impl Building {
     fn off(&self, unseen: &[Range<f64>]) -> f64 {
         let heights = Barometry {
             readings: &self.readings,
-            noise: Self::NOISE,
+            second: Self::NOISE,
             rounded: 0.0,
         };
         let stays = heights.stays(&self.trips, unseen, |_| None);

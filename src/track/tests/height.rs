@@ -4,7 +4,7 @@ use crate::recording::{Barometer, Pressure, PressureUnit};
 use crate::rng::Stream;
 use crate::signal::white_noise;
 use crate::stats::binomial::lower_tail;
-use crate::track::{Air, Climbs, Tracked};
+use crate::track::{Air, Climbs, HeightWarning, Tracked};
 
 /// How much of the air lies below so many metres of the standard atmosphere, by small steps: dp/dh = −p g/(R T).
 fn pressure_by_steps(metres: f64) -> f64 {
@@ -89,7 +89,7 @@ impl Building {
             column: "pressure".to_owned(),
             unit: PressureUnit::Pascal,
             clock_offset: None,
-            left_out: 0,
+            warnings: Vec::new(),
         }
     }
 
@@ -197,10 +197,13 @@ fn a_faulty_barometer_is_ridden_through() {
             .filter(|it| it.time >= second && it.time < second + TRIP + REST);
         frozen.for_each(|it| it.pascal = held);
     });
-    assert!(
-        frozen.unlike.contains(&2) && frozen.upside_down == Some(false),
-        "{frozen:?}"
-    );
+    let fault = HeightWarning::Frozen {
+        ride: 2,
+        distance: Some(-18.0),
+    };
+    assert_eq!((&frozen.faults, frozen.climbs[1]), (&vec![fault], None));
+    // It thaws as the next one starts.
+    assert_eq!((frozen.unlike, frozen.upside_down), (vec![3], Some(false)));
     assert!((frozen.air.celsius - 24.0).abs() < 4.0 * frozen.air.deviation);
     // A door that slams.
     let jumping = with(&|readings| readings[(second - 4.0) as usize].pascal += 300.0);

@@ -58,7 +58,7 @@ fn floors(seed: u64, has_barometer: bool) -> Vec<Option<usize>> {
         column: "pressure".to_owned(),
         unit: PressureUnit::Pascal,
         clock_offset: None,
-        left_out: 0,
+        warnings: Vec::new(),
     };
     if has_barometer {
         let climbs = Climbs::of(&track.trips, &barometer, 0.0, None);

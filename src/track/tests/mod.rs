@@ -1,5 +1,6 @@
 //! The filter against closed forms, brute force and simulated trips whose truth is known.
 
+mod alignment;
 mod bound;
 mod detector;
 mod height;

@@ -1,0 +1,137 @@
+//! The air while the car stands, as a barometer reads it, and what is wrong with one that freezes, falls silent or jumps.
+
+use super::record::Tracked;
+use super::rested::Rested;
+use crate::recording::Pressure;
+use crate::stats::quantile::median;
+use std::ops::Range;
+
+/// The rest that is looked at on either side of a trip, and what is left out beside the trip, where a barometer lags, s.
+const REST: f64 = 10.0;
+const LAG: f64 = 1.0;
+
+/// Half a metre, as a logarithm of the pressure.
+const JUMP: f64 = 5.8e-5;
+
+/// A jump is so many deviations of the readings on either side of it, and so much of it is from one reading to the next.
+const CLEAR: f64 = 8.0;
+const ABRUPT: f64 = 0.7;
+
+/// A barometer falls silent where it has no reading for so many seconds, and for so many of its usual intervals.
+const SILENT: f64 = 5.0;
+
+/// The air at rest.
+#[derive(Clone, Debug)]
+pub struct Rest {
+    /// The logarithms of the pressures.
+    pub read: Rested,
+    /// Where it jumps, how far up, as a logarithm.
+    pub jump: Option<f64>,
+}
+
+impl Rest {
+    /// The rest before a trip and that after it, by a barometer with these steps.
+    pub fn around(trips: &[Tracked], at: usize, readings: &[Pressure], step: f64) -> [Self; 2] {
+        let [before, after] = rests(trips, at).map(|it| within(readings, it.unwrap_or(NONE)));
+        let [early, late] = [before, after].map(|it| jump(it, step));
+        // What is beside the trip counts.
+        let before = &before[early.map_or(0, |it| it.0)..];
+        let after = &after[..late.map_or(after.len(), |it| it.0)];
+        let of = |readings: &[Pressure], jump: Option<(usize, f64)>| {
+            let logs = readings.iter().map(|it| (it.time, it.pascal.ln()));
+            Self {
+                read: Rested::of(&logs.collect::<Vec<_>>()),
+                jump: jump.map(|it| it.1),
+            }
+        };
+        [of(before, early), of(after, late)]
+    }
+
+    /// The least jump, as a logarithm.
+    pub fn jump(step: f64) -> f64 {
+        JUMP.max(1.5 * step)
+    }
+
+    pub fn standard_altitude(&self) -> f64 {
+        let (time, pascal) = (self.read.time, self.read.mean.exp());
+        Pressure { time, pascal }.standard_altitude()
+    }
+}
+
+/// No time at all.
+const NONE: Range<f64> = f64::INFINITY..f64::NEG_INFINITY;
+
+/// The rest before a trip and that after it, as far as they are looked at; none where that end is not recorded, nor that of
+/// the trip on its other side.
+fn rests(trips: &[Tracked], at: usize) -> [Option<Range<f64>>; 2] {
+    let trip = &trips[at].trip;
+    let begin = trips[..at]
+        .last()
+        .map_or(Some(f64::NEG_INFINITY), |it| it.trip.stop);
+    let end = trips
+        .get(at + 1)
+        .map_or(Some(f64::INFINITY), |it| it.trip.start);
+    let before = begin.zip(trip.start);
+    let after = trip.stop.zip(end);
+    [
+        before.map(|(begin, start)| (begin + LAG).max(start - REST)..start),
+        after.map(|(stop, end)| stop + LAG..end.min(stop + LAG + REST)),
+    ]
+}
+
+/// The smallest change from one reading to the next, as a logarithm.
+pub fn step(readings: &[Pressure]) -> f64 {
+    let changes = readings
+        .windows(2)
+        .map(|pair| (pair[1].pascal / pair[0].pascal).ln().abs());
+    let step = changes
+        .filter(|change| *change > 0.0)
+        .fold(f64::INFINITY, f64::min);
+    if step.is_finite() { step } else { 0.0 }
+}
+
+fn within(readings: &[Pressure], times: Range<f64>) -> &[Pressure] {
+    let first = readings.partition_point(|it| it.time < times.start);
+    let end = readings.partition_point(|it| it.time <= times.end);
+    &readings[first..end.max(first)]
+}
+
+/// The first reading after a jump, and how far up it is, as a logarithm.
+fn jump(readings: &[Pressure], step: f64) -> Option<(usize, f64)> {
+    let logs: Vec<f64> = readings.iter().map(|it| -it.pascal.ln()).collect();
+    let change = |at: usize| (logs[at] - logs[at - 1]).abs();
+    let last = logs.len().saturating_sub(1);
+    let at = (2..last).max_by(|a, b| change(*a).total_cmp(&change(*b)))?;
+    let sides = [&logs[..at], &logs[at..]];
+    let [before, after] = sides.map(|it| median(it.to_vec()));
+    let off = sides[0].iter().map(|it| (it - before).abs());
+    let off = off.chain(sides[1].iter().map(|it| (it - after).abs()));
+    let by = after - before;
+    let least = Rest::jump(step).max(CLEAR * 1.4826 * median(off.collect()));
+    (by.abs() > least && change(at) > ABRUPT * by.abs()).then_some((at, by))
+}
+
+/// Whether the readings of a trip are one and the same, within a step, though it goes farther than two.
+pub fn is_frozen(trip: &Tracked, readings: &[Pressure], step: f64) -> bool {
+    let Some((start, stop)) = trip.trip.start.zip(trip.trip.stop) else {
+        return false;
+    };
+    let readings = within(readings, start..stop);
+    let logs = readings.iter().map(|it| it.pascal.ln());
+    let (least, most) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), it| {
+        (least.min(it), most.max(it))
+    });
+    // A trip of which nothing is known goes half a metre.
+    let far = trip.distance.map_or(JUMP, |it| JUMP * it.abs() / 0.5);
+    readings.len() > 1 && most - least <= 1.01 * step && far > 2.0 * step
+}
+
+/// For how long a barometer is silent in a trip, s, if it is.
+pub fn silence(trip: &Tracked, readings: &[Pressure]) -> Option<f64> {
+    let (start, stop) = trip.trip.start.zip(trip.trip.stop)?;
+    let intervals = || readings.windows(2).map(|pair| (pair[0].time, pair[1].time));
+    let usual = median(intervals().map(|(from, to)| to - from).collect());
+    let of_trip = intervals().filter(|(from, to)| *to > start && *from < stop);
+    let longest = of_trip.map(|(from, to)| to - from).fold(0.0, f64::max);
+    (longest > SILENT * usual.max(1.0)).then_some(longest)
+}
