@@ -36,16 +36,13 @@ impl Way {
     }
 }
 
-/// For each way, the trips that have a height, and those within 1.96 deviations; the sums and the sums of squares of the
-/// scale, of the mean size of the error and of its mean square. Last those of the squared error of the learnt temperature.
-pub(super) const COUNTS: usize = 2;
-pub(super) const PAIRS: usize = 3;
+/// For each way, the sums and the sums of squares of the scale, of the mean size of the error, of its mean square, and of the
+/// share of trips within 1.96 deviations. Last those of the squared error of the learnt temperature.
+pub(super) const PAIRS: usize = 4;
 
-pub(super) fn shape(trips: usize) -> Shape {
-    let ways = Way::ALL.len();
+pub(super) fn shape() -> Shape {
     Shape {
-        most: vec![Some(trips as u64); COUNTS * ways],
-        lengths: 2 * (PAIRS * ways + 1),
+        lengths: 2 * (PAIRS * Way::ALL.len() + 1),
         ..Shape::default()
     }
 }
@@ -81,7 +78,7 @@ pub(super) fn run(trips: usize, points: &[&Point], seed: u64, trial: u64) -> Vec
         let climbs = |celsius| Climbs::of(&track.trips, &barometer, 0.0, celsius);
         let learnt = climbs(None);
         let off = learnt.air.celsius - point.temperature;
-        let mut sums = shape(trips).empty().sums;
+        let mut sums = shape().empty().sums;
         sums.note(PAIRS * Way::ALL.len(), off * off);
         for (place, way) in Way::ALL.into_iter().enumerate() {
             let found = match way {
@@ -107,15 +104,13 @@ fn add(sums: &mut Sums, place: usize, way: Way, trips: &[(Climb, f64)]) {
         trips.iter().map(of).sum::<f64>() / trips.len().max(1) as f64
     };
     let error = |it: &(Climb, f64)| fabs(height(&it.0) - it.1);
-    let scale = mean(&|it| height(&it.0) * it.1) / mean(&|it| it.1 * it.1);
+    let scale = mean(&|it| height(&it.0) * it.1) / mean(&|it| it.1 * it.1).max(1e-9);
     let square = mean(&|it| error(it) * error(it));
-    for (at, value) in [scale, mean(&error), square].into_iter().enumerate() {
+    let within = mean(&|it| f64::from(u8::from(error(it) <= WITHIN * it.0.height_deviation)));
+    let values = [scale, mean(&error), square, within];
+    for (at, value) in values.into_iter().enumerate() {
         sums.note(PAIRS * place + at, value);
     }
-    let is_within = |it: &&(Climb, f64)| error(it) <= WITHIN * it.0.height_deviation;
-    let within = trips.iter().filter(is_within).count();
-    let counts = [trips.len(), within].map(|it| it as u64);
-    sums.counts[COUNTS * place..][..COUNTS].copy_from_slice(&counts);
 }
 
 /// How high a trip that was found went.
