@@ -21,6 +21,7 @@ mod plot;
 mod progress;
 mod quality;
 mod reading;
+mod readings;
 mod replay;
 mod rides;
 mod rows;

@@ -1,16 +1,17 @@
 //! `liftsim monitor`: watches a lift, sample by sample, from standard input.
 
 use super::floors::{Building, FloorArguments};
-use super::monitor_options::{Beginning, MonitorArguments, Setup, check_strength};
+use super::monitor_options::{Beginning, MonitorArguments, Setup};
 use super::network::{Network, NetworkArguments};
 use super::output;
 use super::reading::ColumnArguments;
+use super::readings::{Reading, Readings};
 use super::{CommandResult, Failure, print_to, warn};
 use anyhow::{Context, anyhow};
 use clap::Args;
 use liftsim::detection::MonitorOptions;
-use liftsim::monitor::{Knowledge, Monitor, SET_BACK, SavedState};
-use liftsim::recording::{self, LineReader, LineReading, Sample};
+use liftsim::monitor::{Knowledge, Monitor, SavedState};
+use liftsim::recording::{self, LineReader, Sample};
 use liftsim::track::{Happened, Watch};
 use serde::Serialize;
 use std::io::{self, BufReader};
@@ -75,16 +76,7 @@ pub struct MonitorCommand {
     network: NetworkArguments,
 }
 
-/// Readings from which a rate is measured.
-const MEASURED: usize = 100;
-
-/// The largest time, s: no clock is later, and doubles still resolve milliseconds.
-const LATEST: f64 = 1e12;
-
 const NO_READING: &str = "standard input: holds no reading (check that the sensor sends any)";
-
-/// A sample, and whether the drum turns.
-type Reading = (Sample, Option<bool>);
 
 impl MonitorCommand {
     /// Runs the command.
@@ -251,165 +243,4 @@ impl<R: FnMut(String) -> Result<bool, Failure>> Lift<R> {
 
 fn line(event: &impl Serialize) -> String {
     serde_json::to_string(event).expect("an event can be written") + "\n"
-}
-
-/// Samples from standard input.
-struct Readings<R> {
-    lines: LineReader<R>,
-    /// Hz, where it is known.
-    rate: Option<f64>,
-    /// When the last sample with a time was taken, s.
-    last: Option<f64>,
-    /// The first intervals between such samples, s.
-    intervals: Vec<f64>,
-    count: u64,
-    keeps_going: bool,
-    /// How many lines were passed over since they came late, and how often the clock was set back.
-    late: u64,
-    set_back: u64,
-}
-
-impl<R: io::BufRead> Readings<R> {
-    fn new(lines: LineReader<R>, keeps_going: bool) -> Self {
-        Self {
-            lines,
-            rate: None,
-            last: None,
-            intervals: Vec::new(),
-            count: 0,
-            keeps_going,
-            late: 0,
-            set_back: 0,
-        }
-    }
-
-    /// The first readings, if there is any, and the rate: as known, or measured from as many as that takes.
-    fn begin(&mut self, known: Option<f64>) -> Result<Option<(Vec<Reading>, f64)>, Failure> {
-        self.rate = known;
-        let wanted = if known.is_some() { 1 } else { MEASURED + 1 };
-        let mut first: Vec<Reading> = Vec::new();
-        while first.len() < wanted {
-            match self.next()? {
-                Some(reading) => first.push(reading),
-                None => break,
-            }
-        }
-        match (known.or(self.measured()), first.len()) {
-            (_, 0) => Ok(None),
-            (None, readings) => Err(Failure::Input(anyhow!(
-                "standard input: {readings} reading, and the rate is measured from two or more (give --rate)"
-            ))),
-            (Some(rate), _) => Ok(Some((first, rate))),
-        }
-    }
-
-    /// Hz, by the median of the first intervals.
-    fn measured(&self) -> Option<f64> {
-        let mut intervals = self.intervals.clone();
-        intervals.sort_by(f64::total_cmp);
-        intervals
-            .get(intervals.len() / 2)
-            .map(|median| 1.0 / median)
-    }
-
-    /// Takes the time of a sample. Once there are enough, they must agree with the known rate.
-    fn take_time(&mut self, time: f64) -> Result<(), Failure> {
-        if let Some(last) = self.last.replace(time)
-            && time > last
-            && self.intervals.len() < MEASURED
-        {
-            self.intervals.push(time - last);
-            if self.intervals.len() == MEASURED
-                && let (Some(rate), Some(measured)) = (self.rate, self.measured())
-                && (measured / rate - 1.0).abs() > 0.05
-            {
-                return Err(Failure::Input(anyhow!(
-                    "standard input: samples come at {measured:.1} Hz, and not at {rate:.1} Hz as --rate or the saved \
-                     state says (leave --rate out where samples have times, or learn a state at this rate)"
-                )));
-            }
-        }
-        Ok(())
-    }
-
-    /// Says how often it happened what was warned of only once.
-    fn say_counts(&self) {
-        for (count, what) in [
-            (self.late, "lines whose time does not increase, passed over"),
-            (self.set_back, "times that the clock was set back"),
-        ] {
-            if count > 1 {
-                warn(format_args!("standard input: {what}: {count}"));
-            }
-        }
-    }
-
-    fn next(&mut self) -> Result<Option<Reading>, Failure> {
-        loop {
-            let late = self.late;
-            let refusal = match self.lines.next() {
-                Ok(None) => return Ok(None),
-                Ok(Some(reading)) => match self.timed(&reading)? {
-                    Ok(sample) => return Ok(Some((sample, reading.drum_turns))),
-                    Err(refusal) => refusal,
-                },
-                Err(error) if error.is_io() => return Err(Failure::run(error)),
-                Err(error) => anyhow::Error::from(error),
-            };
-            if !self.keeps_going {
-                return Err(refusal)
-                    .context("standard input")
-                    .map_err(Failure::Input);
-            }
-            if late == 0 || self.late == late {
-                warn(format_args!("{refusal:#} (passed over)"));
-            }
-        }
-    }
-
-    /// A reading at its time, which must be later than that of the one before; or why it is skipped.
-    #[inline]
-    fn timed(&mut self, reading: &LineReading) -> Result<anyhow::Result<Sample>, Failure> {
-        let acceleration = reading.acceleration;
-        let line = self.lines.number();
-        if let Err(refusal) = check_strength(acceleration) {
-            return Ok(Err(refusal.context(format!("line {line}"))));
-        }
-        let Some(time) = reading.time else {
-            let Some(rate) = self.rate else {
-                return Err(Failure::Input(anyhow!(
-                    "standard input: samples without times need a rate (give --rate)"
-                )));
-            };
-            self.count += 1;
-            let time = (self.count - 1) as f64 / rate;
-            return Ok(Ok(Sample { time, acceleration }));
-        };
-        match self.last {
-            _ if time.abs() > LATEST => Ok(Err(anyhow!(
-                "line {line}: times must lie within {LATEST:e} s, got {time:e} (give them in s)"
-            ))),
-            Some(last) if self.keeps_going && time < last - SET_BACK => {
-                self.set_back += 1;
-                if self.set_back == 1 {
-                    warn(format_args!(
-                        "standard input: line {line}: the clock was set back from {last} s to {time} s"
-                    ));
-                }
-                self.take_time(time)?;
-                Ok(Ok(Sample { time, acceleration }))
-            }
-            Some(last) if time <= last => {
-                self.late += 1;
-                Ok(Err(anyhow!(
-                    "line {line}: time must increase, got {time} s after {last} s (put lines in order, drop repeated \
-                     ones, and write decimals with a point)"
-                )))
-            }
-            _ => {
-                self.take_time(time)?;
-                Ok(Ok(Sample { time, acceleration }))
-            }
-        }
-    }
 }

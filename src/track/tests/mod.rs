@@ -6,6 +6,7 @@ mod detector;
 mod height;
 mod landing;
 mod trips;
+mod watch;
 
 use crate::lift::{Drive, Ending, Journey, Pickup, Ride, Trip};
 use crate::recording::Sample;

@@ -1,0 +1,178 @@
+//! Samples from standard input, for `monitor`: at the times of their lines, or one after the other at a rate.
+
+use super::monitor_options::check_strength;
+use super::{Failure, warn};
+use anyhow::{Context, anyhow};
+use liftsim::monitor::SET_BACK;
+use liftsim::recording::{LineReader, LineReading, Sample};
+use std::io;
+
+/// Readings from which a rate is measured.
+const MEASURED: usize = 100;
+
+/// The largest time, s: no clock is later, and doubles still resolve milliseconds.
+const LATEST: f64 = 1e12;
+
+/// A sample, and whether the drum turns.
+pub type Reading = (Sample, Option<bool>);
+
+/// Samples from standard input.
+pub struct Readings<R> {
+    lines: LineReader<R>,
+    /// Hz, where it is known.
+    rate: Option<f64>,
+    /// When the last sample with a time was taken, s.
+    last: Option<f64>,
+    /// The first intervals between such samples, s.
+    intervals: Vec<f64>,
+    count: u64,
+    keeps_going: bool,
+    /// How many lines were passed over since they came late, and how often the clock was set back.
+    late: u64,
+    set_back: u64,
+}
+
+impl<R: io::BufRead> Readings<R> {
+    pub fn new(lines: LineReader<R>, keeps_going: bool) -> Self {
+        Self {
+            lines,
+            rate: None,
+            last: None,
+            intervals: Vec::new(),
+            count: 0,
+            keeps_going,
+            late: 0,
+            set_back: 0,
+        }
+    }
+
+    /// The first readings, if there is any, and the rate: as known, or measured from as many as that takes.
+    pub fn begin(&mut self, known: Option<f64>) -> Result<Option<(Vec<Reading>, f64)>, Failure> {
+        self.rate = known;
+        let wanted = if known.is_some() { 1 } else { MEASURED + 1 };
+        let mut first: Vec<Reading> = Vec::new();
+        while first.len() < wanted {
+            match self.next()? {
+                Some(reading) => first.push(reading),
+                None => break,
+            }
+        }
+        match (known.or(self.measured()), first.len()) {
+            (_, 0) => Ok(None),
+            (None, readings) => Err(Failure::Input(anyhow!(
+                "standard input: {readings} reading, and the rate is measured from two or more (give --rate)"
+            ))),
+            (Some(rate), _) => Ok(Some((first, rate))),
+        }
+    }
+
+    /// Hz, by the median of the first intervals.
+    fn measured(&self) -> Option<f64> {
+        let mut intervals = self.intervals.clone();
+        intervals.sort_by(f64::total_cmp);
+        intervals
+            .get(intervals.len() / 2)
+            .map(|median| 1.0 / median)
+    }
+
+    /// Takes the time of a sample. Once there are enough, they must agree with the known rate.
+    fn take_time(&mut self, time: f64) -> Result<(), Failure> {
+        if let Some(last) = self.last.replace(time)
+            && time > last
+            && self.intervals.len() < MEASURED
+        {
+            self.intervals.push(time - last);
+            if self.intervals.len() == MEASURED
+                && let (Some(rate), Some(measured)) = (self.rate, self.measured())
+                && (measured / rate - 1.0).abs() > 0.05
+            {
+                return Err(Failure::Input(anyhow!(
+                    "standard input: samples come at {measured:.1} Hz, and not at {rate:.1} Hz as --rate or the saved \
+                     state says (leave --rate out where samples have times, or learn a state at this rate)"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Says how often it happened what was warned of only once.
+    pub fn say_counts(&self) {
+        for (count, what) in [
+            (self.late, "lines whose time does not increase, passed over"),
+            (self.set_back, "times that the clock was set back"),
+        ] {
+            if count > 1 {
+                warn(format_args!("standard input: {what}: {count}"));
+            }
+        }
+    }
+
+    pub fn next(&mut self) -> Result<Option<Reading>, Failure> {
+        loop {
+            let late = self.late;
+            let refusal = match self.lines.next() {
+                Ok(None) => return Ok(None),
+                Ok(Some(reading)) => match self.timed(&reading)? {
+                    Ok(sample) => return Ok(Some((sample, reading.drum_turns))),
+                    Err(refusal) => refusal,
+                },
+                Err(error) if error.is_io() => return Err(Failure::run(error)),
+                Err(error) => anyhow::Error::from(error),
+            };
+            if !self.keeps_going {
+                return Err(refusal)
+                    .context("standard input")
+                    .map_err(Failure::Input);
+            }
+            if late == 0 || self.late == late {
+                warn(format_args!("{refusal:#} (passed over)"));
+            }
+        }
+    }
+
+    /// A reading at its time, which must be later than that of the one before; or why it is skipped.
+    #[inline]
+    fn timed(&mut self, reading: &LineReading) -> Result<anyhow::Result<Sample>, Failure> {
+        let acceleration = reading.acceleration;
+        let line = self.lines.number();
+        if let Err(refusal) = check_strength(acceleration) {
+            return Ok(Err(refusal.context(format!("line {line}"))));
+        }
+        let Some(time) = reading.time else {
+            let Some(rate) = self.rate else {
+                return Err(Failure::Input(anyhow!(
+                    "standard input: samples without times need a rate (give --rate)"
+                )));
+            };
+            self.count += 1;
+            let time = (self.count - 1) as f64 / rate;
+            return Ok(Ok(Sample { time, acceleration }));
+        };
+        match self.last {
+            _ if time.abs() > LATEST => Ok(Err(anyhow!(
+                "line {line}: times must lie within {LATEST:e} s, got {time:e} (give them in s)"
+            ))),
+            Some(last) if self.keeps_going && time < last - SET_BACK => {
+                self.set_back += 1;
+                if self.set_back == 1 {
+                    warn(format_args!(
+                        "standard input: line {line}: the clock was set back from {last} s to {time} s"
+                    ));
+                }
+                self.take_time(time)?;
+                Ok(Ok(Sample { time, acceleration }))
+            }
+            Some(last) if time <= last => {
+                self.late += 1;
+                Ok(Err(anyhow!(
+                    "line {line}: time must increase, got {time} s after {last} s (put lines in order, drop repeated \
+                     ones, and write decimals with a point)"
+                )))
+            }
+            _ => {
+                self.take_time(time)?;
+                Ok(Ok(Sample { time, acceleration }))
+            }
+        }
+    }
+}
