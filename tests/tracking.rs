@@ -7,7 +7,8 @@ use liftsim::detection::Detection;
 use liftsim::monitor::{Knowledge, Monitor, Settings};
 use liftsim::recording::{Barometer, Reading, Recording};
 use liftsim::track::{
-    Climbs, Densities, Found, LiveTrip, LiveTrips, Noise, Track, TrackSettings, Tracked, Watch,
+    Climbs, Densities, Found, LiveTrip, LiveTrips, Noise, Track, TrackSettings, Tracked, Unseen,
+    Watch,
 };
 use std::collections::BTreeMap;
 use std::env;
@@ -254,7 +255,7 @@ fn a_real_barometer() {
         .unwrap()
         .expect("it lies beside it");
     let trips = tracked(&recording, TrackSettings::default()).trips;
-    let climbs = Climbs::of(&trips, &barometer, 0.0, Some(20.0));
+    let climbs = Climbs::of(&trips, &Unseen::default(), &barometer, 0.0, Some(20.0));
     assert!(climbs.upside_down == Some(false) && climbs.unlike.is_empty());
     for (climb, up) in climbs.climbs.iter().flatten().zip([1.0, -1.0]) {
         println!("{climb:.2?}");
@@ -274,7 +275,13 @@ fn a_real_barometer() {
         (aligned.ahead - 123.4).abs() < 1.0 && aligned.deviation < 0.2,
         "{aligned:?}"
     );
-    let shifted = Climbs::of(&trips, &behind, aligned.ahead, Some(20.0));
+    let shifted = Climbs::of(
+        &trips,
+        &Unseen::default(),
+        &behind,
+        aligned.ahead,
+        Some(20.0),
+    );
     for (climb, there) in climbs
         .climbs
         .iter()
@@ -286,5 +293,7 @@ fn a_real_barometer() {
     assert_eq!(align(&barometer, Some(0.0)), Ok(None));
     let turned = recording.with_up(true);
     let trips = tracked(&turned, TrackSettings::default()).trips;
-    assert!(Climbs::of(&trips, &barometer, 0.0, None).upside_down == Some(true));
+    assert!(
+        Climbs::of(&trips, &Unseen::default(), &barometer, 0.0, None).upside_down == Some(true)
+    );
 }

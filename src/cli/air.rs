@@ -6,7 +6,7 @@ use super::{Failure, warn};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::recording::{Barometer, Recording};
-use liftsim::track::{Alignment, Barometric, Climbs, Track, TrackSettings, hidden};
+use liftsim::track::{Alignment, AlignmentError, Barometric, Climbs, Track, TrackSettings, Unseen};
 use std::path::{Path, PathBuf};
 
 /// The air that lifts are in, °C.
@@ -80,21 +80,22 @@ impl AirArguments {
             }
             Found::None => return Ok(measured),
         };
-        let climbs = |track: &Track| Climbs {
-            alignment,
-            ..Climbs::of(&track.trips, &barometer, ahead, self.temperature)
+        let climbs = |of: &Measured| {
+            let unseen = Unseen::of(&of.rides.detection, of.rides.recording.samples());
+            let trips = &of.track.trips;
+            let mut climbs = Climbs::of(trips, &unseen, &barometer, ahead, self.temperature);
+            climbs.alignment = alignment;
+            (climbs, unseen)
         };
-        let mut heights = climbs(&measured.track);
+        let (mut heights, mut unseen) = climbs(&measured);
         let is_sign_known = measured.rides.recording.vertical().is_sign_known;
         if let (Some(is_upside_down), false) = (heights.upside_down, is_sign_known) {
             measured.rides = measured.rides.with_up(is_upside_down)?;
             if is_upside_down {
                 measured.track = track(&measured.rides);
-                heights = climbs(&measured.track);
+                (heights, unseen) = climbs(&measured);
             }
         }
-        let (detection, recording) = (&measured.rides.detection, &measured.rides.recording);
-        let unseen = hidden(detection, recording.samples());
         measured.track.rise(&heights, &unseen);
         measured.heights = Some((barometer, heights));
         Ok(measured)
@@ -168,7 +169,18 @@ impl AirArguments {
                 };
                 Ok((by_rides.ahead, Some(alignment)))
             }
-            (Ok(said), _) => Ok((said, None)),
+            (Ok(said), Ok(None) | Err(AlignmentError::NoRide)) => Ok((said, None)),
+            // Rides that are all alike, or few, tell of no clock: nor of which way is up.
+            (Ok(said), Err(error)) if is_up_known => {
+                warn(format_args!(
+                    "{file}: its clock is believed as it is, though the rides do not show that it is right, because {error}"
+                ));
+                Ok((said, None))
+            }
+            (Ok(_), Err(error)) => Err(anyhow!(
+                "{file}: it cannot say which way is up, because the rides do not show that its clock is right: {error} (give \
+                 --barometer-ahead SECONDS, 0 where the clocks are the same)"
+            )),
             (Err(why), Ok(None)) => Err(why),
             (Err(why), Err(error)) => Err(anyhow!(
                 "{file}: {why}, and the clocks cannot be aligned, because {error} (give --barometer-ahead SECONDS, or leave it out with \

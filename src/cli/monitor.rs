@@ -134,13 +134,11 @@ impl MonitorCommand {
         let saved = SavedState { rate, ..saved };
         let mut lift = self.lift(&saved, known.is_none(), &first[0].0, report)?;
         let rest = iter::from_fn(|| readings.next().transpose());
-        for reading in first.into_iter().map(Ok).chain(rest) {
-            if !lift.step(reading?)? {
-                break;
-            }
-        }
-        lift.end()?;
+        let read = lift.take(first.into_iter().map(Ok).chain(rest));
+        // What was read is told, also before a line that cannot be.
+        let ended = lift.end();
         readings.say_counts();
+        read.and(ended)?;
         Ok(true)
     }
 
@@ -199,13 +197,26 @@ struct Lift<R> {
 }
 
 impl<R: FnMut(String) -> Result<bool, Failure>> Lift<R> {
-    /// Takes a reading, and reports what it shows; whether anybody reads that.
-    fn step(&mut self, (sample, drum_turns): Reading) -> Result<bool, Failure> {
+    /// Takes readings, as long as anybody reads what they show.
+    fn take(
+        &mut self,
+        mut readings: impl Iterator<Item = Result<Reading, Failure>>,
+    ) -> Result<(), Failure> {
+        while self.is_read
+            && let Some(reading) = readings.next()
+        {
+            self.step(reading?)?;
+        }
+        Ok(())
+    }
+
+    /// Takes a reading, and reports what it shows.
+    fn step(&mut self, (sample, drum_turns): Reading) -> Result<(), Failure> {
         for event in self.monitor.step(sample, drum_turns) {
             self.is_read = self.is_read && (self.report)(line(event))?;
         }
         let Some(trips) = &mut self.trips else {
-            return Ok(self.is_read);
+            return Ok(());
         };
         let floors = self.building.as_mut().map(|it| &mut it.floors);
         let (state, quiet) = (self.monitor.state(), self.monitor.quiet());
@@ -214,7 +225,7 @@ impl<R: FnMut(String) -> Result<bool, Failure>> Lift<R> {
             self.tell(&told)?;
             self.building.as_ref().map_or(Ok(()), Building::keep)?;
         }
-        Ok(self.is_read)
+        Ok(())
     }
 
     /// Reports what is left, and writes the map.

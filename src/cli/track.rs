@@ -238,7 +238,7 @@ impl TrackCommand {
 fn text(report: &TrackReport) -> String {
     [
         found::recording(&report.recording),
-        calibrated(&report.calibration)
+        calibrated(&report.calibration, report.is_followed)
             .map(|(name, it)| format!("{name} at rest: {it}\n"))
             .unwrap_or_default(),
         report.barometer.as_ref().map(air::text).unwrap_or_default(),

@@ -21,6 +21,9 @@ const READING: Style = Style {
     ..Style::of(0).coloured(Colour::new(60, 60, 60))
 };
 
+/// The most moments of a stretch that are drawn.
+const MOST_PLACES: usize = 8192;
+
 /// The most readings of a barometer that are drawn.
 const MOST_READINGS: usize = 300;
 
@@ -182,9 +185,11 @@ fn within(place: &track::Place) -> (f64, f64) {
 
 /// In the panel of the speed and the next.
 fn add_places(plot: &mut Plot, speed: usize, places: &[track::Place]) {
-    let speeds = places.iter().map(|it| (it.time, it.speed));
+    let few = places.len().div_ceil(MOST_PLACES).max(1);
+    let places = || places.iter().step_by(few);
+    let speeds = places().map(|it| (it.time, it.speed));
     plot.add(speed, Mark::Line(speeds.collect(), Style::of(0)));
-    let points = places.iter().map(|it| {
+    let points = places().map(|it| {
         let (low, high) = within(it);
         Point::new(it.time, [low, it.position.mean, high])
     });

@@ -13,7 +13,7 @@ pub(super) fn section(report: &TrackReport) -> Markup {
     let facts = [
         read(&report.recording),
         shown(&report.recording, &report.level),
-        calibrated(&report.calibration)
+        calibrated(&report.calibration, report.is_followed)
             .map(|(name, it)| {
                 (
                     if name == "gravity" {

@@ -51,6 +51,18 @@ pub enum BarometerWarning {
 }
 
 impl Barometer {
+    /// Readings in order of time that come from no file.
+    pub fn of_readings(readings: Vec<Pressure>) -> Self {
+        Self {
+            readings,
+            file: String::new(),
+            column: String::new(),
+            unit: PressureUnit::Pascal,
+            clock_offset: None,
+            warnings: Vec::new(),
+        }
+    }
+
     /// Reads a file; of several columns the one of this name.
     ///
     /// # Errors

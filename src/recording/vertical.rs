@@ -56,6 +56,11 @@ pub enum Reason {
 }
 
 impl Vertical {
+    /// Whether it turns in the record, and is followed.
+    pub fn is_followed(&self) -> bool {
+        matches!(self.reason, Reason::Gravity { turned, .. } if turned >= TURNED.1)
+    }
+
     /// The opposite direction, wanted by the user.
     pub(super) fn inverted(self) -> Self {
         Self {

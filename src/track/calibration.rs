@@ -113,8 +113,8 @@ impl Track {
     }
 }
 
-/// The calibrations of a record, in words: a name and a value.
-pub fn calibrated(of: &[Calibration]) -> Option<(&'static str, String)> {
+/// The calibrations of a record, in words: a name and a value. What the vertical `follows` is no turn here.
+pub fn calibrated(of: &[Calibration], follows: bool) -> Option<(&'static str, String)> {
     let first = of.first()?;
     let (least, most) = ends(of.iter().map(|it| it.length));
     let rests = match of.len() {
@@ -127,7 +127,11 @@ pub fn calibrated(of: &[Calibration]) -> Option<(&'static str, String)> {
     }
     let turned = of.iter().map(|it| angle(it.up, first.up));
     let turned = turned.fold(0.0, f64::max);
-    words += &format!(", turned by at most {turned:.1} degrees");
+    words += &if follows {
+        ", without the turn that is followed".to_owned()
+    } else {
+        format!(", turned by at most {turned:.1} degrees from the first")
+    };
     let off = f64::midpoint(least, most) / GRAVITY - 1.0;
     if off.abs() > ELSEWHERE {
         let way = if off > 0.0 { "more" } else { "less" };
@@ -197,9 +201,10 @@ mod tests {
         }
         let turned = angle(calibrations[0].up, calibrations[1].up);
         assert!((turned - 2.0).abs() < 0.02, "{turned}");
-        let (name, words) = calibrated(&calibrations).unwrap();
+        let (name, words) = calibrated(&calibrations, false).unwrap();
         assert_eq!(name, "gravity");
-        let part = "at 2 rests, turned by at most 2.0 degrees; 1.1 % more than on earth";
+        let part =
+            "at 2 rests, turned by at most 2.0 degrees from the first; 1.1 % more than on earth";
         assert!(words.contains(part), "{words}");
         // In motion nothing is across but the shaking, and the turn is seen until the next rest.
         let horizontal = track.horizontal(&recording);
@@ -215,7 +220,7 @@ mod tests {
     fn without_gravity_rest_reads_an_offset() {
         let recording = recording(0.0);
         let calibrations = tracked(&recording).calibrations(&recording);
-        let (name, words) = calibrated(&calibrations).unwrap();
+        let (name, words) = calibrated(&calibrations, false).unwrap();
         assert_eq!(name, "offset");
         assert!(words.starts_with("0.30"), "{words}");
         assert!(

@@ -30,11 +30,14 @@ pub struct Course {
 /// More moments than a picture resolves.
 const MOST_PLACES: f64 = 8192.0;
 
+/// But moments are no farther apart than this, s: a trip takes some seconds.
+const COARSEST: f64 = 0.5;
+
 impl Course {
     /// Of a cage that stands at first, in a record of so many seconds.
     pub(super) fn new(seconds: f64) -> Self {
         Self {
-            pitch: seconds / MOST_PLACES,
+            pitch: (seconds / MOST_PLACES).min(COARSEST),
             stretches: vec![Vec::new()],
             ..Self::default()
         }

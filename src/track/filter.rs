@@ -48,21 +48,6 @@ impl Uncertain {
     }
 }
 
-/// Two that differ by more, in deviations, are not of one thing.
-pub(super) const UNLIKE: f64 = 4.0;
-
-impl Uncertain {
-    /// What this and another say of one thing, each in its own right; none if they are unlike.
-    pub(super) fn with(self, other: Self) -> Option<Self> {
-        let both = self.variance + other.variance;
-        let off = other.mean - self.mean;
-        (off * off <= UNLIKE * UNLIKE * both).then(|| Self {
-            mean: self.mean + self.variance / both * off,
-            variance: self.variance * other.variance / both,
-        })
-    }
-}
-
 /// What a step may learn beside the acceleration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Update {

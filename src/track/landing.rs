@@ -3,70 +3,42 @@
 use super::filter::Uncertain;
 use super::floors::{Floors, Judgement, Stop};
 use super::record::{Track, Tracked};
+use super::unseen::Unseen;
 use crate::detection::Detection;
 use crate::fields::names;
 use crate::recording::Sample;
 use serde_json::Value;
-use std::ops::Range;
 
 /// What the columns of a landing begin with.
 const PREFIX: &str = "landing_";
 
-/// A longer hole may hide a ride of one floor, s.
-const HIDES: f64 = 4.0;
-
-/// Whether nothing says what the cage did between two samples that follow each other.
-pub(super) fn hides(one: Sample, next: Sample) -> bool {
-    let since = next.time - one.time;
-    since <= 0.0 || since > HIDES
-}
-
 /// What a barometer does not know better says nothing of floors, and what is less is no ride, m.
 const VAGUE: f64 = 0.5;
 const NO_RIDE: f64 = 1.5;
-
-/// Where the cage may go unseen, s: what a record does not decide, and its holes.
-pub fn hidden(detection: &Detection, samples: &[Sample]) -> Vec<Range<f64>> {
-    undecided(detection).chain(holes(samples)).collect()
-}
-
-fn undecided(detection: &Detection) -> impl Iterator<Item = Range<f64>> {
-    detection.undecided.iter().map(|it| it.from..it.to)
-}
-
-/// A clock that was set back hides what comes after.
-fn holes(samples: &[Sample]) -> impl Iterator<Item = Range<f64>> {
-    let pairs = samples.windows(2).map(|pair| (pair[0], pair[1]));
-    let holes = pairs.filter(|(one, next)| hides(*one, *next));
-    holes.map(|(one, next)| one.time..next.time.max(one.time))
-}
 
 impl Track {
     /// Takes the car through the trips of these samples. Where nothing says how far it went it may be at any floor: where it
     /// went unseen, or on a trip that the record does not decide, or does not show from rest to rest. Only a barometer may. A hole may
     /// be before the last sample.
     pub fn land(&mut self, detection: &Detection, samples: &[Sample], floors: &mut Floors) {
-        let undecided: Vec<Range<f64>> = undecided(detection).collect();
-        let hidden = hidden(detection, samples);
-        let is_in = |spans: &[Range<f64>], from: f64, to: f64| {
-            spans.iter().any(|span| span.start < to && span.end > from)
-        };
+        let unseen = Unseen::of(detection, samples);
+        let goes_unseen = |from, to| unseen.within(from, to).next().is_some();
         let mut stood = f64::NEG_INFINITY;
         for it in &mut self.trips {
             let start = it.trip.start.unwrap_or(stood);
             let stop = it.trip.stop.unwrap_or(f64::INFINITY);
-            if is_in(&hidden, stood, start) {
+            if goes_unseen(stood, start) {
                 go_unseen(floors, it.unseen);
             }
-            let closed = it.closed(!is_in(&undecided, start, stop));
+            let closed = it.closed(unseen.is_decided(&it.trip));
             it.landing = closed.map(|it| floors.step(it.mean, it.variance));
             match it.landing {
                 Some(landing) => self.course.lay(stop, landing.position),
                 None => floors.lose(),
             }
-            stood = stop;
+            stood = unseen.around(start, stop).end;
         }
-        if is_in(&hidden, stood, f64::INFINITY) {
+        if goes_unseen(stood, f64::INFINITY) {
             floors.lose();
         }
     }
@@ -84,20 +56,16 @@ fn go_unseen(floors: &mut Floors, gone: Option<Uncertain>) {
 }
 
 impl Tracked {
-    /// The distance from rest to rest, by the accelerometer where that is decided, and by the barometer; by the former alone
-    /// where they are unlike.
+    /// The distance from rest to rest, where that is decided, or else the height.
     fn closed(&self, is_decided: bool) -> Option<Uncertain> {
         self.trip.stop?;
-        let known = |it: (f64, f64)| Uncertain {
-            mean: it.0,
-            variance: it.1 * it.1,
-        };
         let distance = self.distance.zip(self.deviation).filter(|_| is_decided);
-        let height = self.climb.map(|it| (it.height, it.height_deviation));
-        match (distance.map(known), height.map(known)) {
-            (Some(one), Some(other)) => Some(one.with(other).unwrap_or(one)),
-            (one, other) => one.or(other),
-        }
+        let height = || self.climb.map(|it| (it.height, it.height_deviation));
+        let (mean, deviation) = distance.or_else(height)?;
+        Some(Uncertain {
+            mean,
+            variance: deviation * deviation,
+        })
     }
 
     /// The value of a column of [`columns`]; null if it has none, nothing of another column.

@@ -32,6 +32,9 @@ pub struct TrackReport<'a> {
     /// Gravity at each rest, where three axes are read.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub calibration: Vec<Calibration>,
+    /// Whether the vertical turns, and is followed.
+    #[serde(skip)]
+    pub is_followed: bool,
     /// The floors after the trips, from the lowest up, where any are known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub floors: Option<Vec<Floor>>,
@@ -121,6 +124,7 @@ impl<'a> TrackReport<'a> {
             settings: &track.settings,
             level: track.level,
             calibration: track.calibrations(recording),
+            is_followed: recording.vertical().is_followed(),
             floors: floors.map(Floors::floors),
             barometer: barometer.map(|(of, climbs)| Barometric::new(of, climbs)),
             quality: None,

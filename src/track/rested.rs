@@ -36,12 +36,14 @@ impl Rested {
         let count = sound.len() as f64;
         let mean = sound.iter().map(|it| it.1).sum::<f64>() / count;
         let ends = sound.first().zip(sound.last());
-        let seconds = ends.map_or(0.0, |(first, last)| last.0 - first.0);
+        let span = ends.map_or(0.0, |(first, last)| last.0 - first.0);
+        // Each reading stands for its interval.
+        let held = span * count / (count - 1.0).max(1.0) / SMOOTH;
         Self {
             count,
             mean,
             time: sound.iter().map(|it| it.0).sum::<f64>() / count,
-            seconds: count.min(1.0 + seconds / SMOOTH),
+            seconds: held.max(1.0).min(count),
             off: sound.iter().map(|it| (it.0, it.1 - mean)).collect(),
         }
     }
@@ -49,6 +51,11 @@ impl Rested {
     /// The variance of the mean over that of the mean of a second.
     pub fn of_mean(&self) -> f64 {
         1.0 / self.seconds
+    }
+
+    /// From the first reading to the last, s.
+    pub fn times(&self) -> Option<(f64, f64)> {
+        Some((self.off.first()?.0, self.off.last()?.0))
     }
 
     /// How far the mean of each second is off.

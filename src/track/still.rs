@@ -2,11 +2,12 @@
 
 use super::record::Tracked;
 use super::rested::Rested;
+use super::unseen::Unseen;
 use crate::recording::Pressure;
 use crate::stats::quantile::median;
 use std::ops::Range;
 
-/// The rest that is looked at on either side of a trip, and what is left out beside the trip, where a barometer lags, s.
+/// The rest that is looked at on either side of a trip, and what is left out behind a trip, where a barometer lags, s.
 const REST: f64 = 10.0;
 const LAG: f64 = 1.0;
 
@@ -31,8 +32,15 @@ pub struct Rest {
 
 impl Rest {
     /// The rest before a trip and that after it, by a barometer with these steps.
-    pub fn around(trips: &[Tracked], at: usize, readings: &[Pressure], step: f64) -> [Self; 2] {
-        let [before, after] = rests(trips, at).map(|it| within(readings, it.unwrap_or(NONE)));
+    pub fn around(
+        trips: &[Tracked],
+        at: usize,
+        unseen: &Unseen,
+        readings: &[Pressure],
+        step: f64,
+    ) -> [Self; 2] {
+        let rests = rests(trips, at, unseen);
+        let [before, after] = rests.map(|it| within(readings, it.unwrap_or(NONE)));
         let [early, late] = [before, after].map(|it| jump(it, step));
         // What is beside the trip counts.
         let before = &before[early.map_or(0, |it| it.0)..];
@@ -61,22 +69,33 @@ impl Rest {
 /// No time at all.
 const NONE: Range<f64> = f64::INFINITY..f64::NEG_INFINITY;
 
-/// The rest before a trip and that after it, as far as they are looked at; none where that end is not recorded, nor that of
-/// the trip on its other side.
-fn rests(trips: &[Tracked], at: usize) -> [Option<Range<f64>>; 2] {
-    let trip = &trips[at].trip;
+/// The rest before a trip and that after it, as far as they are looked at, and nothing is unseen in them; none where that end is
+/// not recorded, nor that of the trip on its other side.
+fn rests(trips: &[Tracked], at: usize, unseen: &Unseen) -> [Option<Range<f64>>; 2] {
+    let around = |of: &Tracked| {
+        let (start, stop) = (of.trip.start, of.trip.stop);
+        let from = start.unwrap_or(f64::NEG_INFINITY);
+        let all = unseen.around(from, stop.unwrap_or(f64::INFINITY));
+        (start.map(|_| all.start), stop.map(|_| all.end))
+    };
+    let (start, stop) = around(&trips[at]);
     let begin = trips[..at]
         .last()
-        .map_or(Some(f64::NEG_INFINITY), |it| it.trip.stop);
+        .map_or(Some(f64::NEG_INFINITY), |it| around(it).1);
     let end = trips
         .get(at + 1)
-        .map_or(Some(f64::INFINITY), |it| it.trip.start);
-    let before = begin.zip(trip.start);
-    let after = trip.stop.zip(end);
-    [
-        before.map(|(begin, start)| (begin + LAG).max(start - REST)..start),
-        after.map(|(stop, end)| stop + LAG..end.min(stop + LAG + REST)),
-    ]
+        .map_or(Some(f64::INFINITY), |it| around(it).0);
+    let before = begin.zip(start).map(|(begin, start)| {
+        let hidden = unseen.within(begin, start);
+        let begin = hidden.fold(begin, |begin, it| begin.max(it.end));
+        (begin + LAG).max(start - REST)..start
+    });
+    let after = stop.zip(end).map(|(stop, end)| {
+        let hidden = unseen.within(stop, end);
+        let end = hidden.fold(end, |end, it| end.min(it.start));
+        stop + LAG..end.min(stop + LAG + REST)
+    });
+    [before, after]
 }
 
 /// The smallest change from one reading to the next, as a logarithm.
@@ -126,12 +145,20 @@ pub fn is_frozen(trip: &Tracked, readings: &[Pressure], step: f64) -> bool {
     readings.len() > 1 && most - least <= 1.01 * step && far > 2.0 * step
 }
 
-/// For how long a barometer is silent in a trip, s, if it is.
-pub fn silence(trip: &Tracked, readings: &[Pressure]) -> Option<f64> {
+/// From reading to reading, s.
+fn intervals(readings: &[Pressure]) -> impl Iterator<Item = (f64, f64)> {
+    readings.windows(2).map(|pair| (pair[0].time, pair[1].time))
+}
+
+/// The usual interval, s.
+pub fn usual_interval(readings: &[Pressure]) -> f64 {
+    median(intervals(readings).map(|(from, to)| to - from).collect())
+}
+
+/// For how long a barometer with this usual interval is silent in a trip, s, if it is.
+pub fn silence(trip: &Tracked, readings: &[Pressure], usual: f64) -> Option<f64> {
     let (start, stop) = trip.trip.start.zip(trip.trip.stop)?;
-    let intervals = || readings.windows(2).map(|pair| (pair[0].time, pair[1].time));
-    let usual = median(intervals().map(|(from, to)| to - from).collect());
-    let of_trip = intervals().filter(|(from, to)| *to > start && *from < stop);
+    let of_trip = intervals(readings).filter(|(from, to)| *to > start && *from < stop);
     let longest = of_trip.map(|(from, to)| to - from).fold(0.0, f64::max);
     (longest > SILENT * usual.max(1.0)).then_some(longest)
 }

@@ -57,6 +57,15 @@ impl Climbs {
             let said = by_rides.instead_of?;
             Some(HeightWarning::Clocks { by_rides, said })
         });
+        // Of a ride without a height nothing is the height.
+        let has_height = |of: usize| {
+            let mut pairs = trips.iter().zip(&self.climbs);
+            pairs.any(|(it, climb)| it.trip.ride == of && climb.is_some())
+        };
+        let faults = self.faults.iter().filter(|it| match it {
+            HeightWarning::Silent { ride, .. } => has_height(*ride),
+            _ => true,
+        });
         let upside_down = self.upside_down.filter(|it| *it);
         let upside_down = upside_down.map(|_| HeightWarning::UpsideDown);
         let of_trips = trips.iter().zip(&self.climbs).filter_map(|(it, climb)| {
@@ -77,7 +86,7 @@ impl Climbs {
         });
         clocks
             .into_iter()
-            .chain(self.faults.iter().cloned())
+            .chain(faults.cloned())
             .chain(upside_down)
             .chain(of_trips)
             .collect()

@@ -6,8 +6,8 @@
 //! is told, if nothing after that is undecided. What is cut off, or too long, is told as it is.
 
 use super::floors::{Fault, Floors, Judgement};
-use super::landing::hides;
 use super::record::{Track, Tracked};
+use super::unseen::hides;
 use super::warning::Warning;
 use crate::detection::{Detection, Undecided};
 use crate::monitor::{Design, State};
@@ -186,7 +186,10 @@ impl Watch {
         None
     }
 
+    /// But for the last, beside which a hole is seen.
     fn forget_before(&mut self, time: f64) {
+        let last = self.samples.back().map_or(time, |it| it.time);
+        let time = time.min(last);
         let old = self.samples.iter().take_while(|it| it.time < time).count();
         self.samples.drain(..old);
     }
@@ -203,9 +206,8 @@ impl Watch {
             self.cage = Cage::MayMove { look: now + wait };
             return Vec::new();
         };
-        let mut trips = detection.trips.iter();
-        let later = trips.position(|it| it.stop.unwrap_or(now) > until);
-        if let Some(later) = later {
+        let ends = ends(&track.trips, now);
+        if let Some(later) = ends.iter().position(|end| *end > until) {
             detection.trips.truncate(later);
             track.trips.truncate(later);
         }
@@ -236,10 +238,9 @@ impl Watch {
             what,
         };
         let mut told = Vec::new();
-        for mut trip in trips {
+        for (time, mut trip) in ends(&trips, now).into_iter().zip(trips) {
             self.rides += 1;
             trip.trip.ride = self.rides;
-            let time = trip.trip.stop.unwrap_or(now);
             told.push(happened(time, Found::Trip(Box::new(trip))));
             if let Some(judgement) = trip.landing.and_then(|it| it.judgement)
                 && let Some(alarm) = judgement.fault
@@ -252,6 +253,14 @@ impl Watch {
         told.sort_by(|a, b| a.time.total_cmp(&b.time));
         told
     }
+}
+
+/// When trips end, s: where a stop is not recorded, at the latest as the next trip begins.
+fn ends(trips: &[Tracked], now: f64) -> Vec<f64> {
+    let next = |place: usize| trips.get(place + 1).and_then(|it| it.trip.start);
+    let ends = trips.iter().enumerate();
+    ends.map(|(place, it)| it.trip.stop.or(next(place)).unwrap_or(now))
+        .collect()
 }
 
 impl Due {
@@ -275,10 +284,12 @@ impl Due {
                     stops.find(|stop| *stop > half && undecided.iter().all(is_outside(*stop)));
                 Some(stop.unwrap_or(f64::INFINITY))
             }
+            // Where it may have begun in motion, rest and uniform motion look alike from here.
+            Self::Look if !stood => None,
             Self::Look => {
                 let past = stretch.end - 0.5 * QUIET;
                 // A cage that stood, and made no trip, stands.
-                let has_stood = stood && detection.trips.is_empty() && undecided.is_empty();
+                let has_stood = detection.trips.is_empty() && undecided.is_empty();
                 let stands = has_stood.then_some(past);
                 let stop = stops.find(|stop| *stop <= past).or(stands)?;
                 // Behind a high-pass filter a start looks like a hop, until more is seen.

@@ -2,12 +2,11 @@
 
 use super::table::Point;
 use crate::counts::{Shape, Sums};
-use crate::recording::{Barometer, Pressure, PressureUnit};
 use crate::rng::Stream;
 use crate::signal::white_noise;
 use crate::study::height::Watched;
 use crate::study::trips::tracked;
-use crate::track::{Climb, Climbs, Tracked};
+use crate::track::{Climb, Climbs, Tracked, Unseen};
 use libm::fabs;
 
 /// How a height follows from two pressures.
@@ -71,11 +70,12 @@ pub(super) fn run(trips: usize, points: &[&Point], seed: u64, trial: u64) -> Vec
     for trip in &mut track.trips {
         trip.distance = trip.distance.map(|it| gain * it);
     }
+    let unseen = Unseen::default();
     let truth: Vec<Option<f64>> = track.trips.iter().map(|it| went(it, &watched)).collect();
     let each = points.iter().map(|point| {
-        let readings = watched.pressures(point.temperature, 100.0 * point.pressure, NOISE);
-        let barometer = barometer(readings);
-        let climbs = |celsius| Climbs::of(&track.trips, &barometer, 0.0, celsius);
+        let pascal = 100.0 * point.pressure;
+        let barometer = watched.pressures(point.temperature, pascal, NOISE, 0.0);
+        let climbs = |celsius| Climbs::of(&track.trips, &unseen, &barometer, 0.0, celsius);
         let learnt = climbs(None);
         let off = learnt.air.celsius - point.temperature;
         let mut sums = shape().empty().sums;
@@ -121,15 +121,4 @@ fn went(trip: &Tracked, watched: &Watched) -> Option<f64> {
     };
     let (start, stop) = trip.trip.start.zip(trip.trip.stop)?;
     Some(at(stop + BESIDE) - at(start - BESIDE))
-}
-
-fn barometer(readings: Vec<Pressure>) -> Barometer {
-    Barometer {
-        readings,
-        file: String::new(),
-        column: String::new(),
-        unit: PressureUnit::Pascal,
-        clock_offset: None,
-        warnings: Vec::new(),
-    }
 }

@@ -39,10 +39,7 @@ use serde_json::Value;
 use table::Point;
 pub(super) use table::Table;
 pub(super) use watched::Watched;
-use way::Way;
-
-/// Of the time, %.
-const SHARES: [u8; 7] = [10, 25, 50, 75, 90, 95, 99];
+use way::{SHARES, Way};
 
 impl Outcomes for Table {
     const NAME: &'static str = "height";
@@ -112,7 +109,7 @@ impl Outcomes for Table {
         row.drift.to_string().replace('.', "_")
     }
 
-    /// The drift from which on calibration helps, between those of two points; infinite if it never does.
+    /// The drift from which on calibration helps, between those of two points; the first if it does there, infinite if it never does.
     fn extremes(&self, rows: &[Row]) -> Vec<Quantity> {
         let of = |way: Way| {
             let outcome = format!("error_{}", way.name());
@@ -128,7 +125,8 @@ impl Outcomes for Table {
             let value = low + (high - low) * loss / (loss - gain);
             (loss < 0.0 && gain >= 0.0).then_some([value, low, high])
         });
-        let [value, low, high] = crossing.unwrap_or([f64::INFINITY; 3]);
+        let always = gains.first().filter(|it| it.1 >= 0.0).map(|it| [it.0; 3]);
+        let [value, low, high] = always.or(crossing).unwrap_or([f64::INFINITY; 3]);
         vec![Quantity {
             name: "break_even".to_owned(),
             value,

@@ -1,8 +1,7 @@
 //! The mean error along the drift, and below it how often it is how large where the weather drifts most; a way to a curve.
 
-use super::SHARES;
 use super::row::Row;
-use super::way::Way;
+use super::way::{SHARES, Way};
 use crate::plot::{Axis, Curve, Limit, Mark, Panel, Plot, Point, Style, add_bands, ends};
 use crate::study::along::{self, Kind, Outcome, Shown};
 use crate::study::outcomes::facts;

@@ -1,14 +1,16 @@
 //! One lift, followed in every way.
 
 use super::table::Point;
-use super::watched::{NOISE, RATE, Watched};
+use super::watched::{NOISE, Watched};
 use super::way::{Published, Way};
 use crate::counts::{Shape, Sums, Values};
 use crate::recording::Sample;
 use crate::study::trips::tracked;
-use crate::track::fusion::{Barometry, Fusion, Position, Reference};
-use crate::track::{Motion, Place, Rules, Track, Uncertain, Vertical, VerticalFilter};
-use libm::{fabs, round, sqrt};
+use crate::track::fusion::{Fusion, Position, Reference, stays};
+use crate::track::{
+    Climbs, Motion, Place, Rules, Track, Uncertain, Unseen, Vertical, VerticalFilter,
+};
+use libm::{fabs, round};
 
 /// The sums and the sums of squares of the mean size of the error and of its mean square.
 pub(super) fn shape() -> Shape {
@@ -26,6 +28,11 @@ const THRESHOLD: f64 = 0.15;
 /// What a hectopascal more is in the height, m.
 const METRES: f64 = 8.32;
 
+/// The air: °C, Pa, and the height of it over which the pressure falls by a factor e, m.
+const CELSIUS: f64 = 20.0;
+const PASCAL: f64 = 101_325.0;
+const METRES_OF_AIR: f64 = 8581.0;
+
 /// Errors are counted in steps of this, m, each so many seconds, and of those so many.
 const STEP: f64 = 1e-3;
 const EVERY: f64 = 0.1;
@@ -41,12 +48,13 @@ pub(super) fn run(points: &[&Point], seed: u64, trial: u64) -> Vec<Sums> {
     let verticals = verticals(&watched);
     let track = tracked(&watched.samples, watched.numbers.rate);
     let each = points.iter().map(|point| {
-        let barometer = watched.barometer(METRES * point.drift / 3600.0);
+        let rate = METRES * point.drift / 3600.0;
+        let barometer = watched.barometer(rate);
         let mut sums = shape().empty().sums;
         for (place, way) in Way::ALL.into_iter().enumerate() {
             let heights = match way.published() {
                 Some(published) => follow(&watched, &verticals, &barometer, published),
-                None => carried(&watched, &track, &barometer, way),
+                None => carried(&watched, &track, rate, way),
             };
             add(&mut sums, place, &heights, &watched);
         }
@@ -125,10 +133,10 @@ fn follow(
 }
 
 /// The height at each sample by the distances of trips, put right at each rest.
-fn carried(watched: &Watched, track: &Track, barometer: &[(f64, f64)], way: Way) -> Vec<f64> {
+fn carried(watched: &Watched, track: &Track, rate: f64, way: Way) -> Vec<f64> {
     let put_right = match way {
         Way::Trips => Vec::new(),
-        _ => put_right(watched, track, barometer, way == Way::SlowMap),
+        _ => put_right(watched, track, rate, way == Way::SlowMap),
     };
     let places: Vec<&Place> = track.course.stretches().iter().flatten().collect();
     let samples = watched.samples.iter();
@@ -140,12 +148,7 @@ fn carried(watched: &Watched, track: &Track, barometer: &[(f64, f64)], way: Way)
 }
 
 /// By how much a car is higher than its trips say, at the beginning and the end of each rest.
-fn put_right(
-    watched: &Watched,
-    track: &Track,
-    barometer: &[(f64, f64)],
-    knows_floors: bool,
-) -> Vec<(f64, f64)> {
+fn put_right(watched: &Watched, track: &Track, rate: f64, knows_floors: bool) -> Vec<(f64, f64)> {
     let floor = |position: Uncertain| {
         let height = position.mean;
         let near = watched.floors.iter().copied();
@@ -156,12 +159,10 @@ fn put_right(
             variance: LEVEL * LEVEL,
         })
     };
-    let heights = Barometry {
-        readings: barometer,
-        second: NOISE / sqrt(RATE),
-        rounded: 0.0,
-    };
-    let stays = heights.stays(&track.trips, &[], floor);
+    let barometer = watched.pressures(CELSIUS, PASCAL, PASCAL / METRES_OF_AIR * NOISE, rate);
+    let unseen = Unseen::default();
+    let climbs = Climbs::of(&track.trips, &unseen, &barometer, 0.0, None);
+    let stays = stays(&climbs.legs(&track.trips, &unseen), floor);
     let end = watched.samples.last().map_or(0.0, |it| it.time);
     let starts = track.trips.iter().filter_map(|it| it.trip.start);
     let stops = track.trips.iter().filter_map(|it| it.trip.stop);

@@ -1,7 +1,7 @@
 //! A simulated lift, as its sensors record it.
 
 use crate::lift::{Ending, Ride, Trip};
-use crate::recording::{GRAVITY, Pressure, Sample};
+use crate::recording::{Barometer, GRAVITY, Pressure, Sample};
 use crate::rng::{self, Generator, Stream};
 use crate::signal::white_noise;
 use crate::study::trips::{Condition, Numbers};
@@ -59,16 +59,19 @@ impl Watched {
         }
     }
 
-    /// What it reads in steady air of so many °C and, at the first floor, so many Pa, with this deviation of a reading.
-    pub fn pressures(&self, celsius: f64, pascal: f64, noise: f64) -> Vec<Pressure> {
+    /// What it reads in air of so many °C and, at the first floor, so many Pa, with this deviation of a reading, Pa, where the
+    /// weather moves its height by so much, m/s.
+    pub fn pressures(&self, celsius: f64, pascal: f64, noise: f64, rate: f64) -> Barometer {
         // The height in which the pressure of such air falls by a factor e.
         let scale = 287.05 * (celsius + 273.15) / GRAVITY;
-        let read = self.readings.iter();
-        read.map(|it| Pressure {
-            time: it.time,
-            pascal: pascal * exp(-it.height / scale) + noise * it.noise,
-        })
-        .collect()
+        let readings = self.readings.iter().map(|it| {
+            let height = it.height + self.sign * rate * it.time;
+            Pressure {
+                time: it.time,
+                pascal: pascal * exp(-height / scale) + noise * it.noise,
+            }
+        });
+        Barometer::of_readings(readings.collect())
     }
 
     /// The barometer's readings where the weather moves its height by so much, m/s.

@@ -2,6 +2,9 @@
 
 use crate::track::fusion::Adapts;
 
+/// Of the time, %.
+pub const SHARES: [u8; 7] = [10, 25, 50, 75, 90, 95, 99];
+
 /// How its height is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {

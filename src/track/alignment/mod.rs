@@ -23,7 +23,10 @@
 //!
 //! A barometer lags by up to a second. That cannot be told from its clock, and is part of τ.
 
+mod error;
 mod search;
+
+pub use error::AlignmentError;
 
 use super::air::{above_first, kelvin};
 use super::course::Course;
@@ -31,12 +34,11 @@ use super::record::Track;
 use crate::detection::{Detection, Undecided};
 use crate::recording::Barometer;
 use crate::stats::quantile::median;
-use search::{Fit, MOST, Search};
+use search::{Fit, MOST, OFF, PITCH, SCALE, Search};
 use serde::Serialize;
 use std::fmt;
 
-/// The pitch of the search, s, and L in such steps.
-const PITCH: f64 = 0.5;
+/// L in steps of the search.
 const OVER: usize = 16;
 
 /// That of the refinement, s.
@@ -45,9 +47,8 @@ const FINE: f64 = 0.05;
 /// Other τ are farther off than this, s, and than so many deviations.
 const APART: f64 = 4.0;
 
-/// The error of h besides the noise, m, as where a barometer lags in a pulse; and that of a change, by the air's temperature.
+/// The error of h besides the noise, m, as where a barometer lags in a pulse.
 const BLUR: f64 = 0.2;
-const SCALE: f64 = 0.05;
 
 /// Readings further apart are not joined, s.
 const GAP: f64 = 5.0;
@@ -55,8 +56,7 @@ const GAP: f64 = 5.0;
 /// Longer records are not searched, s.
 const LONGEST: f64 = 172_800.0;
 
-/// A clock is another than it says if it is off by more, s, and by so many deviations.
-const OFF: f64 = 2.0;
+/// A clock is another than it says if it is off by so many deviations, and more.
 const CERTAIN: f64 = 5.0;
 
 /// Two clocks, brought together.
@@ -68,22 +68,6 @@ pub struct Alignment {
     pub deviation: f64,
     /// What the clocks themselves said, if anything.
     pub instead_of: Option<f64>,
-}
-
-/// Why clocks cannot be brought together.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs, reason = "the messages say it")]
-pub enum AlignmentError {
-    #[error("no ride is measured from start to stop")]
-    NoRide,
-    #[error("nowhere do the rides and the pressure agree")]
-    Unlike,
-    #[error("too few of the rides are in both records")]
-    Few,
-    #[error("a record is longer than two days")]
-    Long,
-    #[error("the rides agree with the pressure {0:.1} s ahead, and about as well {1:.1} s ahead")]
-    Ambiguous(f64, f64),
 }
 
 impl fmt::Display for Alignment {
@@ -115,8 +99,10 @@ impl Track {
         let rides = rides.filter_map(|it| it.trip.start.zip(it.trip.stop));
         let rides: Vec<(f64, f64)> = rides.collect();
         let means = means(&above_first(&barometer.readings, kelvin(celsius)));
-        let (Some(span), [first, .., last], false) = (self.span(), &means[..], rides.is_empty())
-        else {
+        let [first, .., last] = &means[..] else {
+            return Err(AlignmentError::Readings);
+        };
+        let Some(span) = self.span().filter(|_| !rides.is_empty()) else {
             return Err(AlignmentError::NoRide);
         };
         if (last.0 - first.0).max(span.1 - span.0) > LONGEST {
@@ -133,15 +119,22 @@ impl Track {
             variance(&means),
         );
         let signs: &[f64] = if is_up_known { &[1.0] } else { &[1.0, -1.0] };
-        if said.is_some_and(|said| search.agrees(said, signs)) {
+        let in_both = |ahead: f64| {
+            let (from, to) = (first.0 + ahead, last.0 + ahead);
+            rides.iter().filter(|it| from < it.0 && it.1 < to).count()
+        };
+        // Rides that a clock leaves without readings count against it.
+        let is_believed = |said: f64| {
+            let agrees = search.agrees(said, signs);
+            agrees.is_some_and(|it| it.motion >= search.least_motion(in_both(said)))
+        };
+        if said.is_some_and(is_believed) {
             return Ok(None);
         }
         let fits = search.fits(signs);
         let best = search.best(&fits)?;
-        let both = (first.0 + best.ahead, last.0 + best.ahead);
-        let in_both = rides.iter().filter(|it| both.0 < it.0 && it.1 < both.1);
         let (ahead, deviation) = known.refined(&means, &best, search.variance);
-        if best.motion < search.least_motion(in_both.count()) || !deviation.is_finite() {
+        if best.motion < search.least_motion(in_both(best.ahead)) || !deviation.is_finite() {
             return Err(AlignmentError::Few);
         }
         best.is_only(&fits, APART.max(CERTAIN * deviation))?;

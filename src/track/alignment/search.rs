@@ -1,6 +1,15 @@
 //! The search: how well the changes of both records agree at each offset.
 
-use super::{AlignmentError, OFF, PITCH, SCALE};
+use super::error::AlignmentError;
+
+/// The pitch of the search, s.
+pub const PITCH: f64 = 0.5;
+
+/// The error of a change, by the air's temperature, as a share of it.
+pub const SCALE: f64 = 0.05;
+
+/// A clock is another than it says if it is off by more, s.
+pub const OFF: f64 = 2.0;
 
 /// The largest ρ, and that from which a barometer moves.
 pub const MOST: f64 = 25.0;
@@ -112,15 +121,15 @@ impl Search {
         signs.iter().flat_map(|sign| of(*sign)).collect()
     }
 
-    /// Whether the rides fit about where the clocks say.
-    pub fn agrees(&self, said: f64, signs: &[f64]) -> bool {
+    /// How the rides fit about where the clocks say, if they do.
+    pub fn agrees(&self, said: f64, signs: &[f64]) -> Option<Fit> {
         let shift = ((said - self.begin) / PITCH).round() as isize;
         let near = (OFF / PITCH) as isize;
-        let fits = |sign: &f64| {
-            let mut shifts = (-near..=near).map(|by| self.fit(shift.saturating_add(by), *sign));
-            shifts.any(|it| it.evidence > 0.0 && it.mean() <= FITS)
-        };
-        signs.iter().any(fits)
+        let fits = signs.iter().flat_map(|sign| {
+            (-near..=near).map(move |by| self.fit(shift.saturating_add(by), *sign))
+        });
+        fits.filter(|it| it.evidence > 0.0 && it.mean() <= FITS)
+            .max_by(|a, b| a.evidence.total_cmp(&b.evidence))
     }
 
     pub fn best(&self, fits: &[Fit]) -> Result<Fit, AlignmentError> {
@@ -169,6 +178,11 @@ impl Fit {
 
 /// ρ of a change that is none, and that it is counted, where a barometer moves.
 fn moves(change: f64, variance: f64) -> (f64, f64) {
-    let rho = (change * change / variance).min(MOST);
-    if rho > MOVES { (rho, 1.0) } else { (0.0, 0.0) }
+    let rho = change * change / variance;
+    // Not where it is not known.
+    if rho > MOVES {
+        (rho.min(MOST), 1.0)
+    } else {
+        (0.0, 0.0)
+    }
 }

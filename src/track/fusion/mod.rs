@@ -22,7 +22,7 @@ mod slow;
 #[cfg(test)]
 mod tests;
 
-pub use carried::{Barometry, Stay};
+pub use carried::{Leg, Reading, Stay, UNKNOWN, stays};
 pub use reference::Reference;
 pub use slow::{Drift, SlowHeight};
 

@@ -1,7 +1,7 @@
 //! Trips by the accelerometer, and the barometer as a height that drifts slowly.
 //!
 //! The state is x = [p, w, r]: the car's position, by how much the barometer reads more, and how fast that changes. A trip
-//! moves p by its distance, with its variance; in between w ← w + r T and r changes as the weather does. At rest the mean
+//! moves p by its distance, with its variance; in between w is the integral of r, which changes as the weather does. At rest the mean
 //! of the barometer's readings measures p + w. So trips carry the position over minutes and the barometer over hours, the
 //! less the more its drift has been seen to be steady. A floor at which the car is known to stand measures p alone.
 
@@ -64,24 +64,43 @@ impl SlowHeight {
         }
     }
 
-    /// After a trip of this distance, m, so many seconds from rest to rest.
+    /// After a trip of this distance, m, so many seconds from rest to rest. The rate is an Ornstein–Uhlenbeck process of the drift's
+    /// deviation and time, and the offset its integral, so that one step is as good as several.
     pub fn travel(&mut self, distance: Uncertain, seconds: f64) {
         let Drift { rate, lasts } = self.drift;
         let kept = libm::exp(-seconds / lasts);
+        let lost = 1.0 - kept;
         #[rustfmt::skip]
         let transition = [
             1.0, 0.0, 0.0,
-            0.0, 1.0, seconds,
+            0.0, 1.0, lasts * lost,
             0.0, 0.0, kept,
         ];
-        let mut noise = [0.0; 9];
-        noise[4 * POSITION] = distance.variance;
-        noise[4 * RATE] = rate * rate * (1.0 - kept * kept);
+        let power = rate * rate;
+        let both = power * lasts * lost * lost;
+        let offset = 2.0 * seconds / lasts - 3.0 + 4.0 * kept - kept * kept;
+        #[rustfmt::skip]
+        let noise = [
+            distance.variance, 0.0, 0.0,
+            0.0, power * lasts * lasts * offset.max(0.0), both,
+            0.0, both, power * (1.0 - kept * kept),
+        ];
         self.estimate
             .predict(&transition, &[distance.mean, 0.0, 0.0], &noise);
     }
 
-    /// The barometer reads this height at rest, m. Where that cannot be it has jumped, and tells nothing yet.
+    /// Counts from where the car stands now.
+    pub fn count_from_here(&mut self) {
+        #[rustfmt::skip]
+        let moved = [
+            0.0, 0.0, 0.0,
+            1.0, 1.0, 0.0,
+            0.0, 0.0, 1.0,
+        ];
+        self.estimate.predict(&moved, &[0.0; 3], &[0.0; 9]);
+    }
+
+    /// The barometer reads this height at rest, m. Where that cannot be it has jumped, and tells nothing yet: trips are believed.
     pub fn read(&mut self, height: Uncertain) {
         let Uncertain { mean, variance } = height;
         let innovation = self.estimate.innovation(&BAROMETER, mean, variance);

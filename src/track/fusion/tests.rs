@@ -2,9 +2,7 @@
 
 use super::*;
 use crate::rng::{self, Stream};
-use crate::signal::white_noise;
-use crate::track::{Tracked, Uncertain};
-use std::ops::Range;
+use crate::track::Uncertain;
 
 fn fusion(adapts: Adapts) -> Fusion {
     Fusion {
@@ -139,109 +137,42 @@ fn errors(drift: Drift) -> [f64; 2] {
     errors
 }
 
-/// A lift of ten trips between two rests of a minute each, up 12 m and down, whose trips are off by 5 cm, and the readings of a
-/// barometer at 1 Hz that are off by 30 cm, in weather of 1 hPa an hour.
-struct Building {
-    trips: Vec<Tracked>,
-    readings: Vec<(f64, f64)>,
-}
-
-impl Building {
-    const TRIPS: usize = 11;
-    const NOISE: f64 = 0.3;
-
-    fn start(trip: usize) -> f64 {
-        60.0 + 80.0 * trip as f64
-    }
-
-    fn height(time: f64) -> f64 {
-        let gone = (0..Self::TRIPS).map(|trip| {
-            let distance = if trip % 2 == 0 { 12.0 } else { -12.0 };
-            distance * ((time - Self::start(trip)) / 20.0).clamp(0.0, 1.0)
+/// Two steps are one, also of a drift that changes on the way.
+#[test]
+fn a_drift_in_two_steps_is_that_in_one() {
+    let begun = || {
+        let mut slow = SlowHeight::new(Drift::default());
+        slow.read(Uncertain {
+            mean: 3.0,
+            variance: 0.01,
         });
-        gone.sum()
-    }
-
-    fn new(seed: u64) -> Self {
-        let mut draws = Stream::new(seed, "carried", "").at(0);
-        let errors = white_noise(Self::TRIPS, &mut draws);
-        let trips = errors.iter().enumerate().map(|(trip, error)| {
-            let (start, stop) = (Self::start(trip), Self::start(trip) + 20.0);
-            let gone = Self::height(stop) - Self::height(start);
-            Tracked::told(trip + 1, [start, stop], gone + 0.05 * error)
-        });
-        let noise = white_noise(Self::start(Self::TRIPS) as usize, &mut draws);
-        let readings = noise.iter().enumerate().map(|(second, noise)| {
-            let time = second as f64;
-            let weather = 8.3 / 3600.0 * time;
-            (time, Self::height(time) + weather + Self::NOISE * noise)
-        });
-        Self {
-            trips: trips.collect(),
-            readings: readings.collect(),
-        }
-    }
-
-    /// How far the last position is off, in stated deviations.
-    fn off(&self, unseen: &[Range<f64>]) -> f64 {
-        let heights = Barometry {
-            readings: &self.readings,
-            second: Self::NOISE,
-            rounded: 0.0,
+        slow
+    };
+    let still = |seconds: f64, slow: &mut SlowHeight| slow.travel(Uncertain::default(), seconds);
+    for seconds in [30.0, 3600.0, 30_000.0] {
+        let (mut one, mut two) = (begun(), begun());
+        still(seconds, &mut one);
+        still(0.3 * seconds, &mut two);
+        still(0.7 * seconds, &mut two);
+        let read = Uncertain {
+            mean: 5.0,
+            variance: 0.04,
         };
-        let stays = heights.stays(&self.trips, unseen, |_| None);
-        let Uncertain { mean, variance } = stays.last().unwrap().end;
-        assert!(variance.sqrt() < 0.8, "{variance}");
-        (mean - 12.0) / variance.sqrt()
-    }
-}
-
-/// The squares of 200 errors in stated deviations: the limits are those of 1 in a million of either side where they are normal,
-/// with a third more above for the weather, which is twice what is usual.
-fn is_stated(change: impl Fn(&mut Building) -> Vec<Range<f64>>) {
-    let off = (0..200).map(|seed| {
-        let mut building = Building::new(seed);
-        let unseen = change(&mut building);
-        building.off(&unseen).powi(2)
-    });
-    let squares: f64 = off.sum();
-    assert!((40.0..420.0).contains(&squares), "{squares}");
-}
-
-#[test]
-fn a_car_is_where_trips_and_barometer_say() {
-    is_stated(|_| Vec::new());
-}
-
-/// One that no trip shows, in a stretch that is undecided.
-#[test]
-fn a_trip_that_was_not_seen_is_by_the_barometer() {
-    is_stated(|building| {
-        building.trips.remove(4);
-        vec![Building::start(4) - 1.0..Building::start(4) + 22.0]
-    });
-}
-
-#[test]
-fn a_trip_that_is_not_measured_is_by_the_barometer() {
-    is_stated(|building| {
-        building.trips[4].distance = None;
-        Vec::new()
-    });
-}
-
-/// A barometer that jumps while the car stands, or goes, moves no car; nor one that is off for a while.
-#[test]
-fn a_jump_moves_no_car() {
-    for at in [Building::start(4) - 30.0, Building::start(4) + 10.0] {
-        is_stated(|building| {
-            let late = building.readings.iter_mut().filter(|it| it.0 > at);
-            late.for_each(|it| it.1 += 40.0);
-            Vec::new()
-        });
-        is_stated(|building| {
-            building.readings.retain(|it| (it.0 - at).abs() > 100.0);
-            Vec::new()
-        });
+        let floor = Uncertain {
+            mean: 0.0,
+            variance: 1e-4,
+        };
+        for slow in [&mut one, &mut two] {
+            slow.stand(floor);
+            slow.read(read);
+            slow.travel(read, seconds);
+            slow.read(read);
+        }
+        let [one, two] = [one, two].map(|it| it.position());
+        assert!((one.mean - two.mean).abs() < 1e-6, "{one:?} {two:?}");
+        assert!(
+            (one.variance / two.variance - 1.0).abs() < 1e-6,
+            "{one:?} {two:?}"
+        );
     }
 }

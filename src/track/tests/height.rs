@@ -1,10 +1,10 @@
 //! Heights by the pressure of the air, against the standard atmosphere and generated trips whose truth is known.
 
-use crate::recording::{Barometer, Pressure, PressureUnit};
+use crate::recording::{Barometer, Pressure};
 use crate::rng::Stream;
 use crate::signal::white_noise;
 use crate::stats::binomial::lower_tail;
-use crate::track::{Air, Climbs, HeightWarning, Tracked};
+use crate::track::{Air, Climbs, HeightWarning, Tracked, Unseen};
 
 /// How much of the air lies below so many metres of the standard atmosphere, by small steps: dp/dh = −p g/(R T).
 fn pressure_by_steps(metres: f64) -> f64 {
@@ -83,14 +83,7 @@ impl Building {
                 pascal: pascal + self.weather * time,
             }
         });
-        Barometer {
-            readings: readings.collect(),
-            file: "generated".to_owned(),
-            column: "pressure".to_owned(),
-            unit: PressureUnit::Pascal,
-            clock_offset: None,
-            warnings: Vec::new(),
-        }
+        Barometer::of_readings(readings.collect())
     }
 
     /// What an accelerometer says, whose gain is `gain`; −1 hangs upside down.
@@ -117,7 +110,13 @@ fn heights_are_within_their_deviations() {
     for seed in 0..200 {
         let building = Building::usual(10);
         let trips = building.trips(1.0);
-        let climbs = Climbs::of(&trips, &building.barometer(seed), 0.0, Some(24.0));
+        let climbs = Climbs::of(
+            &trips,
+            &Unseen::default(),
+            &building.barometer(seed),
+            0.0,
+            Some(24.0),
+        );
         assert!(climbs.unlike.is_empty() && climbs.upside_down == Some(false));
         for (climb, distance) in climbs.climbs.iter().flatten().zip(&building.distances) {
             within += u64::from((climb.height - distance).abs() < 1.96 * climb.height_deviation);
@@ -137,7 +136,13 @@ fn the_temperature_is_learnt_from_distances() {
     let building = Building::usual(20);
     // A hundredth of the gain is 3 K.
     for (seed, gain) in (0..20).zip([0.99, 1.0, 1.01].into_iter().cycle()) {
-        let climbs = Climbs::of(&building.trips(gain), &building.barometer(seed), 0.0, None);
+        let climbs = Climbs::of(
+            &building.trips(gain),
+            &Unseen::default(),
+            &building.barometer(seed),
+            0.0,
+            None,
+        );
         let Air {
             celsius,
             deviation,
@@ -151,7 +156,7 @@ fn the_temperature_is_learnt_from_distances() {
         assert!((2.7..3.2).contains(&deviation) && learnt == 20);
     }
     // From nothing nothing is learnt.
-    let climbs = Climbs::of(&[], &building.barometer(0), 0.0, None);
+    let climbs = Climbs::of(&[], &Unseen::default(), &building.barometer(0), 0.0, None);
     assert_eq!(
         (
             climbs.air.learnt,
@@ -166,7 +171,13 @@ fn the_temperature_is_learnt_from_distances() {
 fn up_is_where_the_pressure_falls() {
     let building = Building::usual(2);
     let barometer = building.barometer(1);
-    let climbs = Climbs::of(&building.trips(-1.0), &barometer, 0.0, None);
+    let climbs = Climbs::of(
+        &building.trips(-1.0),
+        &Unseen::default(),
+        &barometer,
+        0.0,
+        None,
+    );
     assert!(climbs.upside_down == Some(true));
     assert_eq!(climbs.air.learnt, 2, "distances count as they are");
     // A trip that the barometer cannot see tells nothing.
@@ -174,7 +185,13 @@ fn up_is_where_the_pressure_falls() {
         distances: vec![0.1, -0.1],
         ..Building::usual(2)
     };
-    let climbs = Climbs::of(&low.trips(-1.0), &low.barometer(1), 0.0, None);
+    let climbs = Climbs::of(
+        &low.trips(-1.0),
+        &Unseen::default(),
+        &low.barometer(1),
+        0.0,
+        None,
+    );
     assert!(climbs.upside_down.is_none());
 }
 
@@ -187,7 +204,7 @@ fn a_faulty_barometer_is_ridden_through() {
     let with = |change: &dyn Fn(&mut Vec<Pressure>)| {
         let mut barometer = sound.clone();
         change(&mut barometer.readings);
-        Climbs::of(&trips, &barometer, 0.0, None)
+        Climbs::of(&trips, &Unseen::default(), &barometer, 0.0, None)
     };
     let second = Building::start(1);
     let frozen = with(&|readings| {
@@ -222,13 +239,25 @@ fn a_trip_that_is_cut_off_has_no_height() {
     let mut trips = building.trips(1.0);
     trips[0].trip.start = None;
     trips[2].trip.stop = None;
-    let climbs = Climbs::of(&trips, &building.barometer(1), 0.0, None);
+    let climbs = Climbs::of(
+        &trips,
+        &Unseen::default(),
+        &building.barometer(1),
+        0.0,
+        None,
+    );
     let known: Vec<bool> = climbs.climbs.iter().map(Option::is_some).collect();
     assert_eq!(known, [false, true, false]);
     // Nor does a rest reach into such a trip.
     let mut trips = building.trips(1.0);
     trips[0].trip.stop = None;
-    let climbs = Climbs::of(&trips, &building.barometer(1), 0.0, None);
+    let climbs = Climbs::of(
+        &trips,
+        &Unseen::default(),
+        &building.barometer(1),
+        0.0,
+        None,
+    );
     let known: Vec<bool> = climbs.climbs.iter().map(Option::is_some).collect();
     assert_eq!(known, [false, false, true]);
 }
@@ -246,7 +275,13 @@ fn a_jump_is_no_direction() {
             .filter(|it| it.time > second + 5.0);
         late.for_each(|it| it.pascal += jump);
         for gain in [1.0, -1.0] {
-            let climbs = Climbs::of(&building.trips(gain), &barometer, 0.0, None);
+            let climbs = Climbs::of(
+                &building.trips(gain),
+                &Unseen::default(),
+                &barometer,
+                0.0,
+                None,
+            );
             assert_eq!(climbs.upside_down, Some(gain < 0.0), "{jump}");
             assert_eq!(climbs.unlike, [2], "{jump}");
         }
@@ -258,10 +293,22 @@ fn a_jump_is_no_direction() {
         .iter_mut()
         .filter(|it| it.time > second + 5.0);
     late.for_each(|it| it.pascal -= 300.0);
-    let climbs = Climbs::of(&building.trips(1.0), &barometer, 0.0, None);
+    let climbs = Climbs::of(
+        &building.trips(1.0),
+        &Unseen::default(),
+        &barometer,
+        0.0,
+        None,
+    );
     assert_eq!(climbs.upside_down, None);
     let sound = building.barometer(1);
-    let hot = Climbs::of(&building.trips(1.0), &sound, 0.0, Some(-60.0));
+    let hot = Climbs::of(
+        &building.trips(1.0),
+        &Unseen::default(),
+        &sound,
+        0.0,
+        Some(-60.0),
+    );
     assert_eq!(hot.unlike, [1, 2]);
 }
 
@@ -275,7 +322,13 @@ fn coarse_steps_are_in_the_deviation() {
     let mut barometer = building.barometer(1);
     let readings = barometer.readings.iter_mut();
     readings.for_each(|it| it.pascal = 100.0 * (it.pascal / 100.0).round());
-    let climbs = Climbs::of(&building.trips(1.0), &barometer, 0.0, Some(24.0));
+    let climbs = Climbs::of(
+        &building.trips(1.0),
+        &Unseen::default(),
+        &barometer,
+        0.0,
+        Some(24.0),
+    );
     for (climb, distance) in climbs.climbs.iter().flatten().zip(&building.distances) {
         let off = (climb.height - distance).abs() / climb.height_deviation;
         assert!(off < 2.5 && climb.height_deviation > 3.0, "{climb:?}");
@@ -288,13 +341,25 @@ fn clocks_are_brought_together() {
     let building = Building::usual(4);
     let mut barometer = building.barometer(3);
     let trips = building.trips(1.0);
-    let there = heights(&Climbs::of(&trips, &barometer, 0.0, None));
+    let there = heights(&Climbs::of(
+        &trips,
+        &Unseen::default(),
+        &barometer,
+        0.0,
+        None,
+    ));
     barometer
         .readings
         .iter_mut()
         .for_each(|it| it.time -= 1000.0);
     assert_eq!(
-        heights(&Climbs::of(&trips, &barometer, 1000.0, None)),
+        heights(&Climbs::of(
+            &trips,
+            &Unseen::default(),
+            &barometer,
+            1000.0,
+            None
+        )),
         there
     );
 }

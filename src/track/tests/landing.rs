@@ -2,11 +2,11 @@
 
 use crate::lift::{Drive, Ending, Pickup, Ride, Trip};
 use crate::monitor::Settings;
-use crate::recording::{Barometer, Pressure, PressureUnit, Sample};
+use crate::recording::{Barometer, Pressure, Sample};
 use crate::rng::Stream;
 use crate::signal::white_noise;
 use crate::track::floors::{self, Floors, Start};
-use crate::track::{Climbs, Track, hidden};
+use crate::track::{Climbs, Track, Unseen};
 
 const RATE: f64 = 100.0;
 
@@ -52,17 +52,11 @@ fn floors(seed: u64, has_barometer: bool) -> Vec<Option<usize>> {
         time: second as f64,
         pascal: 95_000.0 - 11.1 * (height(second as f64) + 0.1 * noise),
     });
-    let barometer = Barometer {
-        readings: readings.collect(),
-        file: "generated".to_owned(),
-        column: "pressure".to_owned(),
-        unit: PressureUnit::Pascal,
-        clock_offset: None,
-        warnings: Vec::new(),
-    };
+    let barometer = Barometer::of_readings(readings.collect());
     if has_barometer {
-        let climbs = Climbs::of(&track.trips, &barometer, 0.0, None);
-        track.rise(&climbs, &hidden(&detection, &samples));
+        let unseen = Unseen::of(&detection, &samples);
+        let climbs = Climbs::of(&track.trips, &unseen, &barometer, 0.0, None);
+        track.rise(&climbs, &unseen);
     }
     let start = Start::Floor(0);
     let settings = floors::Settings::default();

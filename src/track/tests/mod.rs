@@ -2,6 +2,7 @@
 
 mod alignment;
 mod bound;
+mod carried;
 mod detector;
 mod height;
 mod landing;

@@ -7,7 +7,7 @@ use libfuzzer_sys::fuzz_target;
 use liftsim::detection::Detection;
 use liftsim::monitor::Settings;
 use liftsim::recording::{Axis, Barometer, Reading, Recording, TimeUnit, Unit};
-use liftsim::track::{Climbs, Track, TrackReport, TrackSettings, Tracked};
+use liftsim::track::{Climbs, Track, TrackReport, TrackSettings, Tracked, Unseen};
 use liftsim::whiten::Order;
 
 fuzz_target!(|bytes: &[u8]| {
@@ -73,7 +73,7 @@ fn measure(recording: &Recording, barometer: Option<&Barometer>, found: &Detecti
         assert!(distance.is_none_or(f64::is_finite));
         assert!(deviation.is_none_or(|deviation| deviation.is_finite() && deviation >= 0.0));
     }
-    let climbs = barometer.map(|it| (it, Climbs::of(&track.trips, it, 0.0, None)));
+    let climbs = barometer.map(|it| (it, Climbs::of(&track.trips, &Unseen::default(), it, 0.0, None)));
     for climb in climbs.iter().flat_map(|(_, it)| it.climbs.iter().flatten()) {
         assert!(climb.height.is_finite() && climb.height_deviation >= 0.0);
     }
