@@ -71,7 +71,7 @@ impl AirArguments {
             heights: None,
             unused: None,
         };
-        let (barometer, (ahead, alignment)) = match self.barometer(recording, &measured)? {
+        let (barometer, clock) = match self.barometer(recording, &measured)? {
             Found::Used(barometer, clock) => (barometer, clock),
             Found::Unused(why) => {
                 warn(&why);
@@ -83,8 +83,9 @@ impl AirArguments {
         let climbs = |of: &Measured| {
             let unseen = Unseen::of(&of.rides.detection, of.rides.recording.samples());
             let trips = &of.track.trips;
-            let mut climbs = Climbs::of(trips, &unseen, &barometer, ahead, self.temperature);
-            climbs.alignment = alignment;
+            let mut climbs = Climbs::of(trips, &unseen, &barometer, clock.ahead, self.temperature);
+            climbs.alignment = clock.alignment;
+            climbs.upside_down = climbs.upside_down.filter(|_| clock.is_checked);
             (climbs, unseen)
         };
         let (mut heights, mut unseen) = climbs(&measured);
@@ -149,17 +150,19 @@ impl AirArguments {
         if self.barometer_ahead.is_some() {
             let said =
                 said.map_err(|why| anyhow!("{file}: {why} (give another --barometer-ahead)"))?;
-            return Ok((said, None));
+            return Ok(Clock::of(said));
         }
         let is_up_known = recording.vertical().is_sign_known;
         let known = said.as_ref().ok().copied();
-        let aligned = (of.track).align(
-            &of.rides.detection,
-            barometer,
-            known,
-            self.temperature,
-            is_up_known,
-        );
+        let align = |is_up_known| {
+            let detection = &of.rides.detection;
+            (of.track).align(detection, barometer, known, self.temperature, is_up_known)
+        };
+        let aligned = align(is_up_known).or_else(|error| match align(false) {
+            // A sensor that hangs upside down tells nothing against its clock.
+            Ok(None) => Ok(None),
+            _ => Err(error),
+        });
         match (said, aligned) {
             (_, Ok(Some(by_rides))) => {
                 let alignment = Alignment {
@@ -167,20 +170,28 @@ impl AirArguments {
                     instead_of: by_rides.instead_of.map(|it| it - dated),
                     ..by_rides
                 };
-                Ok((by_rides.ahead, Some(alignment)))
+                Ok(Clock {
+                    alignment: Some(alignment),
+                    ..Clock::of(by_rides.ahead)
+                })
             }
-            (Ok(said), Ok(None) | Err(AlignmentError::NoRide)) => Ok((said, None)),
+            (Ok(said), Ok(None) | Err(AlignmentError::NoRide)) => Ok(Clock::of(said)),
             // Rides that are all alike, or few, tell of no clock: nor of which way is up.
-            (Ok(said), Err(error)) if is_up_known => {
+            (Ok(said), Err(error)) => {
+                let up = if is_up_known {
+                    ""
+                } else {
+                    ", nor which way is up"
+                };
                 warn(format_args!(
-                    "{file}: its clock is believed as it is, though the rides do not show that it is right, because {error}"
+                    "{file}: the rides do not show whether its clock is right{up}: {error} (--barometer-ahead SECONDS says it, 0 \
+                     where the clocks are the same)"
                 ));
-                Ok((said, None))
+                Ok(Clock {
+                    is_checked: false,
+                    ..Clock::of(said)
+                })
             }
-            (Ok(_), Err(error)) => Err(anyhow!(
-                "{file}: it cannot say which way is up, because the rides do not show that its clock is right: {error} (give \
-                 --barometer-ahead SECONDS, 0 where the clocks are the same)"
-            )),
             (Err(why), Ok(None)) => Err(why),
             (Err(why), Err(error)) => Err(anyhow!(
                 "{file}: {why}, and the clocks cannot be aligned, because {error} (give --barometer-ahead SECONDS, or leave it out with \
@@ -190,8 +201,26 @@ impl AirArguments {
     }
 }
 
-/// How far a recording's clock is ahead of a barometer's, and how that was found by the rides.
-type Clock = (f64, Option<Alignment>);
+/// How far a recording's clock is ahead of a barometer's.
+#[derive(Clone, Copy)]
+struct Clock {
+    /// s.
+    ahead: f64,
+    /// How that was found by the rides, if so.
+    alignment: Option<Alignment>,
+    /// Whether the user says so, or the rides do not speak against it.
+    is_checked: bool,
+}
+
+impl Clock {
+    fn of(ahead: f64) -> Self {
+        Self {
+            ahead,
+            alignment: None,
+            is_checked: true,
+        }
+    }
+}
 
 /// A barometer that was looked for.
 enum Found {

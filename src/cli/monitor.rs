@@ -36,7 +36,7 @@ use std::process::ExitCode;
 ///
 /// With `--trips` each trip is an event too, once the state has been rest again for some seconds: what `track` says of this
 /// stretch of the record. Where the state is not rest it is told once nothing has moved the sensor for 10 s and the stretch
-/// shows the stop, at most after a quarter of an hour (say --begins rest). With
+/// shows the stop, if the cage is known to have stood before (say --begins rest); at most after a quarter of an hour. With
 /// `--floors` or `--map` it has the stop after it, and an alarm where no floor is (`mis_levelling`, `pit`, `overrun`,
 /// `between_floors`). What a stretch does not decide is the event `undecided`.
 #[derive(Debug, Args)]

@@ -7,8 +7,15 @@ use crate::track::{QualityReport, TrackReport, Tracked};
 use maud::{Markup, PreEscaped, html};
 use std::iter;
 
-pub(super) fn section(report: &TrackReport, picture: Option<&str>) -> Markup {
-    let judged = |quality| html! { (judged(report.rides, quality, picture)) };
+/// Each ride's figures as a picture.
+pub(super) fn picture(picture: &str) -> Markup {
+    let content =
+        html! { figure { (wide("Ride quality as a picture", html! { (PreEscaped(picture)) })) } };
+    titled("figures", "Ride quality, ride by ride", content)
+}
+
+pub(super) fn section(report: &TrackReport) -> Markup {
+    let judged = |quality| html! { (judged(report.rides, quality)) };
     let content = (report.quality.as_ref()).map_or_else(
         || html! { p { "The rides were not judged (" code { "--quality" } ")." } },
         judged,
@@ -16,7 +23,7 @@ pub(super) fn section(report: &TrackReport, picture: Option<&str>) -> Markup {
     titled("quality", "Ride quality", content)
 }
 
-fn judged(rides: &[Tracked], report: &QualityReport, picture: Option<&str>) -> Markup {
+fn judged(rides: &[Tracked], report: &QualityReport) -> Markup {
     let remarks = report.remarks(rides);
     let Some(speed) = report.rated_speed else {
         return html! { @for remark in remarks { p { (sentence(&remark)) } } };
@@ -26,9 +33,6 @@ fn judged(rides: &[Tracked], report: &QualityReport, picture: Option<&str>) -> M
             "Beside the limits of " strong { (report.norm) } ", for a rated speed of " (fixed(speed, 2)) " m/s."
         }
         (wide("Ride quality", table(rides, report)))
-        @if let Some(picture) = picture {
-            figure { (wide("Ride quality as a picture", html! { (PreEscaped(picture)) })) }
-        }
         ul.notes {
             li {
                 "✓ within its limit, ✗ beyond it, ? beyond it, but it may be the noise of the sensor; a figure without a mark has \

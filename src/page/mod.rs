@@ -60,7 +60,8 @@ pub fn html(report: &TrackReport, record: &Plot) -> Result<String, FigureError> 
                     (figure(report, &picture))
                     (rides::section(report))
                     (alarms::section(report))
-                    (judged::section(report, quality.as_deref()))
+                    (judged::section(report))
+                    @if let Some(quality) = &quality { (judged::picture(quality)) }
                     (undecided::section(report))
                     (sensor::section(report))
                     (made::section(report))

@@ -46,11 +46,12 @@ const BUILDING: [&str; 14] = [
 ];
 const FLOORS: [&str; 5] = ["ride.csv", "--floors", "0,3.2,6.4,9.6,12.8", "--at", "0"];
 
-const SECTIONS: [&str; 7] = [
+const SECTIONS: [&str; 8] = [
     "picture",
     "rides",
     "alarms",
     "quality",
+    "figures",
     "undecided",
     "sensor",
     "made",

@@ -225,3 +225,31 @@ fn equal_trips_a_constant_headway_apart() {
     let refused = still.align(&it.detection, &it.barometer, None, None, true);
     assert_eq!(refused, Err(AlignmentError::NoRide));
 }
+
+/// A barometer that falls silent for a minute tells of no motion then, and of its clock all the same.
+#[test]
+fn a_silence_is_no_motion() {
+    let case = Case {
+        trips: 8,
+        floors: 6.0,
+        rate: 10.0,
+        noise: 0.1,
+        lag: 0.0,
+        weather: 0.0,
+        shared: 1.0,
+        is_regular: false,
+        is_part: false,
+        is_upside_down: false,
+    };
+    for index in 0..5 {
+        let draws = &mut Stream::new(9, "alignment", "").at(index);
+        let mut it = case.recorded(index, draws);
+        let middle = it.barometer.readings[it.barometer.readings.len() / 2].time;
+        let readings = &mut it.barometer.readings;
+        readings.retain(|it| (it.time - middle).abs() > 30.0);
+        let align = |said| (it.track).align(&it.detection, &it.barometer, said, None, true);
+        let found = align(None).unwrap().expect("nothing is said");
+        assert!((found.ahead - it.ahead).abs() < 0.3, "{index}: {found:?}");
+        assert_eq!(align(Some(it.ahead)), Ok(None), "{index}");
+    }
+}

@@ -114,6 +114,21 @@ fn floors_of(told: &[Happened]) -> Vec<Option<usize>> {
     trips.collect()
 }
 
+/// A hole that takes the stop: that trip is told without it, and none is lost, nor taken for another.
+#[test]
+fn a_hole_at_a_stop_loses_no_trip() {
+    let trips = [4.0, 8.0, -12.0, 4.0];
+    let (_, ride) = told(&trips);
+    let stop = ride.journeys()[1].stop;
+    for length in [0.5, 1.0, 3.0] {
+        let hole = |time: f64| (time < stop - 0.2 || time > stop - 0.2 + length).then_some(time);
+        let (told, _) = told_of(&trips, |state| state, hole);
+        let is_alarm = |it: &Happened| matches!(it.what, Found::Alarm { .. });
+        assert_eq!(floors_of(&told).len(), 4, "{length}: {told:?}");
+        assert!(!told.iter().any(is_alarm), "{length}: {told:?}");
+    }
+}
+
 /// A hole, or a clock that is set back, just after a stop: the trip before it is told, and of the floor nothing is taken
 /// for known: no alarm where the car went on unseen.
 #[test]
