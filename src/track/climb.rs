@@ -22,7 +22,7 @@ pub struct Climb {
     pub height_printed: f64,
 }
 
-/// Where the car stands after a trip, by its trips and the barometer together ([`super::fusion::Barometry`]).
+/// Where the car stands after a trip, by its trips and the barometer together ([`super::fusion::stays`]).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Standing {
     /// m above where it stood first.
