@@ -121,7 +121,12 @@ pub fn calibrated(of: &[Calibration], follows: bool) -> Option<(&'static str, St
         1 => "at one rest".to_owned(),
         rests => format!("at {rests} rests"),
     };
-    let mut words = format!("{least:.3} to {most:.3} m/s² {rests}");
+    let lengths = if of.len() == 1 {
+        format!("{least:.3} m/s²")
+    } else {
+        format!("{least:.3} to {most:.3} m/s²")
+    };
+    let mut words = format!("{lengths} {rests}");
     if first.tilt.is_none() {
         return Some(("offset", words + ", without gravity"));
     }

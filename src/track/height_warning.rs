@@ -17,8 +17,8 @@ pub enum HeightWarning {
         distance: f64,
     },
     #[error(
-        "ride {0}: no height, the barometer has no reading in the 10 s of rest before it or after it (record it for as long as the \
-         acceleration, and every second)"
+        "ride {0}: no height, the barometer has no reading at rest just before it or after it, or only some seconds are recorded there (record \
+         both for as long, and the barometer every second)"
     )]
     Missing(usize),
     #[error(

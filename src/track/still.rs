@@ -11,6 +11,9 @@ use std::ops::Range;
 const REST: f64 = 10.0;
 const LAG: f64 = 1.0;
 
+/// Before something unseen a barometer is read if it has had so long to settle, s.
+const SETTLED: f64 = 4.0;
+
 /// Half a metre, as a logarithm of the pressure.
 const JUMP: f64 = 5.8e-5;
 
@@ -92,8 +95,14 @@ fn rests(trips: &[Tracked], at: usize, unseen: &Unseen) -> [Option<Range<f64>>; 
     });
     let after = stop.zip(end).map(|(stop, end)| {
         let hidden = unseen.within(stop, end);
-        let end = hidden.fold(end, |end, it| end.min(it.start));
-        stop + LAG..end.min(stop + LAG + REST)
+        let seen = hidden.fold(end, |end, it| end.min(it.start));
+        // What is cut off soon may not have settled.
+        let last = if seen < end && seen < stop + LAG + SETTLED {
+            stop
+        } else {
+            seen
+        };
+        stop + LAG..last.min(stop + LAG + REST)
     });
     [before, after]
 }
