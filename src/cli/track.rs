@@ -164,13 +164,15 @@ impl TrackCommand {
             warn(warning);
             report.warnings.push(warning.to_owned());
         }
-        let plot = || self.plot(&rides, &track, floors, heights.map(|it| it.1));
-        let figure = figure.map(|figure| {
+        let is_drawn = figure.is_some() || page.is_some();
+        let plot = is_drawn.then(|| self.plot(&rides, &track, floors, heights.map(|it| it.1)));
+        let plot = plot.transpose()?;
+        let figure = figure.zip(plot.as_ref()).map(|(figure, plot)| {
             let origin = format!("recording {}", report.recording.file);
-            figure.draw(&plot()?, &origin)
+            figure.draw(plot, &origin)
         });
-        let page = page.map(|page| {
-            let html = page::html(&report, &plot()?).map_err(Failure::run)?;
+        let page = page.zip(plot.as_ref()).map(|(page, plot)| {
+            let html = page::html(&report, plot).map_err(Failure::run)?;
             page.write(html.as_bytes())
         });
         let ready: Result<Vec<Ready>, Failure> = figure.into_iter().chain(page).collect();
@@ -239,7 +241,7 @@ fn text(report: &TrackReport) -> String {
     [
         found::recording(&report.recording),
         calibrated(&report.calibration, report.is_followed)
-            .map(|(name, it)| format!("{name} at rest: {it}\n"))
+            .map(|(name, it)| format!("{}: {it}\n", name.to_lowercase()))
             .unwrap_or_default(),
         report.barometer.as_ref().map(air::text).unwrap_or_default(),
         trips(report),

@@ -14,16 +14,6 @@ pub(super) fn section(report: &TrackReport) -> Markup {
         read(&report.recording),
         shown(&report.recording, &report.level),
         calibrated(&report.calibration, report.is_followed)
-            .map(|(name, it)| {
-                (
-                    if name == "gravity" {
-                        "Gravity at rest"
-                    } else {
-                        "Offset at rest"
-                    },
-                    it,
-                )
-            })
             .into_iter()
             .collect(),
         report.barometer.as_ref().map(barometer).unwrap_or_default(),

@@ -142,6 +142,7 @@ mod tests_of_pictures;
 #[cfg(test)]
 mod tests {
     use super::kind::{Context, Study};
+    use super::outcomes::Outcomes;
     use super::parse;
     use crate::lift::Journey;
     use crate::run::whole;
@@ -164,6 +165,12 @@ mod tests {
         let experiment = parse("test", text).unwrap_or_else(|error| panic!("{error}"));
         let context = Context::of(&experiment, S::COUNTS_TRIALS);
         S::read(&experiment, context).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// Why the table of a config is refused, if it is.
+    pub fn refusal<T: Outcomes>(text: &str) -> Option<String> {
+        let experiment = parse("test", text).unwrap_or_else(|error| panic!("{error}"));
+        T::read(&experiment).err().map(|error| error.to_string())
     }
 
     /// Runs a study and returns its rows.

@@ -128,7 +128,7 @@ pub fn calibrated(of: &[Calibration], follows: bool) -> Option<(&'static str, St
     };
     let mut words = format!("{lengths} {rests}");
     if first.tilt.is_none() {
-        return Some(("offset", words + ", without gravity"));
+        return Some(("Offset at rest", words + ", without gravity"));
     }
     let turned = of.iter().map(|it| angle(it.up, first.up));
     let turned = turned.fold(0.0, f64::max);
@@ -145,7 +145,7 @@ pub fn calibrated(of: &[Calibration], follows: bool) -> Option<(&'static str, St
             "; {by:.1} % {way} than on earth: an offset, or a gain that every distance shares"
         );
     }
-    Some(("gravity", words))
+    Some(("Gravity at rest", words))
 }
 
 #[cfg(test)]
@@ -207,7 +207,7 @@ mod tests {
         let turned = angle(calibrations[0].up, calibrations[1].up);
         assert!((turned - 2.0).abs() < 0.02, "{turned}");
         let (name, words) = calibrated(&calibrations, false).unwrap();
-        assert_eq!(name, "gravity");
+        assert_eq!(name, "Gravity at rest");
         let part =
             "at 2 rests, turned by at most 2.0 degrees from the first; 1.1 % more than on earth";
         assert!(words.contains(part), "{words}");
@@ -226,7 +226,7 @@ mod tests {
         let recording = recording(0.0);
         let calibrations = tracked(&recording).calibrations(&recording);
         let (name, words) = calibrated(&calibrations, false).unwrap();
-        assert_eq!(name, "offset");
+        assert_eq!(name, "Offset at rest");
         assert!(words.starts_with("0.30"), "{words}");
         assert!(
             words.ends_with("rests, without gravity") || words.ends_with("rest, without gravity"),

@@ -37,8 +37,6 @@ pub struct Climbs {
     pub readings: Vec<(f64, f64)>,
     /// The deviation of a reading, m.
     pub noise: f64,
-    /// That of the mean of a second of them, m.
-    pub second: f64,
     /// Its steps, where they are coarser than that, m.
     pub step: Option<f64>,
     /// How the clocks were brought together, where that was needed.
@@ -121,7 +119,6 @@ impl Climbs {
                 .map(|it| Some((*it)?.climb(kelvin)))
                 .collect(),
             noise: metres(noise, kelvin.0),
-            second: metres(second, kelvin.0),
             step: step.map(|it| metres(it, kelvin.0)),
             alignment: None,
             faults: faults(trips, &rests, unseen, &readings, (second, finest, rounded)),

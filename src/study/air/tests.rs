@@ -2,8 +2,7 @@
 
 use super::*;
 use crate::study::outcomes::Of;
-use crate::study::parse;
-use crate::study::tests::{read, rows};
+use crate::study::tests::{read, refusal, rows};
 
 fn config(table: &str) -> String {
     format!("question = \"?\"\nseed = 3\ntrials = 20\n[air]\n{table}\n")
@@ -37,12 +36,7 @@ fn the_standard_atmosphere_has_its_own_scale() {
 
 #[test]
 fn refusals() {
-    let refused = |table: &str| {
-        let experiment = parse("test", &config(table)).unwrap();
-        Table::read(&experiment)
-            .err()
-            .map(|error| error.to_string())
-    };
+    let refused = |table: &str| refusal::<Table>(&config(table));
     let air = |temperature: &str, pressure: &str| {
         refused(&format!(
             "trips = 5\ntemperature = {temperature}\npressure = {pressure}"

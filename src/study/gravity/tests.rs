@@ -2,8 +2,7 @@
 
 use super::*;
 use crate::study::outcomes::Of;
-use crate::study::parse;
-use crate::study::tests::{read, rows};
+use crate::study::tests::{read, refusal, rows};
 use crate::vector::length;
 
 /// Of noise alone the mean has the error that follows from the noise: √3 σ/√400, σ² = S_a · 200 Hz.
@@ -50,10 +49,7 @@ fn refusals() {
     let refused = |list: &str| {
         let text =
             format!("question = \"?\"\nseed = 3\ntrials = 2\n[gravity]\ncondition = {list}\n");
-        let experiment = parse("test", &text).unwrap();
-        Windows::read(&experiment)
-            .err()
-            .map(|error| error.to_string())
+        refusal::<Windows>(&text)
     };
     assert!(
         refused("[]")

@@ -3,8 +3,7 @@
 use super::watched::Watched;
 use super::*;
 use crate::study::outcomes::Of;
-use crate::study::parse;
-use crate::study::tests::{read, rows};
+use crate::study::tests::{read, refusal, rows};
 
 fn config(table: &str) -> String {
     format!("question = \"?\"\nseed = 3\ntrials = 4\n[height]\n{table}\n")
@@ -46,12 +45,7 @@ fn weather_is_what_the_floors_and_slow_heights_withstand() {
 
 #[test]
 fn refusals() {
-    let refused = |table: &str| {
-        let experiment = parse("test", &config(table)).unwrap();
-        Table::read(&experiment)
-            .err()
-            .map(|error| error.to_string())
-    };
+    let refused = |table: &str| refusal::<Table>(&config(table));
     assert_eq!(refused("trips = 5\ndrift = [0.0, 1.0]"), None);
     for (table, part) in [
         ("trips = 5\ndrift = []", "ascending"),

@@ -2,8 +2,7 @@
 
 use super::*;
 use crate::study::outcomes::Of;
-use crate::study::parse;
-use crate::study::tests::{read, rows};
+use crate::study::tests::{read, refusal, rows};
 
 fn config(table: &str) -> String {
     format!(
@@ -37,12 +36,7 @@ fn a_quiet_sensor_shows_every_phase() {
 
 #[test]
 fn refusals() {
-    let refused = |table: &str| {
-        let experiment = parse("test", &config(table)).unwrap();
-        Table::read(&experiment)
-            .err()
-            .map(|error| error.to_string())
-    };
+    let refused = |table: &str| refusal::<Table>(&config(table));
     let with = |vibration: &str, threshold: &str| {
         refused(&format!(
             "condition = [\"phone\"]\nvibration = {vibration}\nthreshold = {threshold}"

@@ -2,8 +2,7 @@
 
 use super::*;
 use crate::study::outcomes::Of;
-use crate::study::parse;
-use crate::study::tests::{read, rows};
+use crate::study::tests::{read, refusal, rows};
 
 fn config(list: &str, vibration: &str) -> String {
     format!(
@@ -32,12 +31,7 @@ fn a_quiet_ride_shows_the_sensor() {
 
 #[test]
 fn refusals() {
-    let refused = |list: &str, vibration: &str| {
-        let experiment = parse("test", &config(list, vibration)).unwrap();
-        Table::read(&experiment)
-            .err()
-            .map(|error| error.to_string())
-    };
+    let refused = |list: &str, vibration: &str| refusal::<Table>(&config(list, vibration));
     assert!(
         refused("[]", "[0.1]")
             .unwrap()

@@ -3,7 +3,7 @@
 use super::condition::{Condition, Numbers};
 use super::trial::{self, Way};
 use super::*;
-use crate::study::parse;
+use crate::study::tests::refusal;
 
 const ALL: [Condition; 10] = [
     Condition::Typical,
@@ -66,10 +66,7 @@ fn the_bound_is_its_own_law() {
 fn tables_that_mean_nothing_are_refused() {
     let refusal = |table: &str| {
         let text = format!("question = \"?\"\nseed = 1\ntrials = 2\n[trips]\n{table}");
-        let experiment = parse("trips", &text).unwrap();
-        Table::read(&experiment)
-            .err()
-            .map(|error| error.to_string())
+        refusal::<Table>(&text)
     };
     let told = "condition = [\"typical\"]";
     assert_eq!(refusal(&format!("distance = [3, 9]\n{told}")), None);
