@@ -3,7 +3,7 @@
 //! `cargo bench` prints each; the goals are for one core of a recent x86-64 machine.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use liftsim::detect::{Alternative, Crossings, Lines, NullLaws, Pooled, Rule, Samples};
+use liftsim::detect::{Alternative, Crossings, Exceedances, Lines, NullLaws, Pooled, Rule, Samples};
 use liftsim::experiment::SweepConfig;
 use liftsim::lift::{Drive, Ending, Pickup, Ride, Trip};
 use liftsim::monitor::{Knowledge, Monitor, Settings};
@@ -113,7 +113,7 @@ fn design(criterion: &mut Criterion) {
     group.sample_size(10);
     group.bench_function("product at 200/200/200", |b| {
         b.iter(|| {
-            NullLaws::new(Alternative::Greater, black_box(&samples))
+            NullLaws::new(Exceedances::Scale, Alternative::Greater, black_box(&samples))
                 .map(|laws| laws.region(&Rule::Product, 0.01))
         });
     });

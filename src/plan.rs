@@ -3,7 +3,7 @@
 
 use crate::chain::{Detector, Purpose, Scenario};
 use crate::claim::{self, Pair};
-use crate::detect::{Alternative, Method, NullLaws, Region, RegionError, Rule, Samples};
+use crate::detect::{Alternative, Exceedances, Method, NullLaws, Region, RegionError, Rule, Samples};
 use crate::experiment::{ConfigError, SweepConfig};
 use crate::scenario::{RECORD_KEYS, ScenarioError};
 use crate::schedule::Schedule;
@@ -177,7 +177,7 @@ fn scenarios(config: &SweepConfig) -> Result<Vec<Vec<Scenario>>, ConfigError> {
 /// Makes each region once. It keeps only the latest laws, because laws are large.
 #[derive(Default)]
 struct Designer {
-    laws: Option<(Samples, Alternative, NullLaws)>,
+    laws: Option<((Samples, Exceedances, Alternative), NullLaws)>,
     regions: Vec<(Samples, Detector, Arc<Region>)>,
 }
 
@@ -214,12 +214,13 @@ impl Designer {
     }
 
     fn laws(&mut self, scenario: &Scenario) -> Result<&NullLaws, ScenarioError> {
-        let (samples, alternative) = (scenario.samples, scenario.detector.alternative);
-        let known = self.laws.take();
-        let laws = match known {
-            Some((s, a, laws)) if s == samples && a == alternative => laws,
-            _ => NullLaws::new(alternative, &samples).map_err(RegionError::from)?,
+        let (samples, detector) = (scenario.samples, &scenario.detector);
+        let key = (samples, detector.exceedances, detector.alternative);
+        let laws = match self.laws.take() {
+            Some((known, laws)) if known == key => laws,
+            _ => NullLaws::new(detector.exceedances, detector.alternative, &samples)
+                .map_err(RegionError::from)?,
         };
-        Ok(&self.laws.insert((samples, alternative, laws)).2)
+        Ok(&self.laws.insert((key, laws)).1)
     }
 }

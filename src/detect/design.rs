@@ -1,8 +1,9 @@
 //! The construction of regions: from the exact laws at given sizes to the critical values of each rule.
 
+use super::joint;
 use super::law::{NullLaw, NullLawError, check_memory, ratio};
 use super::region::{NEVER, Region, RegionError};
-use super::rule::{Alternative, Rule};
+use super::rule::{Alternative, Exceedances, Rule};
 use super::samples::Samples;
 use crate::stats::bisect::first;
 use num_bigint::BigUint;
@@ -11,44 +12,81 @@ use std::sync::Arc;
 #[cfg(test)]
 mod tests;
 
-/// The exact laws shared by all rules at given sizes and alternative.
+/// The exact laws shared by all rules on W and T, or on W and T′, at given sizes and alternative.
 #[derive(Clone, Debug)]
 pub struct NullLaws {
     samples: Samples,
+    pub(super) of: Exceedances,
     alternative: Alternative,
-    rank_sum: Arc<NullLaw>,
+    rank_sum: NullLaw,
     /// The law of the score of the alternative.
     pub(super) score: Arc<NullLaw>,
     pub(super) exceedances: NullLaw,
+    /// The law of the score given T, for T = 0, 1, ….
+    pub(super) columns: Vec<Column>,
+    cases: BigUint,
+}
+
+/// The law of the score where T has one value.
+#[derive(Clone, Debug)]
+pub(super) struct Column {
+    pub score: Arc<NullLaw>,
+    /// The number of all cases for each of its counts.
+    weight: BigUint,
 }
 
 /// The level that `conjunction` gives to T.
 const CONJUNCTION_LEVEL: f64 = 0.1;
 
 impl NullLaws {
-    /// The laws at these sizes.
+    /// The laws of W and the exceedances `of` these samples at these sizes.
     ///
     /// # Errors
     /// If their counts do not fit in memory.
-    pub fn new(alternative: Alternative, samples: &Samples) -> Result<Self, NullLawError> {
-        // Both sizes are checked before either law is computed.
-        let (w, t) = (
-            NullLaw::rank_sum_bytes(samples),
-            NullLaw::exceedances_bytes(samples),
-        );
-        check_memory(samples, w + t)?;
-        let rank_sum = Arc::new(NullLaw::rank_sum(samples)?);
-        let score = match alternative {
-            // W is symmetric about its mean, so its mirror image has the same law.
-            Alternative::Greater | Alternative::Less => Arc::clone(&rank_sum),
-            Alternative::TwoSided => Arc::new(rank_sum.doubled_deviation()),
+    pub fn new(
+        of: Exceedances,
+        alternative: Alternative,
+        samples: &Samples,
+    ) -> Result<Self, NullLawError> {
+        // All sizes are checked before any law is computed.
+        check_memory(samples, |samples| {
+            let joint = match of {
+                Exceedances::Scale => 0.0,
+                Exceedances::Motion => joint::bytes(samples),
+            };
+            NullLaw::rank_sum_bytes(samples) + NullLaw::exceedances_bytes(of, samples) + joint
+        })?;
+        // W is symmetric about its mean, for every T too, so its mirror image has the same law.
+        let scored = |law: NullLaw| match alternative {
+            Alternative::Greater | Alternative::Less => law,
+            Alternative::TwoSided => law.doubled_deviation(),
+        };
+        let rank_sum = NullLaw::rank_sum(samples)?;
+        let score = Arc::new(scored(rank_sum.clone()));
+        let exceedances = NullLaw::exceedances(of, samples)?;
+        let columns: Vec<Column> = match of {
+            Exceedances::Scale => (0..=exceedances.last())
+                .map(|t| Column {
+                    score: Arc::clone(&score),
+                    weight: exceedances.count(t),
+                })
+                .collect(),
+            Exceedances::Motion => (joint::counts(samples).into_iter())
+                .map(|counts| Column {
+                    score: Arc::new(scored(NullLaw::from_counts(rank_sum.first(), counts))),
+                    weight: BigUint::from(1u8),
+                })
+                .collect(),
         };
         Ok(Self {
             samples: *samples,
+            of,
             alternative,
+            cases: columns.iter().map(Column::cases).sum(),
             rank_sum,
             score,
-            exceedances: NullLaw::exceedances(samples)?,
+            exceedances,
+            columns,
         })
     }
 
@@ -57,7 +95,7 @@ impl NullLaws {
         &self.rank_sum
     }
 
-    /// The law of T.
+    /// The law of T or T′.
     pub fn exceedances(&self) -> &NullLaw {
         &self.exceedances
     }
@@ -71,7 +109,7 @@ impl NullLaws {
             return Err(RegionError::Alpha(alpha));
         }
         let critical = match rule {
-            Rule::Wilcoxon => self.largest(alpha, |w| vec![w; self.columns()]),
+            Rule::Wilcoxon => self.largest(alpha, |w| vec![w; self.columns.len()]),
             Rule::Product => self.product(alpha),
             Rule::Disjunction => {
                 let t = self.exceedances.critical(alpha / 2.0);
@@ -109,13 +147,14 @@ impl NullLaws {
 
     /// A region that never decides H₁.
     pub fn empty_region(&self) -> Region {
-        self.with_critical(vec![NEVER; self.columns()])
+        self.with_critical(vec![NEVER; self.columns.len()])
     }
 
     pub(super) fn with_critical(&self, critical: Vec<u64>) -> Region {
         let reachable = |c| if c > self.score.last() { NEVER } else { c };
         let critical: Vec<u64> = critical.into_iter().map(reachable).collect();
         Region {
+            exceedances: self.of,
             alternative: self.alternative,
             twice_mean: self.twice_mean(),
             size: self.size(&critical),
@@ -129,24 +168,35 @@ impl NullLaws {
         self.alternative.score(rank_sum, self.twice_mean())
     }
 
-    /// P(W decides H₁ | T) for T = 0 … M₂.
+    /// P(W decides H₁ | T) for T = 0, 1, ….
     pub fn conditional_sizes(&self, region: &Region) -> Vec<f64> {
-        let critical = region.critical.iter();
-        critical.map(|&score| self.score.tail(score)).collect()
+        let columns = self.columns.iter().zip(&region.critical);
+        columns.map(|(column, &c)| column.score.tail(c)).collect()
     }
 
-    /// Eq. (15) in integers: Σ_T cases(T) · cases(score ≥ C(T)), divided by the number of all cases.
+    /// P(W = w, T = t).
+    pub fn cell(&self, rank_sum: u64, exceedances: usize) -> f64 {
+        let column = &self.columns[exceedances];
+        let mass = column.score.mass(self.score_of(rank_sum));
+        let both_signs = match self.alternative {
+            Alternative::TwoSided if 2 * rank_sum != self.twice_mean() => 0.5,
+            _ => 1.0,
+        };
+        both_signs * mass * self.exceedances.mass(exceedances as u64)
+    }
+
+    /// Eq. (15) in integers: the cases with a score of C(T) or more, divided by the number of all cases.
     pub(super) fn size(&self, critical: &[u64]) -> f64 {
-        let mut cases = BigUint::ZERO;
-        for (t, &c) in (0..).zip(critical) {
-            cases += self.exceedances.count(t) * self.score.tail_count(c);
-        }
-        ratio(&cases, &(self.exceedances.total() * self.score.total()))
+        let columns = self.columns.iter().zip(critical);
+        let cases: BigUint = columns
+            .map(|(column, &c)| &column.weight * column.score.tail_count(c))
+            .sum();
+        ratio(&cases, &self.cases)
     }
 
     /// A table with the entry `below` for values less than t and `from` otherwise.
     fn corner(&self, t: u64, below: u64, from: u64) -> Vec<u64> {
-        (0..self.columns() as u64)
+        (0..self.columns.len() as u64)
             .map(|column| if column < t { below } else { from })
             .collect()
     }
@@ -160,9 +210,9 @@ impl NullLaws {
 
     /// The entries of a table as scores.
     fn table(&self, entries: &[Option<u64>], alpha: f64) -> Result<Vec<u64>, RegionError> {
-        if entries.len() != self.columns() {
+        if entries.len() != self.columns.len() {
             return Err(RegionError::TableLength {
-                expected: self.columns(),
+                expected: self.columns.len(),
                 got: entries.len(),
             });
         }
@@ -185,17 +235,15 @@ impl NullLaws {
         match rule {
             Rule::Wilcoxon => last_w,
             Rule::Product => {
-                let nothing = vec![w.last() + 1; self.columns()];
+                let nothing = vec![w.last() + 1; self.columns.len()];
                 self.size(&self.with_next_product(&nothing))
             }
             Rule::Disjunction => last_w.min(2.0 * last_t),
-            Rule::Conjunction => last_w * t.tail(t.critical(CONJUNCTION_LEVEL)),
+            Rule::Conjunction => {
+                self.size(&self.corner(t.critical(CONJUNCTION_LEVEL), NEVER, w.last()))
+            }
             Rule::Table(_) => 0.0,
         }
-    }
-
-    pub(super) fn columns(&self) -> usize {
-        self.samples.scale() + 1
     }
 
     fn twice_mean(&self) -> u64 {
@@ -205,5 +253,11 @@ impl NullLaws {
 
     fn sizes(&self) -> String {
         self.samples.to_string()
+    }
+}
+
+impl Column {
+    fn cases(&self) -> BigUint {
+        &self.weight * self.score.total()
     }
 }

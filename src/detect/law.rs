@@ -18,8 +18,10 @@
 //!
 //! [^1]: see [`crate::signal`].
 
+use super::rule::Exceedances;
 use super::samples::Samples;
 use super::statistics::smallest_rank_sum;
+use crate::stats::bisect::largest_below_one;
 use num_bigint::BigUint;
 
 #[cfg(test)]
@@ -39,7 +41,7 @@ pub enum NullLawError {
     /// The counts would not fit in memory.
     #[error(
         "the exact laws of W and T at {samples} need {megabytes:.0} MB of counts, more than the {limit:.0} MB allowed \
-         (lower reference, shift or scale)",
+         (at most about {fits} fits: lower reference, shift or scale)",
         limit = MEMORY_LIMIT / 1e6
     )]
     TooLarge {
@@ -47,6 +49,8 @@ pub enum NullLawError {
         samples: Samples,
         /// The memory needed, in MB.
         megabytes: f64,
+        /// About the largest sizes that fit, in the same proportions.
+        fits: Samples,
     },
 }
 
@@ -60,20 +64,20 @@ impl NullLaw {
     /// If its counts do not fit in memory.
     pub fn rank_sum(samples: &Samples) -> Result<Self, NullLawError> {
         let (m1, others) = shift_and_others(samples);
-        check_memory(samples, Self::rank_sum_bytes(samples))?;
+        check_memory(samples, Self::rank_sum_bytes)?;
         Ok(Self::from_counts(
             smallest_rank_sum(m1),
             gaussian_binomial(m1, others),
         ))
     }
 
-    /// The law of the exceedances T.
+    /// The law of the exceedances T; with M₁ + M₂ for M₂ that of T′.
     ///
     /// # Errors
     /// If its counts do not fit in memory.
-    pub fn exceedances(samples: &Samples) -> Result<Self, NullLawError> {
-        let (n, m2) = (samples.reference(), samples.scale());
-        check_memory(samples, Self::exceedances_bytes(samples))?;
+    pub fn exceedances(of: Exceedances, samples: &Samples) -> Result<Self, NullLawError> {
+        let (n, m2) = (samples.reference(), of.most(samples));
+        check_memory(samples, |samples| Self::exceedances_bytes(of, samples))?;
         if n == 1 {
             let mut counts = vec![BigUint::ZERO; m2];
             counts.push(BigUint::from(m2 + 1));
@@ -94,13 +98,13 @@ impl NullLaw {
     /// Memory for the counts of W.
     pub(super) fn rank_sum_bytes(samples: &Samples) -> f64 {
         let (m1, others) = shift_and_others(samples);
-        bytes(m1 as f64 * others as f64 + 1.0, m1, others)
+        bytes(m1 as f64 * others as f64 + 1.0, &[m1, others])
     }
 
-    /// Memory for the counts of T.
-    pub(super) fn exceedances_bytes(samples: &Samples) -> f64 {
-        let (n, m2) = (samples.reference(), samples.scale());
-        bytes(m2 as f64 + 1.0, n, m2)
+    /// Memory for the counts of T or T′.
+    pub(super) fn exceedances_bytes(of: Exceedances, samples: &Samples) -> f64 {
+        let (n, m2) = (samples.reference(), of.most(samples));
+        bytes(m2 as f64 + 1.0, &[n, m2])
     }
 
     /// The law of |2S − 2E S|, the score of a two-sided rule. S must be symmetric.
@@ -115,7 +119,7 @@ impl NullLaw {
         Self::from_counts(0, counts)
     }
 
-    fn from_counts(first: u64, counts: Vec<BigUint>) -> Self {
+    pub(super) fn from_counts(first: u64, counts: Vec<BigUint>) -> Self {
         let mut tails = counts;
         for i in (1..tails.len()).rev() {
             let (head, rest) = tails.split_at_mut(i);
@@ -202,7 +206,7 @@ pub(super) fn ratio(numerator: &BigUint, denominator: &BigUint) -> f64 {
 
 /// Coefficients of the Gaussian binomial [chosen + others choose chosen], from q⁰ to
 /// q^{chosen·others}. They are symmetric, so only the lower half is computed.
-fn gaussian_binomial(chosen: usize, others: usize) -> Vec<BigUint> {
+pub(super) fn gaussian_binomial(chosen: usize, others: usize) -> Vec<BigUint> {
     let degree = chosen * others;
     let half = degree / 2;
     let (short, long) = (chosen.min(others), chosen.max(others));
@@ -225,24 +229,40 @@ fn gaussian_binomial(chosen: usize, others: usize) -> Vec<BigUint> {
     counts
 }
 
-/// Refuses counts that take more memory than is allowed.
-pub(super) fn check_memory(samples: &Samples, bytes: f64) -> Result<(), NullLawError> {
-    if bytes <= MEMORY_LIMIT {
+/// Refuses counts that take more memory than is allowed: `bytes`, of sizes.
+pub(super) fn check_memory(
+    samples: &Samples,
+    bytes: impl Fn(&Samples) -> f64,
+) -> Result<(), NullLawError> {
+    let needed = bytes(samples);
+    if needed <= MEMORY_LIMIT {
         return Ok(());
     }
+    let fits = |samples: &Samples| bytes(samples) <= MEMORY_LIMIT;
     Err(NullLawError::TooLarge {
         samples: *samples,
-        megabytes: bytes / 1e6,
+        megabytes: needed / 1e6,
+        fits: largest(samples, fits),
     })
 }
 
-/// Memory for `values` counts up to C(chosen + others, chosen): their digits, and the overhead of a vector
-/// of digits.
-fn bytes(values: f64, chosen: usize, others: usize) -> f64 {
-    let n = chosen as f64 + others as f64;
-    let entropy = [chosen, others].map(|part| {
-        let share = part as f64 / n;
+/// The largest sizes in the same proportions that fit.
+fn largest(samples: &Samples, fits: impl Fn(&Samples) -> bool) -> Samples {
+    let shrunk = |factor: f64| {
+        let size = |of: usize| ((of as f64 * factor) as usize).max(1);
+        let (n, m1, m2) = (samples.reference(), samples.shift(), samples.scale());
+        Samples::contiguous(size(n), size(m1), size(m2)).expect("each is at least 1")
+    };
+    shrunk(largest_below_one(|factor| fits(&shrunk(factor))))
+}
+
+/// Memory for `values` counts up to the number of ways to divide a whole into these parts: their digits, and the
+/// overhead of a vector of digits.
+pub(super) fn bytes(values: f64, parts: &[usize]) -> f64 {
+    let whole: f64 = parts.iter().map(|&part| part as f64).sum();
+    let entropy = parts.iter().map(|&part| {
+        let share = part as f64 / whole;
         -share * libm::log2(share)
     });
-    values * (n * (entropy[0] + entropy[1]) / 8.0 + 40.0)
+    values * (whole * entropy.sum::<f64>() / 8.0 + 40.0)
 }

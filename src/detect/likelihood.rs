@@ -16,11 +16,12 @@ use super::region::{NEVER, Region};
 use super::statistics::Statistics;
 use crate::stats::bisect::largest_below_one;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
-/// How often each (W, T) occurred.
+/// How often each W, T and T′ occurred.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Histogram {
-    counts: BTreeMap<(u64, usize), u64>,
+    counts: BTreeMap<Statistics, u64>,
 }
 
 /// Neighbouring scores at one t that share one likelihood ratio.
@@ -37,8 +38,7 @@ struct Pool {
 impl Histogram {
     /// Adds one trial.
     pub fn add(&mut self, statistics: Statistics) {
-        let cell = (statistics.rank_sum, statistics.exceedances);
-        *self.counts.entry(cell).or_default() += 1;
+        *self.counts.entry(statistics).or_default() += 1;
     }
 
     /// Adds another histogram.
@@ -50,12 +50,7 @@ impl Histogram {
 
     /// The number of trials with `is_inside`.
     pub fn count(&self, is_inside: impl Fn(Statistics) -> bool) -> u64 {
-        let inside = self.counts.iter().filter(|((rank_sum, exceedances), _)| {
-            is_inside(Statistics {
-                rank_sum: *rank_sum,
-                exceedances: *exceedances,
-            })
-        });
+        let inside = (self.counts.iter()).filter(|(statistics, _)| is_inside(**statistics));
         inside.map(|(_, count)| count).sum()
     }
 }
@@ -71,8 +66,8 @@ impl Pool {
 pub struct LikelihoodOrder {
     /// From the largest ratio down.
     pools: Vec<Pool>,
-    /// P(score) from the smallest on, and P(T), at rest.
-    scores: Vec<f64>,
+    /// P(score | T) from the smallest on, and P(T), at rest.
+    scores: Vec<Arc<[f64]>>,
     exceedances: Vec<f64>,
 }
 
@@ -80,18 +75,19 @@ impl LikelihoodOrder {
     /// The order found in the trials of a pilot under the alternative.
     pub fn new(laws: &NullLaws, pilot: &Histogram) -> Self {
         let mut counts: BTreeMap<(usize, u64), f64> = BTreeMap::new();
-        for (&(rank_sum, exceedances), &count) in &pilot.counts {
-            *counts
-                .entry((exceedances, laws.score_of(rank_sum)))
-                .or_default() += count as f64;
+        for (&statistics, &count) in &pilot.counts {
+            let cell = (
+                laws.of.of(statistics),
+                laws.score_of(statistics.rank_sum),
+            );
+            *counts.entry(cell).or_default() += count as f64;
         }
-        let masses = |law: &NullLaw| (law.first()..=law.last()).map(|v| law.mass(v)).collect();
-        let scores: Vec<f64> = masses(&laws.score);
-        let exceedances: Vec<f64> = masses(&laws.exceedances);
+        let scores = laws.scores();
+        let exceedances = masses(&laws.exceedances);
         let mut pools: Vec<Pool> = Vec::new();
         for (t, mass) in exceedances.iter().enumerate() {
             let cells = (laws.score.first()..)
-                .zip(&scores)
+                .zip(&*scores[t])
                 .map(|(score, null)| Pool {
                     exceedances: t,
                     score,
@@ -112,14 +108,14 @@ impl LikelihoodOrder {
     /// one from its highest score down as far as the level allows. The remaining level goes to cells that the
     /// pilot never saw.
     fn critical(&self, laws: &NullLaws, alpha: f64) -> Vec<u64> {
-        let mut critical = vec![NEVER; laws.columns()];
+        let mut critical = vec![NEVER; laws.columns.len()];
         let mut size = 0.0;
         for pool in &self.pools {
             let t = pool.exceedances;
             let top = critical[t].min(laws.score.last() + 1);
             for score in (pool.score..top).rev() {
                 let index = (score - laws.score.first()) as usize;
-                let mass = self.scores[index] * self.exceedances[t];
+                let mass = self.scores[t][index] * self.exceedances[t];
                 // Rounding must not admit a cell that the exact size would exclude.
                 if size + mass > alpha * (1.0 - 1e-12) {
                     return critical;
@@ -134,14 +130,7 @@ impl LikelihoodOrder {
     /// Adds the cells with P(S ≥ s) · P(T ≥ t) ≤ k, for the largest k that the level allows: without pilot
     /// counts the order is that of the `product` rule.
     fn fill(&self, laws: &NullLaws, alpha: f64, critical: &[u64]) -> Vec<u64> {
-        let tails = |masses: &[f64]| {
-            let mut tails = masses.to_vec();
-            for i in (1..tails.len()).rev() {
-                tails[i - 1] += tails[i];
-            }
-            tails
-        };
-        let (scores, exceedances) = (tails(&self.scores), tails(&self.exceedances));
+        let (scores, exceedances) = (tails(&laws.score), tails(&laws.exceedances));
         let first = laws.score.first();
         let filled = |k: f64| -> Vec<u64> {
             (critical.iter().zip(&exceedances))
@@ -151,10 +140,11 @@ impl LikelihoodOrder {
                 })
                 .collect()
         };
-        let tail = |score: u64| scores.get((score - first) as usize).copied().unwrap_or(0.0);
         let size = |region: &[u64]| -> f64 {
-            let columns = region.iter().zip(&self.exceedances);
-            columns.map(|(&score, mass)| tail(score) * mass).sum()
+            let columns = region.iter().zip(&laws.columns).zip(&self.exceedances);
+            columns
+                .map(|((&c, column), mass)| column.score.tail(c) * mass)
+                .sum()
         };
         filled(largest_below_one(|k| {
             size(&filled(k)) <= alpha * (1.0 - 1e-9)
@@ -162,7 +152,30 @@ impl LikelihoodOrder {
     }
 }
 
+/// P(S = s) from the smallest s on.
+fn masses(law: &NullLaw) -> Vec<f64> {
+    (law.first()..=law.last()).map(|s| law.mass(s)).collect()
+}
+
+/// P(S ≥ s) from the smallest s on.
+fn tails(law: &NullLaw) -> Vec<f64> {
+    (law.first()..=law.last()).map(|s| law.tail(s)).collect()
+}
+
 impl NullLaws {
+    /// P(score | T) for every T; one list serves all T if they are independent.
+    fn scores(&self) -> Vec<Arc<[f64]>> {
+        let mut scores: Vec<Arc<[f64]>> = Vec::new();
+        for (t, column) in self.columns.iter().enumerate() {
+            let is_known = t > 0 && Arc::ptr_eq(&column.score, &self.columns[t - 1].score);
+            scores.push(match scores.last() {
+                Some(known) if is_known => Arc::clone(known),
+                _ => masses(&column.score).into(),
+            });
+        }
+        scores
+    }
+
     /// The most powerful region of size at most `alpha` against the alternative of the order; empty if no
     /// cell fits the level.
     pub fn likelihood_region(&self, order: &LikelihoodOrder, alpha: f64) -> Region {
@@ -191,7 +204,7 @@ fn monotone(cells: impl Iterator<Item = Pool>) -> Vec<Pool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::detect::{Alternative, Samples};
+    use crate::detect::{Alternative, Exceedances, Samples};
 
     /// For any number of pilot trials the exact size is at most α; without trials the region is that of the
     /// product rule except for its last cells.
@@ -203,7 +216,7 @@ mod tests {
             Alternative::Less,
             Alternative::TwoSided,
         ] {
-            let laws = NullLaws::new(alternative, &samples).unwrap();
+            let laws = NullLaws::new(Exceedances::Scale, alternative, &samples).unwrap();
             for trials in [0u64, 1, 40, 5000] {
                 let mut pilot = Histogram::default();
                 for i in 0..trials {
@@ -212,6 +225,7 @@ mod tests {
                     pilot.add(Statistics {
                         rank_sum,
                         exceedances,
+                        shift_exceedances: 0,
                     });
                 }
                 let order = LikelihoodOrder::new(&laws, &pilot);

@@ -34,20 +34,22 @@ impl NullLaws {
                 let tail = self.exceedances.tail(t);
                 scores.partition_point(|score| score * tail > k)
             };
-            (0..self.columns() as u64).map(column).collect()
+            (0..self.columns.len() as u64).map(column).collect()
         };
-        let masses: Vec<f64> = (0..self.columns() as u64)
+        let first = self.score.first();
+        let masses: Vec<f64> = (0..=self.exceedances.last())
             .map(|t| self.exceedances.mass(t))
             .collect();
         let size = |k: f64| -> f64 {
-            let tails = region(k).into_iter().map(|c| scores[c]);
-            tails.zip(&masses).map(|(tail, mass)| tail * mass).sum()
+            let each = region(k).into_iter().zip(&self.columns).zip(&masses);
+            each.map(|((c, column), mass)| column.score.tail(first + c as u64) * mass)
+                .sum()
         };
         let largest = largest_below_one(|k| size(k) <= alpha * MARGIN);
         let critical = region(largest * MARGIN);
         critical
             .into_iter()
-            .map(|c| self.score.first() + c as u64)
+            .map(|c| first + c as u64)
             .collect()
     }
 

@@ -12,18 +12,22 @@
 //! | conjunction | T ≥ t₀ and W ≥ w₀, with P(T ≥ t₀) ≤ 0.1 |
 //! | table | W ≥ C_W(T) as given, refused above α |
 //!
+//! On all of the motion T′ stands for T: the p-values are those of its own law, the probability of the region
+//! is that of the joint law of W and T′.
+//!
 //! The critical values are of a *score*: W itself (`greater`), its mirror image M₁(N+M₁+M₂+1) − W
 //! (`less`), or |2W − 2E W| (`two-sided`).
 //!
 //! [^1]: see [`crate::signal`].
 
 use super::law::NullLawError;
-use super::rule::{Alternative, Rule};
+use super::rule::{Alternative, Exceedances, Rule};
 use super::statistics::Statistics;
 
 /// A region ϑ with its exact size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
+    pub(super) exceedances: Exceedances,
     pub(super) alternative: Alternative,
     /// M₁(N+M₁+M₂+1) = 2 E W.
     pub(super) twice_mean: u64,
@@ -41,7 +45,7 @@ impl Region {
     #[inline(always)]
     pub fn contains(&self, statistics: Statistics) -> bool {
         let score = self.alternative.score(statistics.rank_sum, self.twice_mean);
-        score >= self.critical[statistics.exceedances]
+        score >= self.critical[self.exceedances.of(statistics)]
     }
 
     /// P(ϑ | H₀), eq. (15), correctly rounded.
@@ -54,7 +58,7 @@ impl Region {
         self.reachable
     }
 
-    /// C_W(T) for T = 0 … M₂: (lower, upper) such that W ≤ lower or W ≥ upper decides H₁.
+    /// C_W(T) for T = 0, 1, …: (lower, upper) such that W ≤ lower or W ≥ upper decides H₁.
     pub fn critical_values(&self) -> Vec<(Option<u64>, Option<u64>)> {
         (self.critical.iter())
             .map(|&score| match self.alternative {
@@ -94,7 +98,7 @@ pub enum RegionError {
     },
     /// No t has P(T ≥ t) ≤ 0.1.
     #[error(
-        "rule conjunction at {sizes} decides H1 nowhere: no t <= M2 has P(T >= t) <= 0.1 \
+        "rule conjunction at {sizes} decides H1 nowhere: no number of exceedances has P(T >= t) <= 0.1 \
          (raise scale or reference)"
     )]
     NoExceedanceThreshold {
@@ -102,9 +106,9 @@ pub enum RegionError {
         sizes: String,
     },
     /// A table of the wrong length.
-    #[error("rule table must have {expected} entries, C_W(0) to C_W(M2), got {got}")]
+    #[error("rule table must have {expected} entries, C_W(0) to C_W({}), got {got}", .expected - 1)]
     TableLength {
-        /// M₂ + 1.
+        /// One more than the largest number of exceedances.
         expected: usize,
         /// The number of entries given.
         got: usize,

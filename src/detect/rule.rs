@@ -1,5 +1,7 @@
 //! Decision methods: a rule that gives a region of (W, T), or a baseline statistic, and the sign of Δ.
 
+use super::samples::Samples;
+use super::statistics::Statistics;
 use schemars::JsonSchema;
 use serde::de::{Deserializer, Error, MapAccess, Unexpected, Visitor};
 use serde::{Deserialize, Serialize};
@@ -16,7 +18,7 @@ pub enum Rule {
     Disjunction,
     /// Both statistics.
     Conjunction,
-    /// C_W(0) … C_W(M₂); `None` never decides H₁.
+    /// C_W(0), C_W(1), … up to the largest number of exceedances; `None` never decides H₁.
     Table(Vec<Option<u64>>),
 }
 
@@ -55,6 +57,45 @@ pub enum Ties {
     ByPosition,
     /// Neither exceeds the other: W counts y_i > y_j alone, T what lies strictly outside.
     Strict,
+}
+
+/// Whose exceedances of the range of X are counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Exceedances {
+    #[default]
+    /// T, of Y₂ alone, as the paper has it.
+    Scale,
+    /// T′, of Y₁ and Y₂: all of the motion.
+    Motion,
+}
+
+impl Exceedances {
+    /// T or T′.
+    #[inline(always)]
+    pub fn of(self, statistics: Statistics) -> usize {
+        let of_shift = match self {
+            Self::Scale => 0,
+            Self::Motion => statistics.shift_exceedances,
+        };
+        statistics.exceedances + of_shift
+    }
+
+    /// The samples that can exceed: M₂ or M₁ + M₂.
+    pub fn most(self, samples: &Samples) -> usize {
+        match self {
+            Self::Scale => samples.scale(),
+            Self::Motion => samples.shift().saturating_add(samples.scale()),
+        }
+    }
+
+    /// The symbol of their number.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Scale => "T",
+            Self::Motion => "T'",
+        }
+    }
 }
 
 /// The sign of Δ that a region is made for.
@@ -294,6 +335,12 @@ impl fmt::Display for Method {
 }
 
 impl fmt::Display for Ties {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(f)
+    }
+}
+
+impl fmt::Display for Exceedances {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.serialize(f)
     }

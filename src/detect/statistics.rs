@@ -1,6 +1,7 @@
 //! The rank sum W and the exceedances T, eq. (12) of [^1] and the display above it.
 //!
-//! W = M₁(M₁+1)/2 + #{(i ∈ Y₁, j ∉ Y₁): y_i > y_j}; T = #{y ∈ Y₂: y < min X or y > max X}.
+//! W = M₁(M₁+1)/2 + #{(i ∈ Y₁, j ∉ Y₁): y_i > y_j}; T = #{y ∈ Y₂: y < min X or y > max X}. The same number in Y₁
+//! serves rules that count the exceedances of all of the motion, T′.
 //!
 //! Ties are broken by one random key per sample, which keeps the laws of W and T exact for any exchangeable
 //! data. Keys are drawn only if a tie matters, so continuous data do not need them.
@@ -8,12 +9,14 @@
 //! [^1]: see [`crate::signal`].
 
 /// The statistics of one trial.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Statistics {
     /// W.
     pub rank_sum: u64,
     /// T.
     pub exceedances: usize,
+    /// The number of samples of Y₁ outside the range of X.
+    pub shift_exceedances: usize,
 }
 
 /// The whitened samples of one trial.
@@ -32,21 +35,24 @@ impl Pooled<'_> {
     #[inline]
     pub fn statistics<'k>(&self, keys: impl FnOnce() -> &'k [u64]) -> Statistics {
         let (above, reached) = self.pairs_won();
-        let (outside, on_the_edge) = self.outside_reference();
-        if above != reached || on_the_edge {
+        let [shift, scale] = self.outside_reference();
+        if above != reached || scale.on_the_edge > 0 {
             return self.statistics_by_keys(keys());
         }
         Statistics {
             rank_sum: smallest_rank_sum(self.shift.len()) + above,
-            exceedances: outside,
+            exceedances: scale.beyond,
+            shift_exceedances: shift.beyond,
         }
     }
 
     /// W and T by strict comparisons: a tied pair counts neither in W nor in T.
     pub fn statistics_strictly(&self) -> Statistics {
+        let [shift, scale] = self.outside_reference();
         Statistics {
             rank_sum: smallest_rank_sum(self.shift.len()) + self.pairs_won().0,
-            exceedances: self.outside_reference().0,
+            exceedances: scale.beyond,
+            shift_exceedances: shift.beyond,
         }
     }
 
@@ -64,20 +70,22 @@ impl Pooled<'_> {
         (above, reached)
     }
 
-    /// The number of samples of Y₂ outside the range of X, and whether one ties with an end of it.
-    fn outside_reference(&self) -> (usize, bool) {
+    /// How the samples of Y₁ and Y₂ lie to the range of X.
+    fn outside_reference(&self) -> [Outside; 2] {
         let low = self.reference.iter().copied().fold(f64::INFINITY, f64::min);
         let high = self
             .reference
             .iter()
             .copied()
             .fold(f64::NEG_INFINITY, f64::max);
-        let (mut outside, mut edges) = (0, 0);
-        for &y in self.scale {
-            outside += usize::from((y < low) | (y > high));
-            edges += usize::from((y == low) | (y == high));
-        }
-        (outside, edges > 0)
+        [self.shift, self.scale].map(|sample| {
+            let mut outside = Outside::default();
+            for &y in sample {
+                outside.beyond += usize::from((y < low) | (y > high));
+                outside.on_the_edge += usize::from((y == low) | (y == high));
+            }
+            outside
+        })
     }
 
     /// W and T by the order of (value, key).
@@ -95,14 +103,22 @@ impl Pooled<'_> {
                     .count()
             })
             .sum();
-        let exceedances = scale()
-            .filter(|y| reference().all(|x| y.exceeds(x)) || reference().all(|x| x.exceeds(*y)))
-            .count();
+        let is_outside =
+            |y: &Keyed| reference().all(|x| y.exceeds(x)) || reference().all(|x| x.exceeds(*y));
         Statistics {
             rank_sum: smallest_rank_sum(self.shift.len()) + won as u64,
-            exceedances,
+            exceedances: scale().filter(is_outside).count(),
+            shift_exceedances: keyed(self.shift, shift_keys).filter(is_outside).count(),
         }
     }
+}
+
+/// How the samples of one kind lie to the range of X.
+#[derive(Clone, Copy, Default)]
+struct Outside {
+    beyond: usize,
+    /// Equal to an end of it, so that keys decide. A tie of Y₁ with X is one of W too.
+    on_the_edge: usize,
 }
 
 /// A value and the key that decides its ties.
@@ -145,12 +161,11 @@ mod tests {
         }
         let low = *rank[..n].iter().min().unwrap();
         let high = *rank[..n].iter().max().unwrap();
+        let outside = |ranks: &[u64]| ranks.iter().filter(|&&r| r < low || r > high).count();
         Statistics {
             rank_sum: rank[n..n + m1].iter().sum(),
-            exceedances: rank[n + m1..]
-                .iter()
-                .filter(|&&r| r < low || r > high)
-                .count(),
+            exceedances: outside(&rank[n + m1..]),
+            shift_exceedances: outside(&rank[n..n + m1]),
         }
     }
 
@@ -186,6 +201,7 @@ mod tests {
         let expected = Statistics {
             rank_sum: 5,
             exceedances: 1,
+            shift_exceedances: 1,
         };
         assert_eq!(pooled.statistics(|| unreachable!()), expected);
     }

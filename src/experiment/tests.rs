@@ -2,7 +2,7 @@
 
 use super::SweepConfig;
 use crate::claim::Test;
-use crate::detect::{Alternative, Method, Rule, Samples, Ties};
+use crate::detect::{Alternative, Exceedances, Method, Rule, Samples, Ties};
 use crate::scenario::PARAMETERS;
 use crate::scenario::{Calibration, Detector, Scenario};
 use crate::signal::{
@@ -145,7 +145,7 @@ fn every_key_reaches_the_scenario() {
          [impulses]\ntheta = 3.0\nduring = \"inertial\"\n\
          [whitening]\norder = 5\ntraining = 77\nfit = \"yule-walker\"\nincludes_reference = true\n\
          [samples]\nreference = 10\nshift = 11\nscale = 13\ngap = 2\n\
-         [detector]\nalpha = 0.02\nrule = \"disjunction\"\nalternative = \"two-sided\"\nties = \"strict\"\ncalibrate = true\n\
+         [detector]\nalpha = 0.02\nrule = \"disjunction\"\nalternative = \"two-sided\"\nexceedances = \"motion\"\nties = \"strict\"\ncalibrate = true\n\
          [axis]\nnu = [0.2]\n",
     );
     let expected = Scenario {
@@ -166,6 +166,7 @@ fn every_key_reaches_the_scenario() {
         detector: Detector {
             alpha: 0.02,
             method: Method::Rule(Rule::Disjunction),
+            exceedances: Exceedances::Motion,
             alternative: Alternative::TwoSided,
             ties: Ties::Strict,
             calibration: Calibration::Promise,

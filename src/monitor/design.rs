@@ -1,7 +1,7 @@
 //! Settings at one sampling rate: blocks of whole samples, the region of the decisions.
 
 use super::settings::{LONGEST_BLOCK, Settings, SettingsError, WHY_SHORT};
-use crate::detect::{Alternative, NullLaws, Region, Rule, Samples};
+use crate::detect::{Alternative, Exceedances, NullLaws, Region, Rule, Samples};
 use crate::rule::{self, OutOfRange};
 
 /// Settings at one sampling rate.
@@ -59,7 +59,7 @@ impl Settings {
             decimation,
         )
         .expect("each size has been checked");
-        let laws = NullLaws::new(Alternative::TwoSided, &samples)?;
+        let laws = NullLaws::new(Exceedances::Scale, Alternative::TwoSided, &samples)?;
         Ok(Design {
             region: laws.region(&Rule::Product, self.detector.alpha)?,
             block: decimation as f64 / rate,

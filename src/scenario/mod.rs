@@ -13,7 +13,7 @@ pub use check::{RECORD_KEYS, ScenarioError, blamed};
 pub use parameters::{Caption, Cell, PARAMETERS, Parameter, Values, Words, columns, parameter};
 pub use sections::{NoiseSection, Sections};
 
-use crate::detect::{Alternative, Method, Rule, Samples, Ties};
+use crate::detect::{Alternative, Exceedances, Method, Rule, Samples, Ties};
 use crate::signal::{Digitiser, Disturbance, Impulses, Motion, Noise, Sensor};
 use crate::values::{Level, number};
 use crate::whiten::Whitening;
@@ -52,13 +52,16 @@ pub struct Detector {
     #[schemars(with = "Level")]
     pub alpha: f64,
     /// What decides. `wilcoxon`: W alone; `product`: the product of both p-values; `disjunction`: either statistic;
-    /// `conjunction`: both; `{ table = [...] }`: C_W(0) … C_W(M₂), each a rank sum or `"never"`;
+    /// `conjunction`: both; `{ table = [...] }`: C_W(0), C_W(1), … for every T, each a rank sum or `"never"`;
     /// `likelihood-ratio`: the best order of (W, T) for the motion of the config, from a pilot. Baselines, which must
     /// be calibrated: `student-t` and `variance-ratio` on the whitened samples, `block-means` (Y₁ of the raw record
     /// against all rest, training included), `clairvoyant` (everything known).
     #[serde(rename = "rule")]
     #[schemars(extend("default" = "product"))]
     pub method: Method,
+    /// Whose exceedances of the range of X are counted beside W. `scale`: T, of Y₂, as the paper has it; `motion`: T′, of
+    /// Y₁ and Y₂, which stays powerful where vibration scatters Y₁.
+    pub exceedances: Exceedances,
     /// The sign of Δ that is looked for.
     pub alternative: Alternative,
     /// What becomes of equal values.
@@ -81,6 +84,7 @@ impl Default for Detector {
         Self {
             alpha: 0.01,
             method: Method::Rule(Rule::Product),
+            exceedances: Exceedances::Scale,
             alternative: Alternative::Greater,
             ties: Ties::Random,
             calibration: Calibration::None,

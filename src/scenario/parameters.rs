@@ -191,6 +191,8 @@ pub const PARAMETERS: &[Parameter] = &[
     column("ties", &["detector.ties"], |s| Cell::text(s.detector.ties)).said(23, Template("ties {}"), Is("random")),
     column("calibrate", &["detector.calibrate"], |s| Cell::text(&s.detector.calibration))
         .said(24, Of(calibration), Is("no")),
+    column("exceedances", &["detector.exceedances"], |s| Cell::text(s.detector.exceedances))
+        .said(3, Template("exceedances of Y_1 and Y_2"), Is("scale")),
     column("stated", &[], |s| s.detector.stated.map_or(Cell::None, stated)),
     column("pilot", &[], |s| Cell::Whole(s.detector.pilot)),
     together("all_samples", &["samples.reference", "samples.shift", "samples.scale"])

@@ -5,7 +5,7 @@ mod order;
 
 use super::{Decision, Family, Observation, Purpose, Score, Trial};
 use crate::detect::{
-    Alternative, Baseline, Clairvoyant, Forward, Method, NullLaws, Region, Rule, Samples, Ties,
+    Alternative, Baseline, Clairvoyant, Exceedances, Forward, Method, NullLaws, Region, Rule, Samples, Ties,
 };
 use crate::scenario::{Calibration, Detector, Scenario};
 use crate::signal::{
@@ -38,6 +38,7 @@ fn scenario(samples: Samples, delta: f64, impulses: Impulses) -> Scenario {
         detector: Detector {
             alpha: 0.05,
             method: Method::Rule(Rule::Product),
+            exceedances: Exceedances::Scale,
             alternative: Alternative::Greater,
             ties: Ties::Random,
             calibration: Calibration::None,
@@ -93,6 +94,9 @@ fn scenarios() -> Vec<Scenario> {
     change(4, &|s| s.detector.alternative = Alternative::Less);
     change(3, &|s| s.detector.alternative = Alternative::TwoSided);
     change(3, &|s| s.noise = Noise::new(Law::Cauchy).unwrap());
+    for place in [2, 4, 5, 9, 12] {
+        change(place, &|s| s.detector.exceedances = Exceedances::Motion);
+    }
     points
 }
 
@@ -101,12 +105,13 @@ fn region(scenario: &Scenario) -> Arc<Region> {
         alpha,
         method,
         alternative,
+        exceedances,
         ..
     } = &scenario.detector;
     let Method::Rule(rule) = method else {
         unreachable!("every scenario here has a rule");
     };
-    let laws = NullLaws::new(*alternative, &scenario.samples).unwrap();
+    let laws = NullLaws::new(*exceedances, *alternative, &scenario.samples).unwrap();
     Arc::new(laws.region(rule, *alpha).unwrap())
 }
 

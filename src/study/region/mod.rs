@@ -65,7 +65,7 @@ impl Regions {
     /// If a rule has no region.
     fn new(scenario: Scenario, rules: Vec<Rule>) -> Result<Self, RegionError> {
         let detector = &scenario.detector;
-        let laws = NullLaws::new(detector.alternative, &scenario.samples)?;
+        let laws = NullLaws::new(detector.exceedances, detector.alternative, &scenario.samples)?;
         let mut regions = Vec::new();
         for rule in rules {
             let region = laws.region(&rule, detector.alpha)?;
@@ -83,6 +83,7 @@ impl Study for Regions {
         "samples.scale",
         "detector.alpha",
         "detector.alternative",
+        "detector.exceedances",
         "detector.ties",
         "detector.calibrate",
     ];
@@ -115,6 +116,7 @@ impl Study for Regions {
                 ("samples", samples.to_string()),
                 ("alpha", detector.alpha.to_string()),
                 ("alternative", detector.alternative.to_string()),
+                ("exceedances", detector.exceedances.to_string()),
                 ("rule", rule.to_string()),
             ])
         };
@@ -130,7 +132,7 @@ impl Study for Regions {
 
     fn plot(&self, rows: &[Row], _seed: u64) -> Result<Plot, FigureError> {
         let (samples, detector) = (&self.scenario.samples, &self.scenario.detector);
-        let laws = NullLaws::new(detector.alternative, samples)?;
+        let laws = NullLaws::new(detector.exceedances, detector.alternative, samples)?;
         let title = picture::title(samples, detector.alternative, detector.alpha);
         Ok(picture::plot(&laws, rows, &title))
     }
