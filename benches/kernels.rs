@@ -80,7 +80,7 @@ fn narrow(criterion: &mut Criterion) {
     after[..2].copy_from_slice(&[2.287, 0.751]);
     for points in [31, 301] {
         let deltas = (0..points).map(|i| 3.0 * f64::from(i) / f64::from(points - 1));
-        let mut crossings = Crossings::new(Vectors::widest(), deltas.collect());
+        let mut crossings = Crossings::new(Vectors::widest(), deltas.collect(), false);
         let lines = |base, slope| Lines { base, slope };
         criterion.bench_function(&format!("crossings along {points} values"), |b| {
             b.iter(|| {

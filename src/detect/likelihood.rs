@@ -54,6 +54,7 @@ impl Histogram {
             is_inside(Statistics {
                 rank_sum: *rank_sum,
                 exceedances: *exceedances,
+                shift_exceedances: 0,
             })
         });
         inside.map(|(_, count)| count).sum()
@@ -212,6 +213,7 @@ mod tests {
                     pilot.add(Statistics {
                         rank_sum,
                         exceedances,
+                        shift_exceedances: 0,
                     });
                 }
                 let order = LikelihoodOrder::new(&laws, &pilot);

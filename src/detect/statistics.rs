@@ -14,6 +14,8 @@ pub struct Statistics {
     pub rank_sum: u64,
     /// T.
     pub exceedances: usize,
+    /// The number of samples of Y₁ outside the range of X: T′ less T.
+    pub shift_exceedances: usize,
 }
 
 /// The whitened samples of one trial.
@@ -28,25 +30,27 @@ pub struct Pooled<'a> {
 }
 
 impl Pooled<'_> {
-    /// W and T. `keys` gives a random key for each sample, in the order X, Y₁, Y₂.
+    /// W, T and T′. `keys` gives a random key for each sample, in the order X, Y₁, Y₂.
     #[inline]
     pub fn statistics<'k>(&self, keys: impl FnOnce() -> &'k [u64]) -> Statistics {
         let (above, reached) = self.pairs_won();
-        let (outside, on_the_edge) = self.outside_reference();
+        let (exceedances, on_the_edge) = self.outside_reference(self.scale);
         if above != reached || on_the_edge {
             return self.statistics_by_keys(keys());
         }
         Statistics {
             rank_sum: smallest_rank_sum(self.shift.len()) + above,
-            exceedances: outside,
+            exceedances,
+            shift_exceedances: self.outside_reference(self.shift).0,
         }
     }
 
-    /// W and T by strict comparisons: a tied pair counts neither in W nor in T.
+    /// The same by strict comparisons: a tied pair counts in none of them.
     pub fn statistics_strictly(&self) -> Statistics {
         Statistics {
             rank_sum: smallest_rank_sum(self.shift.len()) + self.pairs_won().0,
-            exceedances: self.outside_reference().0,
+            exceedances: self.outside_reference(self.scale).0,
+            shift_exceedances: self.outside_reference(self.shift).0,
         }
     }
 
@@ -64,8 +68,8 @@ impl Pooled<'_> {
         (above, reached)
     }
 
-    /// The number of samples of Y₂ outside the range of X, and whether one ties with an end of it.
-    fn outside_reference(&self) -> (usize, bool) {
+    /// The number of values outside the range of X, and whether one ties with an end of it.
+    fn outside_reference(&self, values: &[f64]) -> (usize, bool) {
         let low = self.reference.iter().copied().fold(f64::INFINITY, f64::min);
         let high = self
             .reference
@@ -73,7 +77,7 @@ impl Pooled<'_> {
             .copied()
             .fold(f64::NEG_INFINITY, f64::max);
         let (mut outside, mut edges) = (0, 0);
-        for &y in self.scale {
+        for &y in values {
             outside += usize::from((y < low) | (y > high));
             edges += usize::from((y == low) | (y == high));
         }
@@ -86,8 +90,9 @@ impl Pooled<'_> {
         let (reference_keys, rest) = keys.split_at(self.reference.len());
         let (shift_keys, scale_keys) = rest.split_at(self.shift.len());
         let reference = || keyed(self.reference, reference_keys);
+        let shift = || keyed(self.shift, shift_keys);
         let scale = || keyed(self.scale, scale_keys);
-        let won: usize = keyed(self.shift, shift_keys)
+        let won: usize = shift()
             .map(|y| {
                 reference()
                     .chain(scale())
@@ -95,12 +100,12 @@ impl Pooled<'_> {
                     .count()
             })
             .sum();
-        let exceedances = scale()
-            .filter(|y| reference().all(|x| y.exceeds(x)) || reference().all(|x| x.exceeds(*y)))
-            .count();
+        let is_outside =
+            |y: &Keyed| reference().all(|x| y.exceeds(x)) || reference().all(|x| x.exceeds(*y));
         Statistics {
             rank_sum: smallest_rank_sum(self.shift.len()) + won as u64,
-            exceedances,
+            exceedances: scale().filter(is_outside).count(),
+            shift_exceedances: shift().filter(is_outside).count(),
         }
     }
 }
@@ -145,12 +150,11 @@ mod tests {
         }
         let low = *rank[..n].iter().min().unwrap();
         let high = *rank[..n].iter().max().unwrap();
+        let outside = |ranks: &[u64]| ranks.iter().filter(|&&r| r < low || r > high).count();
         Statistics {
             rank_sum: rank[n..n + m1].iter().sum(),
-            exceedances: rank[n + m1..]
-                .iter()
-                .filter(|&&r| r < low || r > high)
-                .count(),
+            exceedances: outside(&rank[n + m1..]),
+            shift_exceedances: outside(&rank[n..n + m1]),
         }
     }
 
@@ -186,6 +190,7 @@ mod tests {
         let expected = Statistics {
             rank_sum: 5,
             exceedances: 1,
+            shift_exceedances: 1,
         };
         assert_eq!(pooled.statistics(|| unreachable!()), expected);
     }

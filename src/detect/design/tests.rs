@@ -31,6 +31,7 @@ fn cells(samples: &Samples) -> Vec<(Statistics, f64)> {
             Statistics {
                 rank_sum,
                 exceedances,
+                shift_exceedances: 0,
             },
             probability,
         )
