@@ -3,7 +3,9 @@
 //! `cargo bench` prints each; the goals are for one core of a recent x86-64 machine.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use liftsim::detect::{Alternative, Crossings, Exceedances, Lines, NullLaws, Pooled, Rule, Samples};
+use liftsim::detect::{
+    Alternative, Crossings, Exceedances, Lines, NullLaws, Pooled, Rule, Samples,
+};
 use liftsim::experiment::SweepConfig;
 use liftsim::lift::{Drive, Ending, Pickup, Ride, Trip};
 use liftsim::monitor::{Knowledge, Monitor, Settings};
@@ -80,7 +82,7 @@ fn narrow(criterion: &mut Criterion) {
     after[..2].copy_from_slice(&[2.287, 0.751]);
     for points in [31, 301] {
         let deltas = (0..points).map(|i| 3.0 * f64::from(i) / f64::from(points - 1));
-        let mut crossings = Crossings::new(Vectors::widest(), deltas.collect());
+        let mut crossings = Crossings::new(Vectors::widest(), deltas.collect(), false);
         let lines = |base, slope| Lines { base, slope };
         criterion.bench_function(&format!("crossings along {points} values"), |b| {
             b.iter(|| {
@@ -113,8 +115,12 @@ fn design(criterion: &mut Criterion) {
     group.sample_size(10);
     group.bench_function("product at 200/200/200", |b| {
         b.iter(|| {
-            NullLaws::new(Exceedances::Scale, Alternative::Greater, black_box(&samples))
-                .map(|laws| laws.region(&Rule::Product, 0.01))
+            NullLaws::new(
+                Exceedances::Scale,
+                Alternative::Greater,
+                black_box(&samples),
+            )
+            .map(|laws| laws.region(&Rule::Product, 0.01))
         });
     });
     group.finish();

@@ -3,7 +3,9 @@
 
 use crate::chain::{Detector, Purpose, Scenario};
 use crate::claim::{self, Pair};
-use crate::detect::{Alternative, Exceedances, Method, NullLaws, Region, RegionError, Rule, Samples};
+use crate::detect::{
+    Alternative, Exceedances, Method, NullLaws, Region, RegionError, Rule, Samples,
+};
 use crate::experiment::{ConfigError, SweepConfig};
 use crate::scenario::{RECORD_KEYS, ScenarioError};
 use crate::schedule::Schedule;

@@ -2,7 +2,7 @@
 
 use liftsim::chain::Decision;
 use liftsim::counts::Counts;
-use liftsim::detect::{Method, NullLaw, Samples};
+use liftsim::detect::{Alternative, Exceedances, Method, NullLaws, Samples};
 use liftsim::experiment::SweepConfig;
 use liftsim::pilot::Pilots;
 use liftsim::plan::{Design, Hypothesis};
@@ -28,20 +28,23 @@ fn tallies(sweep: &Sweep) -> Vec<Tally> {
 }
 
 /// The cells (W ≥ w, T ≥ t) of the whole chain at rest with the known filter follow the exact joint
-/// law. Tables whose rule fires from one corner on give the counts of corners; differences of
+/// law, those of T′ too. Tables whose rule fires from one corner on give the counts of corners; differences of
 /// corners are cells of a partition of the (W, T) plane, and χ² on them has p > 1e-7 unless the law
-/// is wrong: three noise laws, false-failure rate 3e-7.
+/// is wrong: three noise laws, T and T′, false-failure rate 6e-7.
 #[test]
 fn joint_counts_at_rest_follow_the_exact_law() {
     let samples = Samples::contiguous(12, 12, 12).unwrap();
-    let w_law = NullLaw::rank_sum(&samples).unwrap();
-    let t_law = NullLaw::exceedances(&samples).unwrap();
     let w_edges = [78, 170, 195, 210, 222, 234, 249, 274, 367];
-    let t_edges = [0, 1, 2, 3, 4, 6, 13];
-    for law in ["normal", "laplace", "cauchy"] {
+    let cases = [
+        (Exceedances::Scale, [0, 1, 2, 3, 4, 6, 13]),
+        (Exceedances::Motion, [0, 1, 3, 5, 7, 10, 25]),
+    ];
+    let laws = ["normal", "laplace", "cauchy"];
+    for (law, (of, t_edges)) in laws.iter().flat_map(|law| cases.map(|case| (law, case))) {
+        let exact = NullLaws::new(of, Alternative::Greater, &samples).unwrap();
         let mut text = format!(
             "question = \"?\"\nseed = 5\ntrials = 300_000\n[noise]\nlaw = \"{law}\"\n\
-             [whitening]\nfit = \"known\"\n[impulses]\nnu = 0.0\n[detector]\nalpha = 0.999999\n[axis]\ndelta = [0.0]\n"
+             [whitening]\nfit = \"known\"\n[impulses]\nnu = 0.0\n[detector]\nalpha = 0.999999\nexceedances = \"{of}\"\n[axis]\ndelta = [0.0]\n"
         );
         let mut corners = Vec::new();
         for &w in &w_edges[..8] {
@@ -56,7 +59,7 @@ fn joint_counts_at_rest_follow_the_exact_law() {
                         w.to_string()
                     }
                 };
-                let entries: Vec<String> = (0..=12).map(entry).collect();
+                let entries: Vec<String> = (0..t_edges[6]).map(entry).collect();
                 text += &format!(
                     "[[curve]]\ndetector = {{ rule = {{ table = [{}] }} }}\n",
                     entries.join(", ")
@@ -79,16 +82,18 @@ fn joint_counts_at_rest_follow_the_exact_law() {
             for t in t_edges.windows(2) {
                 let counted = corner(w[0], t[0]) - corner(w[1], t[0]) - corner(w[0], t[1])
                     + corner(w[1], t[1]);
-                let w_mass = w_law.tail(w[0]) - w_law.tail(w[1]);
-                let t_mass = t_law.tail(t[0]) - t_law.tail(t[1]);
-                let expected = w_mass * t_mass * trials as f64;
+                let mass: f64 = (t[0]..t[1])
+                    .flat_map(|t| (w[0]..w[1]).map(move |w| (w, t as usize)))
+                    .map(|(w, t)| exact.cell(w, t))
+                    .sum();
+                let expected = mass * trials as f64;
                 assert!(expected > 100.0);
                 statistic += (counted - expected).powi(2) / expected;
                 cells += 1;
             }
         }
         let p = ChiSquared::new(f64::from(cells - 1)).unwrap().sf(statistic);
-        println!("{law}: n = {trials}, {cells} cells, chi-square {statistic:.1}, p = {p:.3}");
+        println!("{law}, {of}: n = {trials}, {cells} cells, chi-square {statistic:.1}, p = {p:.3}");
         assert!(p > 1e-7);
     }
 }

@@ -44,6 +44,8 @@ pub(super) struct Course {
     pub stages: Vec<Stage>,
     /// Whether a point here uses more than W and T.
     pub needs_samples: bool,
+    /// Whether a point here uses T′.
+    pub needs_shift_exceedances: bool,
     /// Whether a point here uses the record itself.
     pub needs_record: bool,
 }
@@ -190,6 +192,7 @@ impl Course {
             shape,
             stages: Vec::new(),
             needs_samples: false,
+            needs_shift_exceedances: false,
             needs_record: false,
         }
     }

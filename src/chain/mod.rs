@@ -28,7 +28,7 @@ mod trial;
 pub use crate::scenario::{Calibration, Detector, Scenario};
 pub use decision::Decision;
 pub use family::{Family, Purpose};
-pub use observation::{Observation, View};
+pub use observation::{Observation, Track, View};
 pub use replay::Replay;
 pub use score::Score;
 pub use source::RecordTooLong;

@@ -3,7 +3,7 @@
 use super::batch::observe;
 use super::family::Course;
 use super::source::Source;
-use crate::detect::{Crossings, Lines, Pooled, Samples, Statistics};
+use crate::detect::{Along, Crossings, Lines, Pooled, Samples};
 use crate::signal::Digitiser;
 use crate::whiten::whiten;
 use std::ops::Range;
@@ -82,13 +82,13 @@ impl Motion {
         }
     }
 
-    /// W and T at every Δ of the course; `None` if a near tie makes one of them uncertain.
+    /// The statistics at every Δ of the course; `None` if a near tie makes one of them uncertain.
     pub fn count<'c>(
         &self,
         crossings: &'c mut Crossings,
         samples: &Samples,
         rest: &[f64],
-    ) -> Option<&'c [Statistics]> {
+    ) -> Option<&'c Along> {
         let base = pool(samples, rest, &self.without_step);
         let slope = pool(samples, rest, &self.step);
         let lines = |base, slope| Lines { base, slope };

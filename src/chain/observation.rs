@@ -1,7 +1,8 @@
 //! The observation of one trial at one point.
 
 use super::keys::Keys;
-use crate::detect::{Forward, Pooled, Samples, Statistics, Ties};
+use crate::detect::{Along, Forward, Pooled, Samples, Statistics, Ties};
+use std::ops::Range;
 
 /// One trial of one point: the whitened samples, and the record if a method needs it.
 pub struct Observation<'a, 'k> {
@@ -30,18 +31,36 @@ pub trait View {
     /// Takes the observation of the point at `place`.
     fn look(&mut self, place: usize, observation: &mut Observation);
 
-    /// Takes the statistics of points along Δ that use only W and T: pairs of an index into `statistics` and
-    /// a place.
-    fn look_along(
-        &mut self,
-        points: &[[u32; 2]],
-        statistics: &[Statistics],
-        observation: &mut Observation,
-    ) {
-        for &[number, place] in points {
-            observation.statistics = Some(statistics[number as usize]);
-            self.look(place as usize, observation);
+    /// Takes the statistics of points along Δ that use no more than these.
+    fn look_along(&mut self, tracks: &[Track], along: &Along, observation: &mut Observation) {
+        for track in tracks {
+            for (number, place) in (track.first..).zip(track.places.clone()) {
+                observation.statistics = Some(along.at(number));
+                self.look(place, observation);
+            }
         }
+    }
+}
+
+/// Points at consecutive places and values of Δ.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Track {
+    /// The number of the first Δ.
+    pub first: usize,
+    /// The points' places.
+    pub places: Range<usize>,
+}
+
+impl Track {
+    /// The fewest tracks through points with these numbers and places.
+    pub(super) fn through(mut points: Vec<(usize, usize)>) -> Vec<Self> {
+        points.sort_unstable_by_key(|&(number, place)| (place, number));
+        let follows = |a: &(usize, usize), b: &(usize, usize)| *b == (a.0 + 1, a.1 + 1);
+        let tracks = points.chunk_by(follows).map(|points| Self {
+            first: points[0].0,
+            places: points[0].1..points[0].1 + points.len(),
+        });
+        tracks.collect()
     }
 }
 

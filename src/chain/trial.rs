@@ -5,7 +5,7 @@ use super::batch::{Batch, observe};
 use super::family::{Branch, Course, Family};
 use super::keys::Keys;
 use super::motion::{Motion, pool};
-use super::observation::{Observation, Scratch, View};
+use super::observation::{Observation, Scratch, Track, View};
 use super::source::Source;
 use crate::detect::Crossings;
 use crate::simd::Vectors;
@@ -36,11 +36,10 @@ struct Record {
     motion: Vec<f64>,
 }
 
-/// Counts W and T along Δ, with the points that use them.
+/// Counts the statistics along Δ, with the points that use them.
 struct Curve {
     crossings: Crossings,
-    /// Pairs of stage and place, in 32 bits each because a fine grid has many.
-    places: Vec<[u32; 2]>,
+    tracks: Vec<Track>,
 }
 
 /// The number of values of Δ from which crossings are cheaper than comparing the samples at each.
@@ -100,11 +99,11 @@ impl<'a> Trial<'a> {
                 if is_linear {
                     motion.respond(course, coefficients, source, rest);
                 }
-                if let Some(Curve { crossings, places }) = curve
+                if let Some(Curve { crossings, tracks }) = curve
                     && let Some(counted) = motion.count(crossings, &source.samples, rest)
                 {
                     let mut observation = Observation::new(&source.samples, keys, scratch);
-                    view.look_along(places, counted, &mut observation);
+                    view.look_along(tracks, counted, &mut observation);
                     continue;
                 }
                 for stage in &course.stages {
@@ -133,25 +132,18 @@ impl<'a> Trial<'a> {
 
 impl Curve {
     /// `Some` if the whitened samples are lines in Δ, there are enough values of it, and no point uses more
-    /// than W and T.
+    /// than the statistics.
     fn new(branch: &Branch, course: &Course) -> Option<Self> {
         let pays = course.stages.len() >= CROSSINGS_PAY;
         if !pays || course.needs_samples || !branch.digitiser.is_transparent() {
             return None;
         }
         let deltas = course.stages.iter().map(|stage| stage.delta).collect();
-        let stages = (0..).zip(&course.stages);
+        let points = (course.stages.iter().enumerate())
+            .flat_map(|(number, stage)| stage.places.iter().map(move |&place| (number, place)));
         Some(Self {
-            crossings: Crossings::new(Vectors::widest(), deltas),
-            places: stages
-                .flat_map(|(number, stage)| stage.places.iter().map(move |&place| (number, place)))
-                .map(|(number, place)| {
-                    [
-                        number,
-                        u32::try_from(place).expect("fewer points than 2^32"),
-                    ]
-                })
-                .collect(),
+            crossings: Crossings::new(Vectors::widest(), deltas, course.needs_shift_exceedances),
+            tracks: Track::through(points.collect()),
         })
     }
 }

@@ -105,9 +105,15 @@ fn csv(replay: &Replay, decision: &Decision) -> String {
         }
     }
     line("rank_sum", "shift", 0, &replay.statistics.rank_sum);
+    line(
+        "exceedances",
+        "shift",
+        0,
+        &replay.statistics.shift_exceedances,
+    );
     line("exceedances", "scale", 0, &replay.statistics.exceedances);
     if let Decision::Region { region, .. } = decision {
-        let (lower, upper) = region.critical_values()[replay.statistics.exceedances];
+        let (lower, upper) = region.critical_values()[region.exceedances(replay.statistics)];
         for (stage, critical) in [("critical_below", lower), ("critical", upper)] {
             if let Some(critical) = critical {
                 line(stage, "shift", 0, &critical);

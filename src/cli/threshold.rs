@@ -4,7 +4,7 @@ use super::output::Output;
 use super::{CommandResult, Failure, print, table};
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use liftsim::detect::{Alternative, NullLaws, Region, Rule, Samples};
+use liftsim::detect::{Alternative, Exceedances, NullLaws, Region, Rule, Samples};
 use liftsim::study::plane;
 use liftsim::values::Size;
 use serde_json::json;
@@ -34,6 +34,9 @@ pub struct Threshold {
     /// How the region is filled.
     #[arg(long, value_name = "R", value_parser = one_of(&RULES), default_value = "product")]
     rule: Rule,
+    /// Whose exceedances of the range of X are counted.
+    #[arg(long, value_name = "OF", value_parser = one_of(&EXCEEDANCES), default_value = "scale")]
+    exceedances: Exceedances,
     /// The sign of the acceleration that it looks for.
     #[arg(long, value_name = "SIGN", value_parser = one_of(&ALTERNATIVES), default_value = "greater")]
     alternative: Alternative,
@@ -56,6 +59,11 @@ static RULES: [Choice<Rule>; 4] = [
     ("product", Rule::Product, "The product of both p-values"),
     ("disjunction", Rule::Disjunction, "Either statistic"),
     ("conjunction", Rule::Conjunction, "Both statistics"),
+];
+
+static EXCEEDANCES: [Choice<Exceedances>; 2] = [
+    ("scale", Exceedances::Scale, "T, of Y2, as the paper has it"),
+    ("motion", Exceedances::Motion, "T', of Y1 and Y2"),
 ];
 
 static ALTERNATIVES: [Choice<Alternative>; 3] = [
@@ -90,7 +98,8 @@ impl Threshold {
         let samples =
             Samples::contiguous(self.reference, self.shift, self.scale).map_err(Failure::input)?;
         let (rule, alternative) = (&self.rule, self.alternative);
-        let laws = NullLaws::new(alternative, &samples).map_err(Failure::input)?;
+        let laws =
+            NullLaws::new(self.exceedances, alternative, &samples).map_err(Failure::input)?;
         let region = laws.region(rule, self.alpha).map_err(Failure::input)?;
         let text = if self.json {
             self.as_json(&laws, &region)
@@ -133,20 +142,25 @@ impl Threshold {
             ]
         })
         .collect();
+        let t = self.exceedances.symbol();
         let name = match self.alternative {
             Alternative::Greater => "W >=",
             Alternative::Less => "W <=",
             Alternative::TwoSided => "W <= or >=",
         };
         format!(
-            "rule {}, alternative {}, N/M1/M2 = {}/{}/{}, alpha = {}\n\n{}\nexact size {}\n",
+            "rule {}, exceedances of {}, alternative {}, N/M1/M2 = {}/{}/{}, alpha = {}\n\n{}\nexact size {}\n",
             self.rule,
+            self.exceedances.samples().replace('_', ""),
             self.alternative,
             self.reference,
             self.shift,
             self.scale,
             self.alpha,
-            table(&["T", "P(T)", name, "P(H1* | T)"], &rows),
+            table(
+                &[t, &format!("P({t})"), name, &format!("P(H1* | {t})")],
+                &rows
+            ),
             region.size(),
         )
     }
@@ -171,6 +185,7 @@ impl Threshold {
             "scale": self.scale,
             "alpha": self.alpha,
             "rule": self.rule.to_string(),
+            "exceedances": self.exceedances.to_string(),
             "alternative": self.alternative.to_string(),
             "size": region.size(),
             "critical": critical,

@@ -90,6 +90,11 @@ impl NullLaws {
         })
     }
 
+    /// Whose exceedances are counted.
+    pub fn of(&self) -> Exceedances {
+        self.of
+    }
+
     /// The law of W.
     pub fn rank_sum(&self) -> &NullLaw {
         &self.rank_sum

@@ -76,10 +76,7 @@ impl LikelihoodOrder {
     pub fn new(laws: &NullLaws, pilot: &Histogram) -> Self {
         let mut counts: BTreeMap<(usize, u64), f64> = BTreeMap::new();
         for (&statistics, &count) in &pilot.counts {
-            let cell = (
-                laws.of.of(statistics),
-                laws.score_of(statistics.rank_sum),
-            );
+            let cell = (laws.of.of(statistics), laws.score_of(statistics.rank_sum));
             *counts.entry(cell).or_default() += count as f64;
         }
         let scores = laws.scores();

@@ -18,7 +18,7 @@ mod statistics;
 
 pub use baseline::{block_means, student_t, variance_ratio};
 pub use clairvoyant::{Clairvoyant, Forward};
-pub use crossings::{Crossings, Lines};
+pub use crossings::{Along, Crossings, Lines};
 pub use design::NullLaws;
 pub use law::{NullLaw, NullLawError};
 pub use likelihood::{Histogram, LikelihoodOrder};

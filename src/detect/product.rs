@@ -47,10 +47,7 @@ impl NullLaws {
         };
         let largest = largest_below_one(|k| size(k) <= alpha * MARGIN);
         let critical = region(largest * MARGIN);
-        critical
-            .into_iter()
-            .map(|c| first + c as u64)
-            .collect()
+        critical.into_iter().map(|c| first + c as u64).collect()
     }
 
     /// The region with the cells of the smallest product outside it added.

@@ -48,6 +48,11 @@ impl Region {
         score >= self.critical[self.exceedances.of(statistics)]
     }
 
+    /// The number of exceedances that it looks at.
+    pub fn exceedances(&self, statistics: Statistics) -> usize {
+        self.exceedances.of(statistics)
+    }
+
     /// P(ϑ | H₀), eq. (15), correctly rounded.
     pub fn size(&self) -> f64 {
         self.size

@@ -89,6 +89,14 @@ impl Exceedances {
         }
     }
 
+    /// The samples, as pictures and tables name them.
+    pub fn samples(self) -> &'static str {
+        match self {
+            Self::Scale => "Y_2",
+            Self::Motion => "Y_1 and Y_2",
+        }
+    }
+
     /// The symbol of their number.
     pub fn symbol(self) -> &'static str {
         match self {

@@ -1,7 +1,6 @@
 //! The rank sum W and the exceedances T, eq. (12) of [^1] and the display above it.
 //!
-//! W = M₁(M₁+1)/2 + #{(i ∈ Y₁, j ∉ Y₁): y_i > y_j}; T = #{y ∈ Y₂: y < min X or y > max X}. The same number in Y₁
-//! serves rules that count the exceedances of all of the motion, T′.
+//! W = M₁(M₁+1)/2 + #{(i ∈ Y₁, j ∉ Y₁): y_i > y_j}; T = #{y ∈ Y₂: y < min X or y > max X}.
 //!
 //! Ties are broken by one random key per sample, which keeps the laws of W and T exact for any exchangeable
 //! data. Keys are drawn only if a tie matters, so continuous data do not need them.
@@ -9,13 +8,13 @@
 //! [^1]: see [`crate::signal`].
 
 /// The statistics of one trial.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Statistics {
     /// W.
     pub rank_sum: u64,
     /// T.
     pub exceedances: usize,
-    /// The number of samples of Y₁ outside the range of X.
+    /// The number of samples of Y₁ outside the range of X: T′ less T.
     pub shift_exceedances: usize,
 }
 
@@ -31,28 +30,27 @@ pub struct Pooled<'a> {
 }
 
 impl Pooled<'_> {
-    /// W and T. `keys` gives a random key for each sample, in the order X, Y₁, Y₂.
+    /// W, T and T′. `keys` gives a random key for each sample, in the order X, Y₁, Y₂.
     #[inline]
     pub fn statistics<'k>(&self, keys: impl FnOnce() -> &'k [u64]) -> Statistics {
         let (above, reached) = self.pairs_won();
-        let [shift, scale] = self.outside_reference();
-        if above != reached || scale.on_the_edge > 0 {
+        let (exceedances, on_the_edge) = self.outside_reference(self.scale);
+        if above != reached || on_the_edge {
             return self.statistics_by_keys(keys());
         }
         Statistics {
             rank_sum: smallest_rank_sum(self.shift.len()) + above,
-            exceedances: scale.beyond,
-            shift_exceedances: shift.beyond,
+            exceedances,
+            shift_exceedances: self.outside_reference(self.shift).0,
         }
     }
 
-    /// W and T by strict comparisons: a tied pair counts neither in W nor in T.
+    /// The same by strict comparisons: a tied pair counts in none of them.
     pub fn statistics_strictly(&self) -> Statistics {
-        let [shift, scale] = self.outside_reference();
         Statistics {
             rank_sum: smallest_rank_sum(self.shift.len()) + self.pairs_won().0,
-            exceedances: scale.beyond,
-            shift_exceedances: shift.beyond,
+            exceedances: self.outside_reference(self.scale).0,
+            shift_exceedances: self.outside_reference(self.shift).0,
         }
     }
 
@@ -70,22 +68,20 @@ impl Pooled<'_> {
         (above, reached)
     }
 
-    /// How the samples of Y₁ and Y₂ lie to the range of X.
-    fn outside_reference(&self) -> [Outside; 2] {
+    /// The number of values outside the range of X, and whether one ties with an end of it.
+    fn outside_reference(&self, values: &[f64]) -> (usize, bool) {
         let low = self.reference.iter().copied().fold(f64::INFINITY, f64::min);
         let high = self
             .reference
             .iter()
             .copied()
             .fold(f64::NEG_INFINITY, f64::max);
-        [self.shift, self.scale].map(|sample| {
-            let mut outside = Outside::default();
-            for &y in sample {
-                outside.beyond += usize::from((y < low) | (y > high));
-                outside.on_the_edge += usize::from((y == low) | (y == high));
-            }
-            outside
-        })
+        let (mut outside, mut edges) = (0, 0);
+        for &y in values {
+            outside += usize::from((y < low) | (y > high));
+            edges += usize::from((y == low) | (y == high));
+        }
+        (outside, edges > 0)
     }
 
     /// W and T by the order of (value, key).
@@ -94,8 +90,9 @@ impl Pooled<'_> {
         let (reference_keys, rest) = keys.split_at(self.reference.len());
         let (shift_keys, scale_keys) = rest.split_at(self.shift.len());
         let reference = || keyed(self.reference, reference_keys);
+        let shift = || keyed(self.shift, shift_keys);
         let scale = || keyed(self.scale, scale_keys);
-        let won: usize = keyed(self.shift, shift_keys)
+        let won: usize = shift()
             .map(|y| {
                 reference()
                     .chain(scale())
@@ -108,17 +105,9 @@ impl Pooled<'_> {
         Statistics {
             rank_sum: smallest_rank_sum(self.shift.len()) + won as u64,
             exceedances: scale().filter(is_outside).count(),
-            shift_exceedances: keyed(self.shift, shift_keys).filter(is_outside).count(),
+            shift_exceedances: shift().filter(is_outside).count(),
         }
     }
-}
-
-/// How the samples of one kind lie to the range of X.
-#[derive(Clone, Copy, Default)]
-struct Outside {
-    beyond: usize,
-    /// Equal to an end of it, so that keys decide. A tie of Y₁ with X is one of W too.
-    on_the_edge: usize,
 }
 
 /// A value and the key that decides its ties.

@@ -17,8 +17,12 @@ pub(super) struct Ladder {
 impl Ladder {
     pub fn new(scenario: &Scenario, motion: Option<&Histogram>) -> Self {
         let detector = &scenario.detector;
-        let laws = NullLaws::new(detector.exceedances, detector.alternative, &scenario.samples)
-            .expect("the plan has made these laws before");
+        let laws = NullLaws::new(
+            detector.exceedances,
+            detector.alternative,
+            &scenario.samples,
+        )
+        .expect("the plan has made these laws before");
         let order = motion.map(|histogram| LikelihoodOrder::new(&laws, histogram));
         Self {
             laws,

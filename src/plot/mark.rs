@@ -39,7 +39,7 @@ pub enum Mark {
     /// Filled rectangles, each between two opposite corners.
     Cells(Vec<Cell>),
     /// Beside the panel under a title, what the colours of cells stand for.
-    Shades(&'static str, Vec<(Colour, String)>),
+    Shades(String, Vec<(Colour, String)>),
     Block(Block),
 }
 

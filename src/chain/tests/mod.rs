@@ -5,7 +5,8 @@ mod order;
 
 use super::{Decision, Family, Observation, Purpose, Score, Trial};
 use crate::detect::{
-    Alternative, Baseline, Clairvoyant, Exceedances, Forward, Method, NullLaws, Region, Rule, Samples, Ties,
+    Alternative, Baseline, Clairvoyant, Exceedances, Forward, Method, NullLaws, Region, Rule,
+    Samples, Ties,
 };
 use crate::scenario::{Calibration, Detector, Scenario};
 use crate::signal::{

@@ -181,9 +181,8 @@ fn naive_statistics(samples: &Samples, y: &[f64], keys: &[u64]) -> Statistics {
     let places = |label| (0..pooled.len()).filter(move |&i| pooled[i].2 == label);
     let (low, high) = (places(0).min().unwrap(), places(0).max().unwrap());
     let outside = |label| {
-        places(label)
-            .filter(|&place| place < low || place > high)
-            .count()
+        let beyond = places(label).filter(|&place| place < low || place > high);
+        beyond.count()
     };
     Statistics {
         rank_sum: places(1).map(|place| place as u64 + 1).sum(),

@@ -73,7 +73,7 @@ impl Even {
 
     /// Moves crossings beyond the grid to half a step outside, where they count the same.
     #[inline(always)]
-    pub fn clamp<const N: usize>(&self, place: Wide<N>) -> Wide<N> {
+    fn clamp<const N: usize>(&self, place: Wide<N>) -> Wide<N> {
         place
             .greatest(Wide::all(-0.5))
             .least(Wide::all(self.last + 0.5))
@@ -81,15 +81,15 @@ impl Even {
 }
 
 /// Adding this to a number below 2⁵¹ rounds it to a whole number, held in the lowest bits of the sum.
-const ROUND: f64 = 1.5 * (1u64 << 52) as f64;
+pub(super) const ROUND: f64 = 1.5 * (1u64 << 52) as f64;
 
 #[inline(always)]
-pub(super) fn round<const N: usize>(place: Wide<N>) -> Wide<N> {
+fn round<const N: usize>(place: Wide<N>) -> Wide<N> {
     (place + Wide::all(ROUND)) - Wide::all(ROUND)
 }
 
 /// Rounds up; a whole number may go to either neighbour, because it is a near tie anyway.
 #[inline(always)]
-pub(super) fn round_up<const N: usize>(place: Wide<N>) -> [u32; N] {
+fn round_up<const N: usize>(place: Wide<N>) -> [u32; N] {
     ((place + Wide::all(0.5)) + Wide::all(ROUND)).low_bits()
 }

@@ -1,6 +1,7 @@
 //! Samples as lines in Δ, and the crossings of those of Y₁ with another line.
 
-use super::grid::{Grid, round, round_up};
+use super::changes::Changes;
+use super::grid::Grid;
 use crate::simd::{Wide, greatest, least};
 
 /// Samples as lines in Δ.
@@ -34,89 +35,66 @@ impl Lines<'_> {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Field {
     /// The number of lines without the copies.
-    pub length: usize,
-    pub lines: Vec<Several>,
-    pub least_slope: f64,
+    length: usize,
+    bases: Vec<Wide<SEVERAL>>,
+    slopes: Vec<Wide<SEVERAL>>,
+    least_slope: f64,
     /// The index of the first Δ after each crossing with the other line.
-    pub behind: Vec<[u32; SEVERAL]>,
+    behind: Vec<[u32; SEVERAL]>,
     /// The smallest distance between two lines at any Δ so far.
-    pub nearest: Wide<SEVERAL>,
-}
-
-/// Several lines side by side.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Several {
-    base: Wide<SEVERAL>,
-    pub slope: Wide<SEVERAL>,
-    /// Steps of the grid until the crossing, for each unit that a line without slope is ahead.
-    pace: Wide<SEVERAL>,
-    /// The change in one step, |slope| · step; for a zero slope `flat` is 1.
-    stride: Wide<SEVERAL>,
-    flat: Wide<SEVERAL>,
+    nearest: Wide<SEVERAL>,
 }
 
 /// Lines in an array. The 12 samples of Fig. 6 fill three arrays.
-pub(super) const SEVERAL: usize = 4;
+const SEVERAL: usize = 4;
 
 impl Field {
     #[inline(always)]
-    pub fn take(&mut self, lines: Lines, grid: &Grid) {
+    pub fn take(&mut self, lines: Lines) {
         self.length = lines.base.len();
         let arrays = self.length.div_ceil(SEVERAL);
-        self.lines.resize(arrays, Several::default());
+        for (to, values) in [
+            (&mut self.bases, lines.base),
+            (&mut self.slopes, lines.slope),
+        ] {
+            to.clear();
+            for several in values.chunks(SEVERAL) {
+                let mut wide = Wide::all(values[0]);
+                wide.0[..several.len()].copy_from_slice(several);
+                to.push(wide);
+            }
+        }
         self.behind.resize(arrays, [0; SEVERAL]);
         self.nearest = Wide::all(f64::INFINITY);
-        self.least_slope = f64::INFINITY;
-        let (step, steps) = grid
-            .even
-            .map_or((1.0, 1.0), |even| (even.step, even.steps_per_unit));
-        for (array, several) in self.lines.iter_mut().enumerate() {
-            for lane in 0..SEVERAL {
-                let line = array * SEVERAL + lane;
-                let line = if line < self.length { line } else { 0 };
-                several.base.0[lane] = lines.base[line];
-                several.slope.0[lane] = lines.slope[line];
-                self.least_slope = least(self.least_slope, lines.slope[line]);
-                several.flat.0[lane] = if lines.slope[line] == 0.0 { 1.0 } else { 0.0 };
-            }
-            several.pace = Wide::all(steps) / several.slope;
-            several.stride = several.slope.abs() * step;
-        }
+        self.least_slope = lines.slope.iter().copied().fold(f64::INFINITY, least);
     }
 
-    /// Finds the crossings with a line of slope zero and this value.
+    /// Counts the lines above any other line, at every Δ.
     #[inline(always)]
-    pub fn meet_still(&mut self, grid: &Grid, value: f64) {
-        let Some(even) = grid.even else {
-            return self.meet(grid, value, 0.0);
-        };
-        let (value, start) = (
-            Wide::all(value),
-            Wide::all(even.start * even.steps_per_unit),
-        );
+    pub fn count(&mut self, grid: &Grid, base: f64, slope: f64, changes: &mut Changes) {
         let mut nearest = self.nearest;
-        for (several, behind) in self.lines.iter().zip(&mut self.behind) {
-            let ahead = value - several.base;
-            let place = even.clamp(ahead * several.pace - start);
-            *behind = round_up(place);
-            // Steps to the nearest grid point times the change in a step: no division, unlike `meet`.
-            let gap = (place - round(place)).abs() * several.stride + ahead.abs() * several.flat;
-            nearest = gap.least(nearest);
-        }
-        self.nearest = nearest;
-    }
-
-    /// Finds the crossings with any line.
-    #[inline(always)]
-    pub fn meet(&mut self, grid: &Grid, base: f64, slope: f64) {
-        let mut nearest = self.nearest;
-        for (several, behind) in self.lines.iter().zip(&mut self.behind) {
-            let ahead = Wide::all(base) - several.base;
-            let closing = several.slope - Wide::all(slope);
+        let lines = self.bases.iter().zip(&self.slopes);
+        for ((bases, slopes), behind) in lines.zip(&mut self.behind) {
+            let (ahead, closing) = (Wide::all(base) - *bases, *slopes - Wide::all(slope));
             let (first, gap) = grid.cross(ahead, closing);
             *behind = first;
             nearest = gap.least(nearest);
         }
         self.nearest = nearest;
+        let behind = &self.behind.as_flattened()[..self.length];
+        if self.least_slope >= slope {
+            return changes.add(behind, 1.0);
+        }
+        for (line, place) in behind.iter().enumerate() {
+            // A steeper line is above from the crossing on, a flatter one up to there.
+            let closing = self.slopes[line / SEVERAL].0[line % SEVERAL] - slope;
+            changes.add(std::slice::from_ref(place), closing);
+        }
+    }
+
+    /// The smallest distance between two lines at any Δ so far.
+    #[inline(always)]
+    pub fn nearest(&self) -> f64 {
+        self.nearest.0.into_iter().fold(f64::INFINITY, least)
     }
 }

@@ -2,14 +2,16 @@
 
 use super::*;
 use crate::detect::Statistics;
+use crate::detect::statistics::smallest_rank_sum;
 
 fn try_region(
+    of: Exceedances,
     rule: &Rule,
     alternative: Alternative,
     alpha: f64,
     samples: &Samples,
 ) -> Result<Region, RegionError> {
-    NullLaws::new(alternative, samples)?.region(rule, alpha)
+    NullLaws::new(of, alternative, samples)?.region(rule, alpha)
 }
 
 fn sizes(n: usize, m1: usize, m2: usize) -> Samples {
@@ -17,30 +19,49 @@ fn sizes(n: usize, m1: usize, m2: usize) -> Samples {
 }
 
 fn region(rule: Rule, alternative: Alternative, alpha: f64, samples: &Samples) -> Region {
-    try_region(&rule, alternative, alpha, samples).unwrap()
+    try_region(Exceedances::Scale, &rule, alternative, alpha, samples).unwrap()
 }
 
-/// Every cell of the (W, T) plane with its probability.
-fn cells(samples: &Samples) -> Vec<(Statistics, f64)> {
+/// The numbers of cases by T and W, from the smallest W on.
+fn counts(of: Exceedances, samples: &Samples) -> Vec<Vec<BigUint>> {
     let w = NullLaw::rank_sum(samples).unwrap();
-    let t = NullLaw::exceedances(samples).unwrap();
-    let cell = |rank_sum, exceedances: u64| {
-        let probability = w.mass(rank_sum) * t.mass(exceedances);
-        let exceedances = exceedances as usize;
-        (
-            Statistics {
-                rank_sum,
-                exceedances,
-            },
-            probability,
-        )
+    let t = NullLaw::exceedances(of, samples).unwrap();
+    let column = |t: BigUint| (w.first()..=w.last()).map(move |v| w.count(v) * &t);
+    match of {
+        Exceedances::Scale => (0..=t.last())
+            .map(|v| column.clone()(t.count(v)).collect())
+            .collect(),
+        Exceedances::Motion => joint::counts(samples),
+    }
+}
+
+/// Statistics with this W, and these exceedances of Y₂, or of Y₁ for rules on all of the motion.
+fn at(of: Exceedances, rank_sum: u64, exceedances: usize) -> Statistics {
+    let (scale, shift) = match of {
+        Exceedances::Scale => (exceedances, 0),
+        Exceedances::Motion => (0, exceedances),
     };
-    (w.first()..=w.last())
-        .flat_map(|rank_sum| (0..=t.last()).map(move |e| (rank_sum, e)))
-        .map(|(rank_sum, e)| cell(rank_sum, e))
+    Statistics {
+        rank_sum,
+        exceedances: scale,
+        shift_exceedances: shift,
+    }
+}
+
+/// Every cell of the plane of W and T or T′ with its cases.
+fn cells(of: Exceedances, samples: &Samples) -> Vec<(Statistics, BigUint)> {
+    let first = smallest_rank_sum(samples.shift());
+    let columns = counts(of, samples).into_iter().enumerate();
+    columns
+        .flat_map(|(t, column)| {
+            (first..)
+                .zip(column)
+                .map(move |(w, count)| (at(of, w, t), count))
+        })
         .collect()
 }
 
+const BOTH: [Exceedances; 2] = [Exceedances::Scale, Exceedances::Motion];
 const RULES: [Rule; 4] = [
     Rule::Wilcoxon,
     Rule::Product,
@@ -57,25 +78,29 @@ const ALTERNATIVES: [Alternative; 3] = [
 #[test]
 fn size_is_the_sum_of_the_cells() {
     for samples in [sizes(12, 12, 12), sizes(9, 5, 7), sizes(8, 4, 1)] {
-        for rule in &RULES {
-            for alternative in ALTERNATIVES {
-                let Ok(region) = try_region(rule, alternative, 0.01, &samples) else {
+        for of in BOTH {
+            let cells = cells(of, &samples);
+            let all: BigUint = cells.iter().map(|(_, count)| count).sum();
+            for (rule, alternative) in RULES.iter().flat_map(|r| ALTERNATIVES.map(|a| (r, a))) {
+                let Ok(region) = try_region(of, rule, alternative, 0.01, &samples) else {
                     assert_eq!((rule, samples.scale()), (&Rule::Conjunction, 1));
                     continue;
                 };
-                let inside = cells(&samples)
-                    .into_iter()
-                    .filter(|(s, _)| region.contains(*s));
-                let sum: f64 = inside.map(|(_, p)| p).sum();
-                assert!((sum - region.size()).abs() < 1e-14, "{rule} {alternative}");
+                let inside = cells.iter().filter(|(s, _)| region.contains(*s));
+                let cases: BigUint = inside.map(|(_, count)| count).sum();
+                assert_eq!(
+                    region.size(),
+                    ratio(&cases, &all),
+                    "{of} {rule} {alternative}"
+                );
                 assert!(region.size() <= 0.01 && region.size() > 0.0);
             }
         }
     }
 }
 
-/// The product rule against its definition: order all cells by the exact product of their tail counts, add
-/// groups of equal products together, stop before α is exceeded.
+/// The product rule against its definition: order all cells by the exact product of the tail counts of both
+/// marginal laws, add groups of equal products together, stop before α is exceeded.
 #[test]
 fn product_enters_cells_in_exact_order() {
     for (samples, alpha) in [
@@ -83,34 +108,41 @@ fn product_enters_cells_in_exact_order() {
         (sizes(12, 12, 12), 0.001),
         (sizes(6, 4, 5), 0.05),
         (sizes(2, 3, 9), 0.2),
+        (sizes(1, 3, 4), 0.3),
         (sizes(20, 8, 3), 1e-5),
     ] {
-        let w = NullLaw::rank_sum(&samples).unwrap();
-        let t = NullLaw::exceedances(&samples).unwrap();
-        let mut ordered: Vec<(BigUint, u64, u64)> = (w.first()..=w.last())
-            .flat_map(|rank| (0..=t.last()).map(move |e| (rank, e)))
-            .map(|(rank, e)| (w.tail_count(rank) * t.tail_count(e), rank, e))
+        for of in BOTH {
+            let w = NullLaw::rank_sum(&samples).unwrap();
+            let t = NullLaw::exceedances(of, &samples).unwrap();
+            let mut ordered: Vec<(BigUint, Statistics, BigUint)> = (cells(of, &samples)
+                .into_iter())
+            .map(|(cell, count)| {
+                let tail = t.tail_count(of.of(cell) as u64);
+                (w.tail_count(cell.rank_sum) * tail, cell, count)
+            })
             .collect();
-        ordered.sort();
-        let all = w.total() * t.total();
-        let mut inside = Vec::new();
-        let mut cases = BigUint::ZERO;
-        for group in ordered.chunk_by(|a, b| a.0 == b.0) {
-            let more: BigUint = group
-                .iter()
-                .map(|(_, r, e)| w.count(*r) * t.count(*e))
-                .sum();
-            if ratio(&(&cases + &more), &all) > alpha {
-                break;
+            ordered.sort();
+            let all: BigUint = ordered.iter().map(|(.., count)| count).sum();
+            let mut inside = Vec::new();
+            let mut cases = BigUint::ZERO;
+            for group in ordered.chunk_by(|a, b| a.0 == b.0) {
+                let more: BigUint = group.iter().map(|(.., count)| count).sum();
+                if ratio(&(&cases + &more), &all) > alpha {
+                    break;
+                }
+                cases += more;
+                inside.extend(group.iter().map(|(_, cell, _)| *cell));
             }
-            cases += more;
-            inside.extend(group.iter().map(|&(_, r, e)| (r, e)));
-        }
-        let region = region(Rule::Product, Alternative::Greater, alpha, &samples);
-        assert_eq!(region.size(), ratio(&cases, &all));
-        for (statistics, _) in cells(&samples) {
-            let expected = inside.contains(&(statistics.rank_sum, statistics.exceedances as u64));
-            assert_eq!(region.contains(statistics), expected, "{statistics:?}");
+            let region = try_region(of, &Rule::Product, Alternative::Greater, alpha, &samples);
+            let region = region.unwrap();
+            assert_eq!(region.size(), ratio(&cases, &all));
+            for (_, cell, _) in &ordered {
+                assert_eq!(
+                    region.contains(*cell),
+                    inside.contains(cell),
+                    "{of} {cell:?}"
+                );
+            }
         }
     }
 }
@@ -121,7 +153,7 @@ fn equal_products_exist() {
     let samples = sizes(12, 12, 12);
     let (w, t) = (
         NullLaw::rank_sum(&samples).unwrap(),
-        NullLaw::exceedances(&samples).unwrap(),
+        NullLaw::exceedances(Exceedances::Scale, &samples).unwrap(),
     );
     assert_eq!(
         w.tail_count(280 + 78) * t.tail_count(12),
@@ -156,7 +188,9 @@ fn disjunction_and_conjunction_by_hand() {
             .all(|v| *v == (None, Some(w.critical(left))))
     );
     let both = region(Rule::Conjunction, Alternative::Greater, 0.01, &samples);
-    let t = NullLaw::exceedances(&samples).unwrap().critical(0.1) as usize;
+    let t = NullLaw::exceedances(Exceedances::Scale, &samples)
+        .unwrap()
+        .critical(0.1) as usize;
     let values = both.critical_values();
     assert!(values[..t].iter().all(|v| *v == (None, None)));
     assert!(
@@ -183,7 +217,7 @@ fn alternatives_mirror() {
         let greater = region(rule.clone(), Alternative::Greater, 0.01, &samples);
         let less = region(rule.clone(), Alternative::Less, 0.01, &samples);
         let both = region(rule.clone(), Alternative::TwoSided, 0.01, &samples);
-        for (statistics, _) in cells(&samples) {
+        for (statistics, _) in cells(Exceedances::Scale, &samples) {
             let rank_sum = 12 * 37 - statistics.rank_sum;
             let mirrored = Statistics {
                 rank_sum,
@@ -203,6 +237,7 @@ fn tables() {
     let samples = sizes(12, 12, 2);
     let table = |entries: &[Option<u64>]| {
         try_region(
+            Exceedances::Scale,
             &Rule::Table(entries.to_vec()),
             Alternative::Greater,
             0.01,
@@ -226,7 +261,14 @@ fn tables() {
 #[test]
 fn refusals_name_what_can_be_reached() {
     let refuse = |rule: &Rule, alpha, samples: &Samples| {
-        try_region(rule, Alternative::Greater, alpha, samples).unwrap_err()
+        try_region(
+            Exceedances::Scale,
+            rule,
+            Alternative::Greater,
+            alpha,
+            samples,
+        )
+        .unwrap_err()
     };
     for alpha in [0.0, 1.0, -0.1, f64::NAN] {
         let error = refuse(&Rule::Product, alpha, &sizes(3, 3, 3));
@@ -237,13 +279,13 @@ fn refusals_name_what_can_be_reached() {
         RegionError::NoExceedanceThreshold { .. }
     ));
     let samples = sizes(4, 2, 4);
-    for rule in &RULES {
-        let RegionError::Unreachable { reachable, .. } = refuse(rule, 1e-6, &samples) else {
-            panic!("{rule}");
+    for (rule, of) in RULES.iter().flat_map(|rule| BOTH.map(|of| (rule, of))) {
+        let at = |alpha| try_region(of, rule, Alternative::Greater, alpha, &samples);
+        let Err(RegionError::Unreachable { reachable, .. }) = at(1e-6) else {
+            panic!("{rule} {of}");
         };
-        let at = |alpha| try_region(rule, Alternative::Greater, alpha, &samples);
-        assert!(at(reachable * 1.0001).is_ok(), "{rule} {reachable}");
-        assert!(at(reachable * 0.9999).is_err(), "{rule} {reachable}");
+        assert!(at(reachable * 1.0001).is_ok(), "{rule} {of} {reachable}");
+        assert!(at(reachable * 0.9999).is_err(), "{rule} {of} {reachable}");
     }
 }
 
@@ -257,4 +299,33 @@ fn large_sizes() {
         &sizes(200, 200, 200),
     );
     assert!(region.size() <= 0.01 && region.size() > 0.00999);
+}
+
+/// The joint law of 40/40/40 takes seconds.
+#[test]
+fn large_joint_law() {
+    let samples = sizes(40, 40, 40);
+    let start = std::time::Instant::now();
+    let region = try_region(
+        Exceedances::Motion,
+        &Rule::Product,
+        Alternative::Greater,
+        0.01,
+        &samples,
+    );
+    println!("40/40/40: {:.1?}", start.elapsed());
+    let size = region.unwrap().size();
+    assert!(size <= 0.01 && size > 0.00999, "{size}");
+}
+
+/// What does not fit says what would.
+#[test]
+fn joint_law_too_large() {
+    let laws = |n| NullLaws::new(Exceedances::Motion, Alternative::Greater, &sizes(n, n, n));
+    let Err(NullLawError::TooLarge { fits, .. }) = laws(300) else {
+        panic!("300/300/300 fits");
+    };
+    assert!(fits.shift() > 40 && fits.shift() < 100, "{fits}");
+    let one_more = fits.shift() + 1;
+    assert!(matches!(laws(one_more), Err(NullLawError::TooLarge { .. })));
 }

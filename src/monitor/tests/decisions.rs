@@ -52,6 +52,7 @@ fn decisions_are_those_of_a_recount() {
         let naive = Statistics {
             rank_sum: 78 + won.sum::<u64>(),
             exceedances: y2.iter().filter(|y| **y < low || **y > high).count(),
+            shift_exceedances: y1.iter().filter(|y| **y < low || **y > high).count(),
         };
         let statistics = (decision.rank_sum, decision.exceedances);
         let expected = (naive.rank_sum, naive.exceedances);

@@ -266,7 +266,7 @@ mod tests {
     /// Checks (14) and the laws of the detector, which share no code with this enumeration.
     #[test]
     fn independent_and_of_the_known_laws() {
-        use crate::detect::{NullLaw, Samples};
+        use crate::detect::{Exceedances, NullLaw, Samples};
         for sizes in [[2, 2, 2], [3, 2, 4], [1, 3, 2], [5, 3, 2]] {
             let rows = rows(&[sizes]);
             let finding = findings(&rows)[0];
@@ -275,7 +275,7 @@ mod tests {
             let samples = Samples::contiguous(sizes[0], sizes[1], sizes[2]).unwrap();
             let (w, t) = (
                 NullLaw::rank_sum(&samples).unwrap(),
-                NullLaw::exceedances(&samples).unwrap(),
+                NullLaw::exceedances(Exceedances::Scale, &samples).unwrap(),
             );
             for row in rows {
                 let known = w.mass(row.rank_sum) * t.mass(row.exceedances as u64);

@@ -107,7 +107,8 @@ impl Sized {
             let rule = "have an exact region (name wilcoxon, product, disjunction or conjunction)";
             return Err(OutOfRange::new("detector.rule", rule, name).into());
         };
-        let laws = NullLaws::new(detector.exceedances, detector.alternative, &samples).map_err(RegionError::from)?;
+        let laws = NullLaws::new(detector.exceedances, detector.alternative, &samples)
+            .map_err(RegionError::from)?;
         let region = laws.region(rule, detector.alpha)?;
         // The acceleration lasts to the end of Y₁, so its duration follows the size.
         let motion = Motion {

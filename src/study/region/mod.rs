@@ -65,7 +65,11 @@ impl Regions {
     /// If a rule has no region.
     fn new(scenario: Scenario, rules: Vec<Rule>) -> Result<Self, RegionError> {
         let detector = &scenario.detector;
-        let laws = NullLaws::new(detector.exceedances, detector.alternative, &scenario.samples)?;
+        let laws = NullLaws::new(
+            detector.exceedances,
+            detector.alternative,
+            &scenario.samples,
+        )?;
         let mut regions = Vec::new();
         for rule in rules {
             let region = laws.region(&rule, detector.alpha)?;

@@ -21,13 +21,18 @@ pub fn plot(laws: &NullLaws, rows: &[Row], title: &[String]) -> Plot {
     let (low, high) = visible(laws);
     let x = Axis::linear(low as f64 - 0.5, high as f64 + 0.5, 7).labelled("W, rank sum of Y_1");
     let top = laws.exceedances().last() as f64 + 0.5;
-    let y = Axis::linear(-0.5, top, 8).labelled("T, exceedances of Y_2");
+    let y = Axis::linear(-0.5, top, 8).labelled(&format!(
+        "{}, exceedances of {}",
+        laws.of().symbol(),
+        laws.of().samples()
+    ));
     let mut plot = Plot::stack(&x, [(HEIGHT, y)]);
     (plot.margins.left, plot.margins.right, plot.margins.top) = (48.0, 76.0, 4.0);
     plot.add(0, Mark::Cells(cells(laws)));
     let exponents = (2..=12).step_by(2);
     let shades = exponents.map(|e| (shade(libm::pow(10.0, -f64::from(e))), power_of_ten(-e)));
-    plot.add(0, Mark::Shades("P(W, T | H_0)", shades.collect()));
+    let shown = format!("P(W, {} | H_0)", laws.of().symbol());
+    plot.add(0, Mark::Shades(shown, shades.collect()));
     let style = |index: usize| Style::of(STYLES[index % STYLES.len()]);
     for (index, rows) in regions.iter().enumerate() {
         let width = LINE + 0.5 * (regions.len() - 1 - index) as f64;
@@ -73,23 +78,19 @@ fn visible(laws: &NullLaws) -> (u64, u64) {
 fn cells(laws: &NullLaws) -> Vec<Cell> {
     let (low, high) = visible(laws);
     let width = (high - low + 1).div_ceil(COLUMNS);
-    let largest = |from: u64, to: u64| {
-        (from..=to)
-            .map(|w| laws.rank_sum().mass(w))
-            .fold(0.0, f64::max)
-    };
-    let columns: Vec<(f64, f64, f64)> = (low..=high)
-        .step_by(width as usize)
-        .map(|from| (from, (from + width - 1).min(high)))
-        .map(|(from, to)| (from as f64 - 0.5, to as f64 + 0.5, largest(from, to)))
-        .collect();
-    let rows = (0..=laws.exceedances().last()).map(|t| (t as f64, laws.exceedances().mass(t)));
-    rows.flat_map(|(t, mass)| {
-        let cell =
-            move |&(from, to, largest)| ((from, t + 0.5), (to, t - 0.5), shade(largest * mass));
-        columns.iter().map(cell)
-    })
-    .collect()
+    let columns = (low..=high).step_by(width as usize);
+    let columns = columns.map(|from| (from, (from + width - 1).min(high)));
+    columns
+        .flat_map(|(from, to)| {
+            (0..=laws.exceedances().last()).map(move |t| {
+                let largest = (from..=to)
+                    .map(|w| laws.cell(w, t as usize))
+                    .fold(0.0, f64::max);
+                let (left, right, t) = (from as f64 - 0.5, to as f64 + 0.5, t as f64);
+                ((left, t + 0.5), (right, t - 0.5), shade(largest))
+            })
+        })
+        .collect()
 }
 
 /// The lines around a region: for large W, and for small W where there are such. A part that lies outside

@@ -2,10 +2,11 @@
 //! them decided for H₁.
 
 use super::targets::Subject;
-use crate::chain::{Decision, Observation, View};
+use crate::chain::{Decision, Observation, Track, View};
 use crate::counts::Sums;
-use crate::detect::{Region, Statistics};
+use crate::detect::{Along, Region};
 use crate::schedule::Gather;
+use crate::simd::Vectors;
 
 /// The decision of each point. Points that share a decision share one copy: a curve has one decision, and
 /// a trial goes through all points of the curve.
@@ -13,12 +14,14 @@ use crate::schedule::Gather;
 pub(super) struct Decisions {
     distinct: Vec<Decision>,
     of: Vec<u32>,
+    /// For each point, the first point after it that decides differently.
+    ends: Vec<usize>,
 }
 
 impl Decisions {
     pub fn new(decisions: impl IntoIterator<Item = Decision>) -> Self {
         let mut distinct: Vec<Decision> = Vec::new();
-        let mut of = Vec::new();
+        let mut of: Vec<u32> = Vec::new();
         for decision in decisions {
             let known = distinct.iter().position(|known| known.is_same(&decision));
             of.push(known.unwrap_or(distinct.len()) as u32);
@@ -26,7 +29,12 @@ impl Decisions {
                 distinct.push(decision);
             }
         }
-        Self { distinct, of }
+        let alike = of.chunk_by(|a, b| a == b).map(<[u32]>::len);
+        let mut ends = Vec::with_capacity(of.len());
+        for length in alike {
+            ends.resize(ends.len() + length, ends.len() + length);
+        }
+        Self { distinct, of, ends }
     }
 }
 
@@ -89,35 +97,38 @@ impl View for Tallies<'_> {
         self.decided[place] |= u64::from(is_h1) << self.gathered;
     }
 
-    fn look_along(&mut self, points: &[[u32; 2]], statistics: &[Statistics], _: &mut Observation) {
-        let alike = |a: &[u32; 2], b: &[u32; 2]| {
-            self.decisions.of[a[1] as usize] == self.decisions.of[b[1] as usize]
-        };
-        for points in points.chunk_by(alike) {
-            let decision = self.decisions.of[points[0][1] as usize];
-            match &self.decisions.distinct[decision as usize] {
-                Decision::Region { region, .. } => {
-                    decide(region, points, statistics, self.gathered, &mut self.decided);
-                }
-                Decision::Threshold { .. } => unreachable!("a score looks at the samples"),
+    fn look_along(&mut self, tracks: &[Track], along: &Along, _: &mut Observation) {
+        for Track { first, places } in tracks {
+            let (mut number, mut place) = (*first, places.start);
+            while place < places.end {
+                let end = self.decisions.ends[place].min(places.end);
+                let Decision::Region { region, .. } =
+                    &self.decisions.distinct[self.decisions.of[place] as usize]
+                else {
+                    unreachable!("a score looks at the samples")
+                };
+                let decided = &mut self.decided[place..end];
+                decide(region, along, number, self.gathered, decided);
+                (number, place) = (number + end - place, end);
             }
         }
     }
 }
 
-/// Sets bit `trial` of each point whose W and T lie in the region.
-#[inline(never)]
-fn decide(
-    region: &Region,
-    points: &[[u32; 2]],
-    statistics: &[Statistics],
-    trial: u32,
-    decided: &mut [u64],
-) {
-    for &[number, place] in points {
-        let is_h1 = region.contains(statistics[number as usize]);
-        decided[place as usize] |= u64::from(is_h1) << trial;
-    }
+/// Sets bit `trial` of each point whose statistics lie in the region. The points follow each other along Δ,
+/// from the value of this number on.
+fn decide(region: &Region, along: &Along, number: usize, trial: u32, decided: &mut [u64]) {
+    Vectors::widest().run(
+        #[inline(always)]
+        || {
+            along.each(
+                number..number + decided.len(),
+                decided,
+                #[inline(always)]
+                |decided, statistics| *decided |= u64::from(region.contains(statistics)) << trial,
+            );
+        },
+    );
 }
 
 impl Gather for Tallies<'_> {

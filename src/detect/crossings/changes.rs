@@ -1,0 +1,69 @@
+//! The change in the number of ordered pairs from each Δ to the next.
+
+/// Several arrays of counts, one after the other, used in turn and added at the end, so that two increments
+/// of the same place need not wait for each other.
+#[derive(Clone, Debug)]
+pub(super) struct Changes {
+    turns: Vec<i32>,
+    /// The length of each array.
+    length: usize,
+}
+
+/// The number of arrays.
+const TURNS: usize = 4;
+
+impl Changes {
+    /// For `points` values of Δ. A change at `points` lies beyond the last of them.
+    pub fn new(points: usize) -> Self {
+        Self {
+            turns: vec![0; TURNS * (points + 1)],
+            length: points + 1,
+        }
+    }
+
+    /// Counts pairs that are ordered at every Δ.
+    #[inline(always)]
+    pub fn start(&mut self, pairs: usize) {
+        self.turns[0] += pairs as i32;
+    }
+
+    /// Counts pairs that become ordered at these places if `closing` is positive, and are ordered up to there if
+    /// it is negative.
+    #[inline(always)]
+    pub fn add(&mut self, places: &[u32], closing: f64) {
+        let falls = closing < 0.0;
+        self.start(if falls { places.len() } else { 0 });
+        let change = if falls { -1 } else { 1 };
+        let (first, rest) = self.turns.split_at_mut(self.length);
+        let (second, rest) = rest.split_at_mut(self.length);
+        let (third, fourth) = rest.split_at_mut(self.length);
+        let (fours, rest) = places.as_chunks::<TURNS>();
+        for places in fours {
+            first[places[0] as usize] += change;
+            second[places[1] as usize] += change;
+            third[places[2] as usize] += change;
+            fourth[places[3] as usize] += change;
+        }
+        for &place in rest {
+            first[place as usize] += change;
+        }
+    }
+
+    /// Sets `sums` to the running sums from `start` on, and begins anew.
+    #[inline(always)]
+    pub fn sum(&mut self, start: u64, sums: &mut [u64]) {
+        let (first, others) = self.turns.split_at_mut(self.length);
+        for turn in others.chunks_exact_mut(self.length) {
+            for (sum, more) in first.iter_mut().zip(turn) {
+                *sum += *more;
+                *more = 0;
+            }
+        }
+        let mut running = start;
+        for (sum, change) in sums.iter_mut().zip(&mut *first) {
+            running = running.wrapping_add_signed((*change).into());
+            *sum = running;
+        }
+        first.fill(0);
+    }
+}

@@ -1,0 +1,75 @@
+//! T and T′ along Δ: the samples of Y₂ and of Y₁ outside the range of X.
+
+use crate::detect::Statistics;
+
+/// Counts samples outside X's range.
+#[derive(Clone, Debug)]
+pub(super) struct Outside {
+    /// T and T′ before any crossing.
+    start: [i32; 2],
+    /// How they change at each Δ.
+    changes: Vec<[i32; 2]>,
+    /// One bit for each Δ: whether they may change there.
+    touched: Vec<u64>,
+}
+
+/// The sample that a line belongs to.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Sample {
+    Scale = 0,
+    Shift = 1,
+}
+
+impl Outside {
+    /// For `points` values of Δ. A change at `points` lies beyond the last of them.
+    pub fn new(points: usize) -> Self {
+        Self {
+            start: [0; 2],
+            changes: vec![[0; 2]; points + 1],
+            touched: vec![0; points / 64 + 1],
+        }
+    }
+
+    /// A line without slope.
+    #[inline(always)]
+    pub fn stay(&mut self, sample: Sample, value: f64, [low, high]: [f64; 2]) {
+        self.start[sample as usize] += i32::from((value < low) | (value > high));
+    }
+
+    /// A line with a slope, which crosses min X and max X at these places.
+    #[inline(always)]
+    pub fn pass(&mut self, sample: Sample, slope: f64, [low, high]: [u32; 2]) {
+        let (enters, leaves) = if slope > 0.0 {
+            (low, high)
+        } else {
+            (high, low)
+        };
+        self.start[sample as usize] += 1;
+        for (place, change) in [(enters, -1), (leaves, 1)] {
+            self.changes[place as usize][sample as usize] += change;
+            self.touched[place as usize / 64] |= 1 << (place % 64);
+        }
+    }
+
+    /// Sets `stretches` to the statistics, but for W, from each change on, and begins anew.
+    #[inline(always)]
+    pub fn sum(&mut self, stretches: &mut Vec<(usize, Statistics)>) {
+        let mut counts = std::mem::take(&mut self.start);
+        let of = |[exceedances, shift_exceedances]: [i32; 2]| Statistics {
+            rank_sum: 0,
+            exceedances: exceedances as usize,
+            shift_exceedances: shift_exceedances as usize,
+        };
+        stretches.clear();
+        stretches.push((0, of(counts)));
+        for (word, touched) in self.touched.iter_mut().enumerate() {
+            while *touched != 0 {
+                let place = 64 * word + touched.trailing_zeros() as usize;
+                let changes = std::mem::take(&mut self.changes[place]);
+                counts = [counts[0] + changes[0], counts[1] + changes[1]];
+                stretches.push((place, of(counts)));
+                *touched &= *touched - 1;
+            }
+        }
+    }
+}
