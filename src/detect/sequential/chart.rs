@@ -1,0 +1,155 @@
+//! What a sequential detector is made of, and the promise that its threshold keeps.
+
+use super::chain::Chain;
+use super::detector::Detector;
+use super::reach::Reach;
+use super::run_length::RunLength;
+use super::score::{Lattice, STEPS, Score, Side};
+use crate::rule::{OutOfRange, Rule};
+use crate::stats::bisect::first;
+use crate::stats::normal;
+
+/// Score, sides, k and N of a detector; all but its threshold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chart {
+    pub(super) lattice: Lattice,
+    pub(super) sides: Vec<Side>,
+    /// k, in steps.
+    pub(super) allowance: i32,
+    /// N, blocks.
+    pub(super) reference: usize,
+}
+
+/// Why no threshold keeps a rate.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum ThresholdError {
+    /// An endless shift of any size does not reach the threshold.
+    #[error(
+        "no shift, however large, would reach the threshold of one false alarm in {wanted:.3e} blocks with a reference of \
+         {reference} blocks; one in {reachable:.3e} is reachable"
+    )]
+    Unreachable {
+        /// Mean blocks between false alarms that were asked for.
+        wanted: f64,
+        /// The most that can be promised; 0 if nothing can.
+        reachable: f64,
+        /// N.
+        reference: usize,
+    },
+    /// The threshold is beyond what can be computed.
+    #[error("one false alarm in {wanted:.3e} blocks is beyond what can be computed")]
+    TooRare {
+        /// Mean blocks between false alarms that were asked for.
+        wanted: f64,
+    },
+}
+
+/// The largest threshold in steps. With normal scores and k = 0.8 its mean run is some 10¹⁴ blocks.
+const MOST: u64 = 20 * STEPS as u64;
+
+impl Chart {
+    /// A chart of these sides with k = `allowance`, a multiple of 1/40, and a reference of N blocks.
+    ///
+    /// # Errors
+    /// If a side is named twice or none is, k is not between 0 and the largest score or not on the lattice, or N is 0.
+    pub fn new(
+        score: Score,
+        sides: &[Side],
+        allowance: f64,
+        reference: usize,
+    ) -> Result<Self, OutOfRange> {
+        let mut distinct = sides.to_vec();
+        distinct.sort();
+        distinct.dedup();
+        if sides.is_empty() || distinct.len() < sides.len() {
+            let named: Vec<String> = sides.iter().map(Side::to_string).collect();
+            let got = format!("\"{}\"", named.join(","));
+            return Err(OutOfRange::new("sides", "name each side once", got));
+        }
+        Rule::Within(1.0, 1e6, "blocks").check("reference", &reference)?;
+        Ok(Self {
+            lattice: Lattice::new(score),
+            sides: distinct,
+            allowance: steps(score, allowance)?,
+            reference,
+        })
+    }
+
+    /// The sides, in the order up, down, scale.
+    pub fn sides(&self) -> &[Side] {
+        &self.sides
+    }
+
+    /// N.
+    pub fn reference(&self) -> usize {
+        self.reference
+    }
+
+    /// The detector with threshold h, in steps.
+    pub fn detector(&self, threshold: i32) -> Detector {
+        Detector::new(self, threshold)
+    }
+
+    /// The exact law of the time to a false alarm with threshold h, in steps.
+    pub fn run_length(&self, threshold: i32) -> RunLength {
+        RunLength::new(self, threshold)
+    }
+
+    /// The smallest threshold h, in steps, that promises `mean` blocks between false alarms, all sides together.
+    ///
+    /// # Errors
+    /// If a shift of any size would not reach it, or it is beyond 20.
+    pub fn threshold(&self, mean: f64) -> Result<i32, ThresholdError> {
+        let keeps = |threshold: u64| self.run_length(threshold as i32).promised() >= mean;
+        let mut enough = STEPS as u64;
+        while enough < MOST && !keeps(enough) {
+            enough *= 2;
+        }
+        let threshold = first(1..enough.min(MOST + 1), keeps);
+        if threshold > MOST {
+            return Err(ThresholdError::TooRare { wanted: mean });
+        }
+        let reach = Reach::new(self);
+        if reach.reaches(threshold as i32) {
+            return Ok(threshold as i32);
+        }
+        let beyond = first(1..threshold, |threshold| !reach.reaches(threshold as i32)) as i32;
+        Err(ThresholdError::Unreachable {
+            wanted: mean,
+            reachable: match beyond {
+                1 => 0.0,
+                _ => self.run_length(beyond - 1).promised(),
+            },
+            reference: self.reference,
+        })
+    }
+
+    /// The mean number of blocks from the start of a shift by `shift` deviations of normal noise to the alarm of the side
+    /// that is fastest on average, from S = 0 with a long reference. With several sides the true mean is at most this.
+    pub fn delay(&self, threshold: i32, shift: f64) -> f64 {
+        let below = |u: f64| normal::below(normal::quantile(u) - shift);
+        let mean = |side: Side| {
+            let law = self.lattice.law(side, below);
+            Chain::new(&law, self.allowance, threshold).mean()
+        };
+        let up = |side: &Side| if *side == Side::Down { Side::Up } else { *side };
+        let delays = self.sides.iter().map(|side| mean(up(side)));
+        delays.fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// k in steps.
+fn steps(score: Score, allowance: f64) -> Result<i32, OutOfRange> {
+    let most = f64::from(score.most() - 1) / f64::from(STEPS);
+    Rule::Within(0.0, most, "").check("k", &allowance)?;
+    let steps = (allowance * f64::from(STEPS)).round();
+    if (steps / f64::from(STEPS) - allowance).abs() > 1e-9 {
+        return Err(OutOfRange::new("k", "be a multiple of 0.025", allowance));
+    }
+    Ok(steps as i32)
+}
+
+/// Steps of the lattice in units of score.
+pub fn units(steps: i32) -> f64 {
+    f64::from(steps) / f64::from(STEPS)
+}
