@@ -20,28 +20,48 @@ pub struct Chart {
     pub(super) reference: usize,
 }
 
-/// Why no threshold keeps a rate.
+/// A rate of false alarms that no threshold keeps.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum ThresholdError {
-    /// An endless shift of any size does not reach the threshold.
-    #[error(
-        "no shift, however large, would reach the threshold of one false alarm in {wanted:.3e} blocks with a reference of \
-         {reference} blocks; one in {reachable:.3e} is reachable"
-    )]
-    Unreachable {
-        /// Mean blocks between false alarms that were asked for.
-        wanted: f64,
-        /// The most that can be promised; 0 if nothing can.
-        reachable: f64,
-        /// N.
-        reference: usize,
-    },
-    /// The threshold is beyond what can be computed.
-    #[error("one false alarm in {wanted:.3e} blocks is beyond what can be computed")]
-    TooRare {
-        /// Mean blocks between false alarms that were asked for.
-        wanted: f64,
-    },
+#[error("at most {reachable:.3e} blocks between false alarms can be promised, got {wanted:.3e}")]
+pub struct ThresholdError {
+    /// Mean blocks between false alarms that were asked for.
+    pub wanted: f64,
+    /// The most that can be promised.
+    pub reachable: f64,
+    /// N, if a longer reference could promise more; if not, the threshold is too high to be computed.
+    pub reference: Option<usize>,
+}
+
+impl ThresholdError {
+    /// The same of a rate per hour at so many blocks an hour. The keys are those of the rate and of the reference.
+    pub fn per_hour(&self, [rate, reference]: [&str; 2], blocks: f64) -> OutOfRange {
+        let got = blocks / self.wanted;
+        let least = rounded_up(blocks / self.reachable);
+        match self.reference {
+            None => OutOfRange::new(rate, format!("be at least {least}"), got),
+            Some(n) if self.reachable == 0.0 => {
+                let rule = "be longer for a shift of any size to reach a threshold";
+                OutOfRange::new(reference, rule, n)
+            }
+            Some(n) => {
+                let rule = format!("be at least {least} with a reference of {n} blocks");
+                let remedy =
+                    " (lengthen the reference: in this one no shift, however large, climbs higher)";
+                OutOfRange::new(rate, rule, got).explained(remedy)
+            }
+        }
+    }
+}
+
+/// Three digits, not below the value.
+fn rounded_up(value: f64) -> f64 {
+    let near = |value: f64| format!("{value:.2e}").parse().unwrap_or(value);
+    let nearest: f64 = near(value);
+    if nearest < value {
+        near(value * 1.01)
+    } else {
+        nearest
+    }
 }
 
 /// The largest threshold in steps. With normal scores and k = 0.8 its mean run is some 10¹⁴ blocks.
@@ -106,21 +126,19 @@ impl Chart {
             enough *= 2;
         }
         let threshold = first(1..enough.min(MOST + 1), keeps);
-        if threshold > MOST {
-            return Err(ThresholdError::TooRare { wanted: mean });
-        }
         let reach = Reach::new(self);
-        if reach.reaches(threshold as i32) {
+        let reaches = |threshold: u64| reach.reaches(threshold as i32);
+        if threshold <= MOST && reaches(threshold) {
             return Ok(threshold as i32);
         }
-        let beyond = first(1..threshold, |threshold| !reach.reaches(threshold as i32)) as i32;
-        Err(ThresholdError::Unreachable {
+        let most = first(1..threshold.min(MOST) + 1, |threshold| !reaches(threshold)) - 1;
+        Err(ThresholdError {
             wanted: mean,
-            reachable: match beyond {
-                1 => 0.0,
-                _ => self.run_length(beyond - 1).promised(),
+            reachable: match most {
+                0 => 0.0,
+                _ => self.run_length(most as i32).promised(),
             },
-            reference: self.reference,
+            reference: (most < MOST).then_some(self.reference),
         })
     }
 

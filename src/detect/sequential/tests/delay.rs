@@ -87,18 +87,19 @@ fn unreachable_rates_are_refused() {
     let short = chart(&[Side::Up, Side::Down], 8);
     let error = short.threshold(1e6).unwrap_err();
     println!("{error}");
-    let ThresholdError::Unreachable {
-        reachable,
-        reference,
-        ..
-    } = error
-    else {
-        panic!("{error}");
-    };
-    assert_eq!(reference, 8);
+    let reachable = error.reachable;
+    assert_eq!(error.reference, Some(8));
     assert!(short.threshold(reachable).is_ok() && short.threshold(reachable * 1.05).is_err());
+    let said = error.per_hour(["--per-hour", "--reference"], 7.2e4);
+    println!("{said}");
+    assert!(
+        said.to_string()
+            .starts_with("--per-hour: must be at least ")
+    );
     let none = chart(&[Side::Scale], 1).threshold(100.0).unwrap_err();
-    println!("{none}");
+    let said = none.per_hour(["--per-hour", "--reference"], 7.2e4);
+    let rule = "must be longer for a shift of any size to reach a threshold";
+    assert_eq!(said.to_string(), format!("--reference: {rule}, got 1"));
     // A reference as long as usual reaches whatever is usual.
     assert!(chart(&[Side::Up], 60).threshold(1e10).is_ok());
 }
