@@ -18,6 +18,7 @@ pub struct PerHour {
     #[arg(
         long,
         value_name = "RATE",
+        allow_negative_numbers = true,
         requires = "rate",
         conflicts_with = "three samples"
     )]
@@ -26,6 +27,7 @@ pub struct PerHour {
     #[arg(
         long,
         value_name = "HZ",
+        allow_negative_numbers = true,
         allow_negative_numbers = true,
         requires = "per_hour"
     )]
@@ -50,6 +52,7 @@ pub struct PerHour {
     #[arg(
         long,
         value_name = "K",
+        allow_negative_numbers = true,
         allow_negative_numbers = true,
         default_value_t = 0.8,
         requires = "per_hour"

@@ -2,6 +2,7 @@
 
 use super::delay::Delay;
 use super::table::{Row, Table};
+use crate::format::thousands;
 use crate::plot::{Axis, Entry, Key, Mark, Panel, Place, Plot, Point, Style, ends};
 use crate::study::dots;
 use crate::study::outcomes::facts;
@@ -21,8 +22,8 @@ pub fn rates(rows: &[Row], table: &Table, seed: u64) -> Plot {
         (noise.label.clone(), estimates)
     });
     let threshold = format!("h = {}", rows[0].threshold);
-    let blocks = format!("of {} blocks, trials", table.blocks);
-    let facts = facts(rows, &blocks, seed, "bars");
+    let records = format!("records of {} blocks", thousands(table.blocks));
+    let facts = facts(rows, &records, seed, "bars");
     let caption = [vec![threshold], facts.to_vec()].concat();
     let series = ["promised", "not promised: coloured"];
     dots::plot(
@@ -50,7 +51,7 @@ pub fn delays(
     let markers = markers.map(|delay| Point::at(place(delay.shift, delay.mean)));
     let markers: Vec<Point> = markers.collect();
     let (low, high) = ends(line.iter().map(|(x, _)| *x));
-    let x = Axis::linear(low.min(0.0), high, 8).labelled("Δ/σ of a sample");
+    let x = Axis::linear(low.min(0.0), 1.03 * high, 8).labelled("Δ/σ of a sample");
     let shown = line
         .iter()
         .map(|(_, y)| *y)

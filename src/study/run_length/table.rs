@@ -31,7 +31,8 @@ pub struct Table {
     k: f64,
     /// Monitored blocks in a trial.
     pub blocks: u64,
-    /// The noise of each point.
+    /// The noise of each point: x ← `colour`·x + e with e of `law`, rounded to multiples of `quantum`. With `promised` =
+    /// false it is counted but not tested, as coloured noise must be.
     pub noise: Vec<Blocks>,
 }
 

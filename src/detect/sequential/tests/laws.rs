@@ -22,6 +22,23 @@ fn runs(chart: &Chart, threshold: i32, (name, law, step): (&str, Law, f64), n: u
     (0..n).into_par_iter().map(run).collect()
 }
 
+/// N blocks are the reference, at first and after every alarm.
+#[test]
+fn an_alarm_begins_a_new_reference() {
+    let mut detector = chart(&[Side::Up], 5).detector(40);
+    for round in 0..3 {
+        let level = f64::from(round) * 10.0;
+        let reference = (0..5).all(|_| detector.step(level, 0.5) == Step::Reference);
+        let mut monitored = (0..).map(|_| detector.step(level + 1.0, 1.0));
+        assert_eq!(
+            monitored.next(),
+            Some(Step::Alarm(Side::Up)),
+            "one block of 4 - 0.8 steps"
+        );
+        assert!(reference && detector.sums().all(|(_, sum)| sum == 0));
+    }
+}
+
 /// h = 2.2 with a mean of some 170 blocks, after a reference of 20: 10⁵ runs of each law. Mean and P(run > n).
 #[test]
 fn holds_for_every_noise() {
