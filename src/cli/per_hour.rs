@@ -28,7 +28,6 @@ pub struct PerHour {
         long,
         value_name = "HZ",
         allow_negative_numbers = true,
-        allow_negative_numbers = true,
         requires = "per_hour"
     )]
     rate: Option<f64>,
@@ -52,7 +51,6 @@ pub struct PerHour {
     #[arg(
         long,
         value_name = "K",
-        allow_negative_numbers = true,
         allow_negative_numbers = true,
         default_value_t = 0.8,
         requires = "per_hour"

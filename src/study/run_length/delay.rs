@@ -1,7 +1,8 @@
 //! The delay of a step in normal noise: exact with a long reference, simulated with one of N blocks.
 //!
 //! The shift begins with the first block after the reference and does not end. With N blocks the shifted ones soon make up
-//! much of the ranks, and S climbs no longer: a shift not seen within 10 N blocks counts as not seen.
+//! much of the ranks, and S climbs no longer: a shift not seen within 3 N blocks, when they are three in four, counts as not
+//! seen.
 
 use crate::detect::sequential::{Chart, Step};
 use crate::rng::{Stream, unit};
@@ -37,7 +38,7 @@ impl Delay {
 const SEED: u64 = 2014;
 
 /// So many references later a shift is no longer seen.
-const LATEST: usize = 10;
+const LATEST: usize = 3;
 
 /// The delays at some shifts, each simulated by so many trials, whose noise all shifts share.
 pub fn delays(chart: &Chart, threshold: i32, shifts: &[f64], trials: u64) -> Vec<Delay> {
