@@ -30,6 +30,7 @@ mod chart;
 mod cusum;
 mod detector;
 mod powers;
+mod promise;
 mod ranks;
 mod reach;
 mod run_length;
@@ -37,9 +38,10 @@ mod score;
 #[cfg(test)]
 mod tests;
 
-pub use chart::{Chart, ThresholdError, units};
+pub use chart::{Chart, units};
 pub use cusum::Cusum;
 pub use detector::{Detector, Step};
+pub use promise::ThresholdError;
 pub use ranks::Ranks;
 pub use run_length::RunLength;
 pub use score::{Lattice, STEPS, Score, Side};

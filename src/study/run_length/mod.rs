@@ -38,13 +38,13 @@ use crate::study::kind::Context;
 use crate::study::outcomes::Outcomes;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::Value;
-use table::{Blocks, Table};
+use table::{Blocks, Table, Watch};
 
 /// The table with its chart and threshold.
 #[derive(Debug)]
 pub(super) struct RunLengths {
     table: Table,
-    detector: trial::Watch,
+    detector: Watch,
     /// False alarms per block, by the law.
     exact: f64,
 }

@@ -1,6 +1,5 @@
 //! `[run_length]`: the detector, the noise, and the columns of `points.csv`.
 
-use super::trial::Watch;
 use crate::detect::sequential::{Chart, Score, Side, units};
 use crate::rule::{Explained, OutOfRange, Rule};
 use crate::signal::Noise;
@@ -54,6 +53,16 @@ pub struct Blocks {
     /// Whether the rate is promised and tested; false of coloured noise.
     #[serde(default = "yes")]
     pub promised: bool,
+}
+
+/// A detector and how long it watches.
+#[derive(Clone, Debug)]
+pub struct Watch {
+    pub chart: Chart,
+    /// h, in steps.
+    pub threshold: i32,
+    /// Monitored blocks.
+    pub blocks: u64,
 }
 
 fn usual_reference() -> usize {

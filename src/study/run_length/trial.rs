@@ -1,19 +1,9 @@
 //! One record at rest.
 
-use super::table::Blocks;
-use crate::detect::sequential::{Chart, Step};
+use super::table::{Blocks, Watch};
+use crate::detect::sequential::Step;
 use crate::rng::{Generator, Stream, unit};
 use libm::{round, sqrt};
-
-/// A detector and how long it watches.
-#[derive(Clone, Debug)]
-pub struct Watch {
-    pub chart: Chart,
-    /// h, in steps.
-    pub threshold: i32,
-    /// Monitored blocks.
-    pub blocks: u64,
-}
 
 /// Draws at a time.
 const RECORD: usize = 256;
