@@ -33,6 +33,8 @@ pub const POWER: f64 = 0.99;
 pub struct Scenario {
     /// In words.
     pub name: String,
+    /// What a false alarm can happen in: stops, blocks.
+    pub cases: &'static str,
     /// The rate that it promises to keep.
     pub nominal: f64,
     /// The false alarms and the cases in which one could happen.

@@ -5,6 +5,7 @@ use super::{CommandResult, Failure, Simulation, print, table};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::experiment::{Experiment, SweepConfig};
+use liftsim::format::eight_digits;
 use liftsim::gate::{self, EXCESS, FAMILY_LEVEL, Finding, Scenario, Verdict};
 use liftsim::results::Row;
 use liftsim::study::{Loaded, Study, Sweep};
@@ -12,7 +13,8 @@ use std::process::ExitCode;
 
 /// Test that the false-alarm rate of every scenario at rest stays at or below its level.
 ///
-/// Of a study of floors: that ordinary stops alarm at most once in a thousand.
+/// Of a study of floors: that ordinary stops alarm at most once in a thousand. Of a study of run lengths: that the mean time
+/// between false alarms is at least what is promised.
 ///
 /// Each scenario gets an exact one-sided binomial test, all of them corrected together (Holm) at a
 /// family-wise level of 0.001. A scenario passes only where the run could have seen a rate of 1.2
@@ -42,8 +44,8 @@ impl Check {
         let experiment = self.simulation.config()?;
         self.simulation.start_threads()?;
         let reporter = Reporter::new(quiet, &self.progress, "");
-        if experiment.study() == "floors" {
-            return self.stops(&experiment, &reporter);
+        if ["floors", "run_length"].contains(&experiment.study()) {
+            return self.promises(&experiment, &reporter);
         }
         let sweep = sweep(experiment)?;
         let counts = progress::count(&sweep, &reporter)?;
@@ -55,26 +57,28 @@ impl Check {
         Ok(code(&findings))
     }
 
-    /// Tests the stops of cars in simulated buildings.
-    fn stops(&self, experiment: &Experiment, reporter: &Reporter) -> CommandResult {
+    /// Tests the rates that a study promises: of stops in simulated buildings, of blocks at rest.
+    fn promises(&self, experiment: &Experiment, reporter: &Reporter) -> CommandResult {
         let (seed, confidence) = (experiment.header.seed, experiment.header.confidence.get());
         let loaded = Loaded::new(experiment.clone()).map_err(Failure::study)?;
         let counts = progress::count_all(&loaded, reporter)?;
         let output = loaded.study.output(&counts).map_err(Failure::study)?;
         let scenarios = loaded.study.false_alarms(&output.points);
         let scenarios = scenarios.map_err(Failure::run)?;
-        if scenarios.is_empty() {
-            return Err(Failure::Input(anyhow!(
-                "floors: counts no ordinary stops (set trips, and measure = \"alarm\" or \"stops\")"
-            )));
-        }
+        let Some(Scenario { cases, .. }) = scenarios.first() else {
+            return Err(Failure::Input(anyhow!(match experiment.study() {
+                "floors" =>
+                    "floors: counts no ordinary stops (set trips, and measure = \"alarm\" or \"stops\")",
+                _ => "run_length.noise: promises nothing (take out a promised = false)",
+            })));
+        };
         let nominal = |scenario: &Scenario| self.nominal.unwrap_or(scenario.nominal);
         let tallies = scenarios.iter().map(|of| (nominal(of), of.tally));
         let findings = gate::judge(&tallies.collect::<Vec<_>>());
         let header = [
             "scenario",
             "nominal",
-            "stops",
+            cases,
             "false alarms",
             "rate",
             "interval",
@@ -82,12 +86,13 @@ impl Check {
             "verdict",
         ];
         let rows = scenarios.iter().zip(&findings).map(|(scenario, finding)| {
-            let mut cells = vec![scenario.name.clone(), finding.nominal.to_string()];
+            let nominal = eight_digits(finding.nominal).to_string();
+            let mut cells = vec![scenario.name.clone(), nominal];
             cells.extend(counted(finding, finding.tally.interval(confidence)));
             cells
         });
         let rows: Vec<_> = rows.collect();
-        let summary = summary(&findings, "stops", seed, confidence);
+        let summary = summary(&findings, cases, seed, confidence);
         print(&(table(&header, &rows) + &summary))?;
         Ok(code(&findings))
     }

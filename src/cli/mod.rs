@@ -16,6 +16,7 @@ mod monitor;
 mod monitor_options;
 mod network;
 mod output;
+mod per_hour;
 mod plan;
 mod plot;
 mod progress;

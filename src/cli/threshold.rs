@@ -1,9 +1,10 @@
-//! `liftsim threshold`: C_W(T) and the exact size of a rule.
+//! `liftsim threshold`: C_W(T) and the exact size of a rule, or the threshold of a rate of false alarms.
 
 use super::output::Output;
+use super::per_hour::PerHour;
 use super::{CommandResult, Failure, print, table};
-use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{ArgGroup, Args};
 use liftsim::detect::{Alternative, Exceedances, NullLaws, Region, Rule, Samples};
 use liftsim::study::plane;
 use liftsim::values::Size;
@@ -12,25 +13,31 @@ use std::error::Error;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Print the threshold C_W(T) of a rule and its exact false-alarm rate.
+/// Print the threshold C_W(T) of a rule and its exact false-alarm rate, or that of so many false alarms an hour.
 ///
 /// X is the reference at rest, Y1 the sample tested for a shift, Y2 the one tested for its scale.
 /// The rule decides that the lift moves where the rank sum W reaches C_W(T) for the T exceedances
 /// seen.
+///
+/// With --per-hour it is the threshold of another detector, which watches block after block: each is ranked among all since
+/// a reference of N blocks began, and a CUSUM of the ranks' scores alarms where it reaches the threshold. Its false alarms
+/// at rest are exactly known whatever the noise is, as long as blocks do not depend on each other. Printed with it: the
+/// mean time between false alarms, how likely the first comes when, and how long after a shift in normal noise it alarms.
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("three samples").args(["shift", "scale", "alpha", "rule", "exceedances", "alternative"]).multiple(true))]
 pub struct Threshold {
-    /// N, the size of X.
-    #[arg(long, value_name = "N", value_parser = size)]
-    reference: usize,
+    /// N, the size of X; with --per-hour the blocks of the reference, 60 if not given.
+    #[arg(long, value_name = "N", value_parser = size, required_unless_present = "per_hour")]
+    reference: Option<usize>,
     /// M1, the size of Y1.
-    #[arg(long, value_name = "M1", value_parser = size)]
-    shift: usize,
+    #[arg(long, value_name = "M1", value_parser = size, required_unless_present = "per_hour")]
+    shift: Option<usize>,
     /// M2, the size of Y2.
-    #[arg(long, value_name = "M2", value_parser = size)]
-    scale: usize,
+    #[arg(long, value_name = "M2", value_parser = size, required_unless_present = "per_hour")]
+    scale: Option<usize>,
     /// The level: the rule's false-alarm rate is at most this.
-    #[arg(long, value_name = "A")]
-    alpha: f64,
+    #[arg(long, value_name = "A", required_unless_present = "per_hour")]
+    alpha: Option<f64>,
     /// How the region is filled.
     #[arg(long, value_name = "R", value_parser = one_of(&RULES), default_value = "product")]
     rule: Rule,
@@ -43,7 +50,9 @@ pub struct Threshold {
     /// Print JSON instead of a table.
     #[arg(long)]
     json: bool,
-    /// Draw the plane of W and T with the region in it.
+    #[command(flatten)]
+    per_hour: PerHour,
+    /// Draw the plane of W and T with the region in it, or the delay against the shift.
     #[arg(long, value_name = "FILE.png|FILE.svg")]
     figure: Option<PathBuf>,
     /// Replace a figure that exists.
@@ -52,7 +61,7 @@ pub struct Threshold {
 }
 
 /// A name on the command line, its meaning, and its line in the help.
-type Choice<T> = (&'static str, T, &'static str);
+pub(super) type Choice<T> = (&'static str, T, &'static str);
 
 static RULES: [Choice<Rule>; 4] = [
     ("wilcoxon", Rule::Wilcoxon, "W alone"),
@@ -73,7 +82,7 @@ static ALTERNATIVES: [Choice<Alternative>; 3] = [
 ];
 
 /// Reads one of the names.
-fn one_of<T: Clone + Send + Sync>(
+pub(super) fn one_of<T: Clone + Send + Sync>(
     choices: &'static [Choice<T>],
 ) -> impl TypedValueParser<Value = T> {
     let names = choices
@@ -95,19 +104,23 @@ impl Threshold {
         let figure = self.figure.as_ref();
         let figure = figure.map(|path| Output::picture("--figure", path, self.force));
         let figure = figure.transpose()?;
-        let samples =
-            Samples::contiguous(self.reference, self.shift, self.scale).map_err(Failure::input)?;
+        let (Some(n), Some(m1), Some(m2), Some(alpha)) =
+            (self.reference, self.shift, self.scale, self.alpha)
+        else {
+            return self.per_hour.run(self.reference, self.json, figure);
+        };
+        let samples = Samples::contiguous(n, m1, m2).map_err(Failure::input)?;
         let (rule, alternative) = (&self.rule, self.alternative);
         let laws =
             NullLaws::new(self.exceedances, alternative, &samples).map_err(Failure::input)?;
-        let region = laws.region(rule, self.alpha).map_err(Failure::input)?;
+        let region = laws.region(rule, alpha).map_err(Failure::input)?;
         let text = if self.json {
-            self.as_json(&laws, &region)
+            self.as_json(&samples, alpha, &laws, &region)
         } else {
-            self.as_table(&laws, &region)
+            self.as_table(&samples, alpha, &laws, &region)
         };
         if let Some(figure) = figure {
-            let title = plane::title(&samples, alternative, self.alpha);
+            let title = plane::title(&samples, alternative, alpha);
             let plot = plane::plot(&laws, &plane::boundary(rule, &region), &title);
             let origin = format!("rule {rule}, {}", title.join("; "));
             figure.draw(&plot, &origin)?.publish()?;
@@ -116,7 +129,7 @@ impl Threshold {
         Ok(ExitCode::SUCCESS)
     }
 
-    fn as_table(&self, laws: &NullLaws, region: &Region) -> String {
+    fn as_table(&self, samples: &Samples, alpha: f64, laws: &NullLaws, region: &Region) -> String {
         let bound = |bound: Option<u64>| bound.map_or("never".to_owned(), |w| w.to_string());
         let critical = |(lower, upper): (Option<u64>, Option<u64>)| match self.alternative {
             Alternative::Greater => bound(upper),
@@ -149,14 +162,10 @@ impl Threshold {
             Alternative::TwoSided => "W <= or >=",
         };
         format!(
-            "rule {}, exceedances of {}, alternative {}, N/M1/M2 = {}/{}/{}, alpha = {}\n\n{}\nexact size {}\n",
+            "rule {}, exceedances of {}, alternative {}, N/M1/M2 = {samples}, alpha = {alpha}\n\n{}\nexact size {}\n",
             self.rule,
             self.exceedances.samples().replace('_', ""),
             self.alternative,
-            self.reference,
-            self.shift,
-            self.scale,
-            self.alpha,
             table(
                 &[t, &format!("P({t})"), name, &format!("P(H1* | {t})")],
                 &rows
@@ -165,7 +174,7 @@ impl Threshold {
         )
     }
 
-    fn as_json(&self, laws: &NullLaws, region: &Region) -> String {
+    fn as_json(&self, samples: &Samples, alpha: f64, laws: &NullLaws, region: &Region) -> String {
         let conditional = laws.conditional_sizes(region);
         let critical: Vec<_> = (0..)
             .zip(region.critical_values())
@@ -180,10 +189,10 @@ impl Threshold {
             })
             .collect();
         let value = json!({
-            "reference": self.reference,
-            "shift": self.shift,
-            "scale": self.scale,
-            "alpha": self.alpha,
+            "reference": samples.reference(),
+            "shift": samples.shift(),
+            "scale": samples.scale(),
+            "alpha": alpha,
             "rule": self.rule.to_string(),
             "exceedances": self.exceedances.to_string(),
             "alternative": self.alternative.to_string(),

@@ -14,6 +14,7 @@ mod product;
 mod region;
 mod rule;
 mod samples;
+pub mod sequential;
 mod statistics;
 
 pub use baseline::{block_means, student_t, variance_ratio};

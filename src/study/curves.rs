@@ -218,7 +218,7 @@ fn number<P: Keyed>(value: &AxisValue, axis: &str) -> Result<f64, Conflict> {
 }
 
 /// A label as part of a quantity's name: letters and digits, with `_` for anything between.
-fn name_of(label: &str) -> String {
+pub fn name_of(label: &str) -> String {
     let lower = label.to_lowercase();
     let words = lower.split(|c: char| !c.is_alphanumeric());
     let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();

@@ -29,6 +29,7 @@ pub mod reference;
 pub(crate) mod region;
 pub mod ride;
 mod rules;
+pub mod run_length;
 mod sweep;
 pub(crate) mod trace;
 pub mod trips;
@@ -65,6 +66,7 @@ pub const STUDIES: &[Entry] = &[
     Entry::of::<outcomes::Of<height::Table>>(),
     Entry::of::<outcomes::Of<vibration::Table>>(),
     Entry::of::<outcomes::Of<air::Table>>(),
+    Entry::of::<outcomes::Of<run_length::RunLengths>>(),
 ];
 
 /// An entry of the list of studies.

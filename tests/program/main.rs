@@ -8,6 +8,7 @@ mod keys;
 mod network;
 mod order;
 mod page;
+mod per_hour;
 mod recordings;
 mod remedies;
 mod replay;

@@ -143,6 +143,7 @@ const PROMISED: f64 = 1e-3;
 fn scenario(row: &Row) -> Scenario {
     Scenario {
         name: format!("{}, {}, noise {}", row.label, row.outcome, row.noise),
+        cases: "stops",
         nominal: PROMISED,
         tally: Tally {
             hits: row.count,

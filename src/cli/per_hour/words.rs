@@ -1,0 +1,177 @@
+//! What was found, as a table, JSON and a picture.
+
+use super::super::table;
+use super::{Found, TRIALS};
+use liftsim::detect::sequential::{Side, units};
+use liftsim::study::run_length::{Delay, plot_delays};
+use serde_json::json;
+
+/// Probabilities of a false alarm by the times printed.
+const PROBABILITIES: [f64; 4] = [0.01, 0.05, 0.5, 0.95];
+
+impl Found<'_> {
+    fn hours(&self, blocks: f64) -> f64 {
+        blocks / (3600.0 * self.rate)
+    }
+
+    /// Δ/σ of a sample.
+    fn delta(&self, shift: f64) -> f64 {
+        shift / f64::from(self.flags.block).sqrt()
+    }
+
+    /// Probabilities of a false alarm, each with the hours in which it is no larger.
+    fn quantiles(&self) -> Vec<(f64, f64)> {
+        let hours = |p: f64| self.hours(self.law.quantile(p) as f64);
+        PROBABILITIES.into_iter().map(|p| (p, hours(p))).collect()
+    }
+
+    fn sides(&self) -> Vec<String> {
+        self.chart.sides().iter().map(Side::to_string).collect()
+    }
+
+    fn samples(&self) -> String {
+        match self.flags.block {
+            1 => "one sample".to_owned(),
+            block => format!("{block} samples"),
+        }
+    }
+
+    pub fn caption(&self) -> Vec<String> {
+        let Self { flags, .. } = self;
+        vec![
+            format!("{} scores of sequential ranks", flags.score),
+            format!("sides {}", self.sides().join(", ")),
+            format!("k = {}", flags.k),
+            format!("h = {}", units(self.threshold)),
+            format!("reference of {} blocks", self.chart.reference()),
+            format!(
+                "{} blocks per second, {} samples each",
+                self.rate, flags.block
+            ),
+            format!("at most {} false alarms per hour", self.per_hour),
+            format!("a shift in normal noise; {TRIALS} trials, drawn where 99 % are seen"),
+        ]
+    }
+
+    pub fn plot(&self, caption: &[String]) -> liftsim::plot::Plot {
+        let shifts = (0..=110).map(|step| 0.5 + 0.05 * f64::from(step));
+        let long = shifts.map(|shift| (shift, self.chart.delay(self.threshold, shift)));
+        let scale = [self.rate, f64::from(self.flags.block)];
+        plot_delays(&long.collect::<Vec<_>>(), &self.delays, scale, caption)
+    }
+
+    pub fn as_table(&self) -> String {
+        let Self { flags, law, .. } = self;
+        let exactly = if law.is_exact() {
+            "exactly "
+        } else {
+            "at least "
+        };
+        let quantiles = self.quantiles().into_iter();
+        let quantiles = quantiles.map(|(p, hours)| vec![format!("{} %", 100.0 * p), digits(hours)]);
+        let first = [
+            "a false alarm",
+            if law.is_exact() {
+                "within, h"
+            } else {
+                "not before, h"
+            },
+        ];
+        let header = [
+            "Δ/σ",
+            "of a block",
+            "blocks",
+            "seconds",
+            "this reference: seen",
+            "blocks",
+            "95 % interval",
+            "seconds",
+        ];
+        let delays: Vec<_> = self.delays.iter().map(|delay| self.cells(delay)).collect();
+        format!(
+            "{} scores of sequential ranks, sides {}, k = {}, reference {} blocks, {} blocks per second\n\n\
+             threshold h = {}\n\
+             mean time between false alarms: {exactly}{} h, or {} per hour (asked for: at most {}); of one side alone {} h\n\n\
+             {}\n\
+             mean delay of a shift in normal noise, {} to a block: with a long reference (exact), and where it begins \
+             right after\nthis reference of {}, which it enters ({TRIALS} trials; where 99 % are seen)\n\n{}",
+            flags.score,
+            self.sides().join(", "),
+            flags.k,
+            self.chart.reference(),
+            self.rate,
+            units(self.threshold),
+            digits(self.hours(law.promised())),
+            digits(1.0 / self.hours(law.promised())),
+            self.per_hour,
+            digits(self.hours(law.one_side())),
+            table(&first, &quantiles.collect::<Vec<_>>()),
+            self.samples(),
+            self.chart.reference(),
+            table(&header, &delays),
+        )
+    }
+
+    fn cells(&self, delay: &Delay) -> Vec<String> {
+        let (low, high) = delay.interval;
+        let long = [delay.long, delay.long / self.rate].map(digits);
+        let mut cells = vec![digits(self.delta(delay.shift)), delay.shift.to_string()];
+        cells.extend(long);
+        cells.push(format!("{:.4}", delay.seen.rate()));
+        // The mean of those seen says little where many are not.
+        let short = delay.is_nearly_always_seen().then(|| {
+            let interval = format!("[{}, {}]", digits(low), digits(high));
+            [digits(delay.mean), interval, digits(delay.mean / self.rate)]
+        });
+        cells.extend(short.unwrap_or_default());
+        cells
+    }
+
+    pub fn as_json(&self) -> String {
+        let Self { flags, law, .. } = self;
+        let first = self.quantiles().into_iter();
+        let first = first.map(|(p, hours)| json!({ "probability": p, "hours": hours }));
+        let delays = self.delays.iter().map(|delay| {
+            json!({
+                "delta": self.delta(delay.shift),
+                "shift": delay.shift,
+                "blocks": delay.long,
+                "seconds": delay.long / self.rate,
+                "this_reference": {
+                    "trials": delay.seen.trials,
+                    "seen": delay.seen.hits,
+                    "blocks": delay.mean,
+                    "low": delay.interval.0,
+                    "high": delay.interval.1,
+                    "seconds": delay.mean / self.rate,
+                },
+            })
+        });
+        let value = json!({
+            "score": flags.score,
+            "sides": self.chart.sides(),
+            "k": flags.k,
+            "reference": self.chart.reference(),
+            "rate": self.rate,
+            "block": flags.block,
+            "per_hour": self.per_hour,
+            "threshold": units(self.threshold),
+            "exact": law.is_exact(),
+            "hours_between_false_alarms": self.hours(law.promised()),
+            "hours_of_one_side": self.hours(law.one_side()),
+            "first_false_alarm": first.collect::<Vec<_>>(),
+            "delays": delays.collect::<Vec<_>>(),
+        });
+        format!("{value:#}\n")
+    }
+}
+
+/// Four digits.
+fn digits(value: f64) -> String {
+    let decimals = 3 - value.abs().log10().floor().clamp(-300.0, 3.0) as i32;
+    if (1e-4..1e7).contains(&value) {
+        format!("{value:.0$}", decimals.max(0) as usize)
+    } else {
+        format!("{value:.3e}")
+    }
+}
