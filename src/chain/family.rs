@@ -40,6 +40,8 @@ pub(super) struct Course {
     pub shape: Vec<f64>,
     /// Its block means.
     pub observed_shape: Vec<f64>,
+    /// Whether the course before it in the branch has the same shape.
+    pub repeats_shape: bool,
     /// In ascending order of Δ.
     pub stages: Vec<Stage>,
     /// Whether a point here uses more than W and T.
@@ -167,10 +169,15 @@ impl Family {
                 needs_record: false,
             },
         );
+        let last = branch.courses.last();
+        let repeats_shape = last.is_some_and(|last| last.shape == scenario.shape());
         let course = find_or_push(
             &mut branch.courses,
             |course| course.is_of(scenario),
-            || Course::new(scenario),
+            || Course {
+                repeats_shape,
+                ..Course::new(scenario)
+            },
         );
         let detector = &scenario.detector;
         course.needs_samples |= detector.method.needs_samples() || detector.ties != Ties::Random;
@@ -189,6 +196,7 @@ impl Course {
             observed_shape: (shape.chunks_exact(decimation))
                 .map(|block| block.iter().sum::<f64>() / decimation as f64)
                 .collect(),
+            repeats_shape: false,
             shape,
             stages: Vec::new(),
             needs_samples: false,

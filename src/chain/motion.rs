@@ -5,6 +5,7 @@ use super::family::Course;
 use super::source::Source;
 use crate::detect::{Along, Crossings, Lines, Pooled, Samples};
 use crate::signal::Digitiser;
+use crate::simd::Vectors;
 use crate::whiten::whiten;
 use std::ops::Range;
 
@@ -46,7 +47,8 @@ impl Motion {
         }
     }
 
-    /// Whitened responses to a unit step and to the impulses, and the whitened record without step.
+    /// Whitened responses to a unit step and to the impulses, and the whitened record without step. The
+    /// response to a step is still there if the course before it had the same.
     pub fn respond(
         &mut self,
         course: &Course,
@@ -54,19 +56,32 @@ impl Motion {
         source: &Source,
         rest: &[f64],
     ) {
-        whiten(coefficients, &course.observed_shape, 0, &mut self.step);
-        let decimation = source.samples.decimation();
-        observe(
-            &Digitiser::default(),
-            decimation,
-            &self.pattern,
-            &mut self.observed,
+        Vectors::widest().run(
+            #[inline(always)]
+            || {
+                if !course.repeats_shape {
+                    whiten(coefficients, &course.observed_shape, 0, &mut self.step);
+                }
+                self.observe(source.samples.decimation());
+                whiten(coefficients, &self.observed, 0, &mut self.impulse);
+                let theta = course.impulses.theta.get();
+                let noise = &rest[source.samples.reference()..];
+                let sums = self.without_step.iter_mut().zip(noise);
+                for ((sum, xi), impulse) in sums.zip(&self.impulse) {
+                    *sum = xi + theta * impulse;
+                }
+            },
         );
-        whiten(coefficients, &self.observed, 0, &mut self.impulse);
-        let theta = course.impulses.theta.get();
-        let noise = &rest[source.samples.reference()..];
-        for ((sum, xi), impulse) in self.without_step.iter_mut().zip(noise).zip(&self.impulse) {
-            *sum = xi + theta * impulse;
+    }
+
+    /// Takes block means of the pattern.
+    #[inline(always)]
+    fn observe(&mut self, decimation: usize) {
+        if decimation == 1 {
+            self.observed.copy_from_slice(&self.pattern);
+        } else {
+            let transparent = Digitiser::default();
+            observe(&transparent, decimation, &self.pattern, &mut self.observed);
         }
     }
 

@@ -104,3 +104,17 @@ impl<'a, 'k> Observation<'a, 'k> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two curves along the same Δ, the second on fewer values, and a point apart.
+    #[test]
+    fn tracks_follow_places_and_deltas() {
+        let points = vec![(0, 3), (1, 4), (1, 7), (2, 5), (2, 8), (5, 9)];
+        let track = |first, places| Track { first, places };
+        let expected = [track(0, 3..6), track(1, 7..9), track(5, 9..10)];
+        assert_eq!(Track::through(points), expected);
+    }
+}

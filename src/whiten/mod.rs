@@ -246,6 +246,7 @@ pub fn step<V: Value>(coefficients: &[V], past: &[V], sample: V) -> V {
 
 /// Whitens `record[start..]` into `whitened`; samples before the record count as zero. The result is that of
 /// [`step`] at each sample, computed coefficient by coefficient over all samples.
+#[inline(always)]
 pub fn whiten(coefficients: &[f64], record: &[f64], start: usize, whitened: &mut [f64]) {
     let length = whitened.len().min(record.len() - start);
     whitened[..length].copy_from_slice(&record[start..start + length]);

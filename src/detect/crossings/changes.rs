@@ -67,3 +67,34 @@ impl Changes {
         first.fill(0);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Pairs counted one by one at every Δ, twice, because nothing of one trial may leak into the next.
+        #[test]
+        fn agree_with_counting(
+            lines in prop::collection::vec((prop::collection::vec(0u32..=9, 0..12), any::<bool>()), 0..6),
+            always in 0usize..5,
+        ) {
+            let mut changes = Changes::new(9);
+            for _ in 0..2 {
+                changes.start(always);
+                for (places, falls) in &lines {
+                    changes.add(places, if *falls { -1.0 } else { 1.0 });
+                }
+                let mut sums = [0; 9];
+                changes.sum(100, &mut sums);
+                for (number, sum) in (0..).zip(sums) {
+                    let ordered = lines.iter().map(|(places, falls)| {
+                        places.iter().filter(|place| (number >= **place) != *falls).count()
+                    });
+                    prop_assert_eq!(sum, 100 + (always + ordered.sum::<usize>()) as u64);
+                }
+            }
+        }
+    }
+}

@@ -110,3 +110,50 @@ impl Pencil {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::grid::Grid;
+    use super::*;
+    use crate::simd::Vectors;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig { rng_seed: prop::test_runner::RngSeed::Fixed(2014), cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// Places by searching the grid for the crossing, distances by comparing at every Δ near it.
+        #[test]
+        fn agree_with_searching(
+            (start, step, points) in (-2.0..1.0, 0.01..0.5, 2usize..70),
+            values in prop::collection::vec(-6.0..6.0, 1..30),
+            base in -6.0f64..6.0,
+            slope in prop_oneof![-3.0..-0.1, 0.1..3.0],
+        ) {
+            let deltas: Vec<f64> = (0..points).map(|i| start + i as f64 * step).collect();
+            let even = Grid::new(deltas.clone()).even.expect("equal steps");
+            let behind = |z: f64| deltas.partition_point(|&delta| delta < (z - base) / slope);
+            let expected: Vec<u32> = values.iter().map(|&z| behind(z) as u32).collect();
+            let gap = |delta: f64, z: f64| f64::abs(base + delta * slope - z);
+            let gaps = values.iter().flat_map(|&z| deltas.iter().map(move |&delta| gap(delta, z)));
+            // Beyond half a step from every crossing the distance only has to be no smaller than there.
+            let bound = f64::abs(0.5 * step * slope);
+            let smallest = gaps.fold(bound, f64::min);
+            for vectors in Vectors::available() {
+                let mut levels = Levels::default();
+                levels.add(&values);
+                levels.close();
+                let pencil = Pencil::new(even, slope);
+                let (places, nearest) = vectors.run(
+                    #[inline(always)]
+                    || {
+                        levels.scale(&pencil);
+                        levels.meet(&pencil, base)
+                    },
+                );
+                prop_assert_eq!(places, &expected[..]);
+                // Ten roundings of numbers below 6 + 33 · 3.
+                prop_assert!(f64::abs(nearest - smallest) < 1e-12, "{} {}", nearest, smallest);
+            }
+        }
+    }
+}

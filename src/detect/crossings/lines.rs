@@ -36,9 +36,8 @@ impl Lines<'_> {
 pub(super) struct Field {
     /// The number of lines without the copies.
     length: usize,
-    bases: Vec<Wide<SEVERAL>>,
-    slopes: Vec<Wide<SEVERAL>>,
-    least_slope: f64,
+    bases: Vec<f64>,
+    slopes: Vec<f64>,
     /// The index of the first Δ after each crossing with the other line.
     behind: Vec<[u32; SEVERAL]>,
     /// The smallest distance between two lines at any Δ so far.
@@ -58,37 +57,39 @@ impl Field {
             (&mut self.slopes, lines.slope),
         ] {
             to.clear();
-            for several in values.chunks(SEVERAL) {
-                let mut wide = Wide::all(values[0]);
-                wide.0[..several.len()].copy_from_slice(several);
-                to.push(wide);
-            }
+            to.extend_from_slice(values);
+            to.resize(arrays * SEVERAL, values[0]);
         }
         self.behind.resize(arrays, [0; SEVERAL]);
         self.nearest = Wide::all(f64::INFINITY);
-        self.least_slope = lines.slope.iter().copied().fold(f64::INFINITY, least);
     }
 
     /// Counts the lines above any other line, at every Δ.
     #[inline(always)]
     pub fn count(&mut self, grid: &Grid, base: f64, slope: f64, changes: &mut Changes) {
         let mut nearest = self.nearest;
-        let lines = self.bases.iter().zip(&self.slopes);
-        for ((bases, slopes), behind) in lines.zip(&mut self.behind) {
-            let (ahead, closing) = (Wide::all(base) - *bases, *slopes - Wide::all(slope));
+        let (bases, slopes) = (self.bases.as_chunks().0, self.slopes.as_chunks().0);
+        for ((bases, slopes), behind) in bases.iter().zip(slopes).zip(&mut self.behind) {
+            let (ahead, closing) = (
+                Wide::all(base) - Wide(*bases),
+                Wide(*slopes) - Wide::all(slope),
+            );
             let (first, gap) = grid.cross(ahead, closing);
             *behind = first;
             nearest = gap.least(nearest);
         }
         self.nearest = nearest;
         let behind = &self.behind.as_flattened()[..self.length];
-        if self.least_slope >= slope {
-            return changes.add(behind, 1.0);
-        }
-        for (line, place) in behind.iter().enumerate() {
-            // A steeper line is above from the crossing on, a flatter one up to there.
-            let closing = self.slopes[line / SEVERAL].0[line % SEVERAL] - slope;
-            changes.add(std::slice::from_ref(place), closing);
+        let slopes = &self.slopes[..self.length];
+        for (places, slopes) in behind.chunks(SEVERAL).zip(slopes.chunks(SEVERAL)) {
+            if slopes.iter().all(|steep| *steep >= slope) {
+                changes.add(places, 1.0);
+                continue;
+            }
+            for (place, other) in places.iter().zip(slopes) {
+                // A steeper line is above from the crossing on, a flatter one up to there.
+                changes.add(std::slice::from_ref(place), other - slope);
+            }
         }
     }
 

@@ -73,3 +73,47 @@ impl Outside {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Along;
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Samples counted one by one at every Δ, on more values than a word has bits.
+        #[test]
+        fn agree_with_counting(
+            lines in prop::collection::vec((any::<bool>(), any::<bool>(), 0u32..=100, 0u32..=100), 0..9),
+        ) {
+            let mut outside = Outside::new(100);
+            let mut along = Along { rank_sums: vec![7; 100], stretches: Vec::new() };
+            for _ in 0..2 {
+                for &(of_shift, falls, a, b) in &lines {
+                    let (first, last) = (a.min(b), a.max(b));
+                    let sample = if of_shift { Sample::Shift } else { Sample::Scale };
+                    let (slope, ends) = if falls { (-1.0, [last, first]) } else { (1.0, [first, last]) };
+                    outside.pass(sample, slope, ends);
+                }
+                outside.stay(Sample::Shift, 3.0, [1.0, 2.0]);
+                outside.stay(Sample::Scale, 1.5, [1.0, 2.0]);
+                outside.sum(&mut along.stretches);
+                for number in 0..100 {
+                    let count = |wanted: bool| {
+                        let lines = lines.iter().filter(|line| line.0 == wanted);
+                        let is_outside = |line: &&(bool, bool, u32, u32)| {
+                            (number < line.2.min(line.3)) | (number >= line.2.max(line.3))
+                        };
+                        lines.filter(is_outside).count()
+                    };
+                    let expected = Statistics {
+                        rank_sum: 7,
+                        exceedances: count(false),
+                        shift_exceedances: count(true) + 1,
+                    };
+                    prop_assert_eq!(along.at(number as usize), expected);
+                }
+            }
+        }
+    }
+}

@@ -57,6 +57,11 @@ proptest! {
                 let counted: Vec<_> = (0..deltas.len()).map(|number| along.at(number)).collect();
                 prop_assert_eq!(&counted, &expected);
             }
+            let mut without = Crossings::new(vectors, deltas.clone(), false);
+            let along = without.count(&values[..n], shift, scale).expect("no near tie");
+            for (number, expected) in expected.iter().enumerate() {
+                prop_assert_eq!(along.at(number), Statistics { shift_exceedances: 0, ..*expected });
+            }
         }
     }
 }
