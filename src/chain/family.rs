@@ -3,7 +3,7 @@
 //! places (points that decide on the same samples).
 
 use super::source::{RecordTooLong, Source};
-use crate::detect::{Samples, Ties};
+use crate::detect::{Exceedances, Samples, Ties};
 use crate::rng::Stream;
 use crate::scenario::Scenario;
 use crate::signal::{Digitiser, During, Impulses};
@@ -181,6 +181,7 @@ impl Family {
         );
         let detector = &scenario.detector;
         course.needs_samples |= detector.method.needs_samples() || detector.ties != Ties::Random;
+        course.needs_shift_exceedances |= detector.exceedances == Exceedances::Motion;
         course.needs_record |= detector.method.needs_record();
         course.stage(scenario.record_delta()).places.push(place);
         branch.needs_record |= !branch.digitiser.is_transparent() || detector.method.needs_record();

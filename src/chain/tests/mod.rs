@@ -163,6 +163,33 @@ fn counts_equal_those_of_the_naive_chain() {
     }
 }
 
+/// Along a grid of Δ that is counted by crossings, rules on T and on T′ side by side.
+#[test]
+fn rules_along_a_grid_equal_the_naive_chain() {
+    let samples = Samples::contiguous(12, 12, 12).unwrap();
+    let strong = Impulses::new(0.3, 20.0, During::Motion).unwrap();
+    let scenarios: Vec<Scenario> = (0..8)
+        .map(|i| scenario(samples, 0.3 * f64::from(i / 2), strong))
+        .zip(
+            [Exceedances::Scale, Exceedances::Motion]
+                .into_iter()
+                .cycle(),
+        )
+        .map(|(scenario, exceedances)| Scenario {
+            detector: Detector {
+                exceedances,
+                ..scenario.detector
+            },
+            ..scenario
+        })
+        .collect();
+    let families = arrange(&scenarios, 2014, true);
+    let counts = counts(&scenarios, &families, 0..TRIALS);
+    for (scenario, count) in scenarios.iter().zip(counts) {
+        assert_eq!(count, naive_count(scenario, &families[0]), "{scenario:?}");
+    }
+}
+
 /// A digitiser that changes nothing takes the direct path, which must agree with the linear one.
 #[test]
 fn direct_and_linear_paths_agree() {

@@ -46,6 +46,7 @@ impl Study for OperatingPoint {
         "samples.decimation",
         "detector.alpha",
         "detector.rule",
+        "detector.exceedances",
         "detector.alternative",
         "detector.ties",
     ];
