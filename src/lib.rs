@@ -81,7 +81,7 @@
 //! | `delta` | Δ/σ_ξ | the acceleration, in deviations of the whitened noise |
 //! | `nu`, `theta` | ν, θ/σ_ξ | probability and strength of vibration impulses |
 //! | `training`, `order` | , m | of the whitening filter |
-//! | `rank_sum`, `exceedances` | W, T | the two statistics |
+//! | `rank_sum`, `exceedances` | W, T | the two statistics; with `shift_exceedances` T′, of all of the motion |
 //! | `size`, `false_alarm` | α | exact probability of deciding H₁ at rest; an event of that kind |
 //! | power | D | probability of deciding H₁ in motion |
 //!

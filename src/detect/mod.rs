@@ -1,5 +1,6 @@
 //! The three-sample detector of [^1]: samples X, Y₁, Y₂, statistics W and T, their exact laws under
-//! H₀, and the decision regions ϑ, eqs (10)–(15).
+//! H₀, and the decision regions ϑ, eqs (10)–(15). Rules may count T′, the exceedances of all of the motion, in place
+//! of T; the joint law of W and T′ is counted too.
 //!
 //! [^1]: see [`crate::signal`].
 

@@ -34,13 +34,24 @@ fn threshold_prints_a_table() {
 #[test]
 fn threshold_prints_json() {
     for rule in ["wilcoxon", "product", "disjunction", "conjunction"] {
-        for alternative in ["greater", "less", "two-sided"] {
-            let extra = ["--rule", rule, "--alternative", alternative];
+        for (alternative, of) in ["greater", "less", "two-sided"]
+            .iter()
+            .flat_map(|sign| [(sign, "scale"), (sign, "motion")])
+        {
+            let extra = [
+                "--rule",
+                rule,
+                "--alternative",
+                alternative,
+                "--exceedances",
+                of,
+            ];
             let json = run(&[&SIZES[..], &extra, &["--json"]].concat());
             let value: serde_json::Value = serde_json::from_str(&json).unwrap();
             let size = value["size"].as_f64().unwrap();
-            assert!(size > 0.0 && size <= 0.01, "{rule} {alternative}");
+            assert!(size > 0.0 && size <= 0.01, "{rule} {alternative} {of}");
             let critical = value["critical"].as_array().unwrap();
+            assert_eq!(critical.len(), if of == "scale" { 13 } else { 25 });
             let sum: f64 = critical
                 .iter()
                 .map(|c| {
