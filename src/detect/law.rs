@@ -41,7 +41,7 @@ pub enum NullLawError {
     /// The counts would not fit in memory.
     #[error(
         "the exact laws of W and T at {samples} need {megabytes:.0} MB of counts, more than the {limit:.0} MB allowed \
-         (at most about {fits} fits: lower reference, shift or scale)",
+         (sizes of about {fits} would fit: lower reference, shift or scale)",
         limit = MEMORY_LIMIT / 1e6
     )]
     TooLarge {
