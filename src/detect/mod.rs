@@ -24,7 +24,7 @@ pub use crossings::{Along, Crossings, Lines};
 pub use design::NullLaws;
 pub use law::{NullLaw, NullLawError};
 pub use likelihood::{Histogram, LikelihoodOrder};
-pub use region::{Region, RegionError};
+pub use region::{Bounds, Region, RegionError};
 pub use rule::{Alternative, Baseline, Exceedances, Method, Rule, Ties};
 pub use samples::Samples;
 pub use statistics::{Pooled, Statistics};

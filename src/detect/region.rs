@@ -44,8 +44,38 @@ impl Region {
     /// δ(W, T) of eq. (10): whether this observation decides H₁.
     #[inline(always)]
     pub fn contains(&self, statistics: Statistics) -> bool {
-        let score = self.alternative.score(statistics.rank_sum, self.twice_mean);
-        score >= self.critical[self.exceedances.of(statistics)]
+        self.bounds(statistics).decide(statistics.rank_sum)
+    }
+
+    /// The rank sums that decide H₁ beside these exceedances.
+    #[inline(always)]
+    pub fn bounds(&self, statistics: Statistics) -> Bounds {
+        self.bounds_at(self.critical[self.exceedances.of(statistics)])
+    }
+
+    /// The rank sums whose score is `critical` or more.
+    #[inline(always)]
+    fn bounds_at(&self, critical: u64) -> Bounds {
+        let below = |score: u64| self.twice_mean.checked_sub(score);
+        match self.alternative {
+            Alternative::Greater => Bounds {
+                below: 0,
+                from: critical,
+            },
+            Alternative::Less => Bounds {
+                below: below(critical).map_or(0, |w| w + 1),
+                from: NEVER,
+            },
+            // |2W − 2E W| of the critical score or more.
+            Alternative::TwoSided if critical == NEVER => Bounds {
+                below: 0,
+                from: NEVER,
+            },
+            Alternative::TwoSided => Bounds {
+                below: below(critical).map_or(0, |twice| twice / 2 + 1),
+                from: (self.twice_mean + critical).div_ceil(2),
+            },
+        }
     }
 
     /// The number of exceedances that it looks at.
@@ -66,16 +96,26 @@ impl Region {
     /// C_W(T) for T = 0, 1, …: (lower, upper) such that W ≤ lower or W ≥ upper decides H₁.
     pub fn critical_values(&self) -> Vec<(Option<u64>, Option<u64>)> {
         (self.critical.iter())
-            .map(|&score| match self.alternative {
-                _ if score == NEVER => (None, None),
-                Alternative::Greater => (None, Some(score)),
-                Alternative::Less => (self.twice_mean.checked_sub(score), None),
-                Alternative::TwoSided => {
-                    let upper = (self.twice_mean + score).div_ceil(2);
-                    (self.twice_mean.checked_sub(upper), Some(upper))
-                }
+            .map(|&critical| self.bounds_at(critical))
+            .map(|Bounds { below, from }| {
+                (below.checked_sub(1), Some(from).filter(|&w| w != NEVER))
             })
             .collect()
+    }
+}
+
+/// Rank sums that decide H₁: those smaller than `below` and those from `from` on.
+#[derive(Clone, Copy, Debug)]
+pub struct Bounds {
+    below: u64,
+    from: u64,
+}
+
+impl Bounds {
+    /// Whether this rank sum decides H₁.
+    #[inline(always)]
+    pub fn decide(self, rank_sum: u64) -> bool {
+        (rank_sum < self.below) | (rank_sum >= self.from)
     }
 }
 

@@ -25,28 +25,26 @@ impl Along {
         }
     }
 
-    /// Calls `take` for each Δ of `range` with its place and the statistics there.
+    /// The stretches within `range`: the values of Δ, and the statistics there but for W.
     #[inline(always)]
-    pub fn each<T>(
+    pub fn stretches(
         &self,
         range: Range<usize>,
-        places: &mut [T],
-        take: impl Fn(&mut T, Statistics),
-    ) {
-        for (i, &(first, statistics)) in self.stretches.iter().enumerate() {
-            let next = self.stretches.get(i + 1).map_or(range.end, |next| next.0);
-            let (from, to) = (first.max(range.start), next.min(range.end));
-            if from >= to {
-                continue;
-            }
-            let places = &mut places[from - range.start..to - range.start];
-            for (place, &rank_sum) in places.iter_mut().zip(&self.rank_sums[from..to]) {
-                let statistics = Statistics {
-                    rank_sum,
-                    ..statistics
-                };
-                take(place, statistics);
-            }
-        }
+    ) -> impl Iterator<Item = (Range<usize>, Statistics)> {
+        let ends = self.stretches.iter().skip(1).map(|next| next.0);
+        let each = self.stretches.iter().zip(ends.chain([usize::MAX]));
+        each.map(
+            #[inline(always)]
+            move |(&(first, statistics), next)| {
+                (first.max(range.start)..next.min(range.end), statistics)
+            },
+        )
+        .filter(|(numbers, _)| !numbers.is_empty())
+    }
+
+    /// W at these values of Δ.
+    #[inline(always)]
+    pub fn rank_sums(&self, range: Range<usize>) -> &[u64] {
+        &self.rank_sums[range]
     }
 }

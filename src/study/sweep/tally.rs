@@ -121,12 +121,13 @@ fn decide(region: &Region, along: &Along, number: usize, trial: u32, decided: &m
     Vectors::widest().run(
         #[inline(always)]
         || {
-            along.each(
-                number..number + decided.len(),
-                decided,
-                #[inline(always)]
-                |decided, statistics| *decided |= u64::from(region.contains(statistics)) << trial,
-            );
+            for (numbers, statistics) in along.stretches(number..number + decided.len()) {
+                let bounds = region.bounds(statistics);
+                let decided = &mut decided[numbers.start - number..numbers.end - number];
+                for (decided, &rank_sum) in decided.iter_mut().zip(along.rank_sums(numbers)) {
+                    *decided |= u64::from(bounds.decide(rank_sum)) << trial;
+                }
+            }
         },
     );
 }
