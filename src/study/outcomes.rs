@@ -13,7 +13,7 @@ use crate::gate::Scenario;
 use crate::plot::Plot;
 use crate::results::Quantity;
 use crate::rule::{OutOfRange, Rule};
-use crate::run::{Group, Identity, Progress, StudyError, Target, Trials};
+use crate::run::{Group, Identity, Progress, StudyError, Table, Target, Trials};
 use schemars::SchemaGenerator;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -94,6 +94,11 @@ pub trait Outcomes: Send + Sync + Sized + 'static {
     /// The false alarms that `check` tests, and the rate that each scenario promises.
     fn false_alarms(&self, _rows: &[Self::Row]) -> Vec<Scenario> {
         Vec::new()
+    }
+
+    /// The table to print when the rows are written.
+    fn findings(&self, _rows: &[Self::Row]) -> Option<Table> {
+        None
     }
 
     /// Draws the rows.
@@ -225,6 +230,10 @@ impl<T: Outcomes> Study for Of<T> {
 
     fn false_alarms(&self, rows: &[T::Row]) -> Vec<Scenario> {
         self.study.false_alarms(rows)
+    }
+
+    fn findings(&self, rows: &[T::Row]) -> Option<Table> {
+        self.study.findings(rows)
     }
 
     fn plot(&self, rows: &[T::Row], seed: u64) -> Result<Plot, FigureError> {

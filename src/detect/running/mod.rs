@@ -1,7 +1,8 @@
 //! Detectors of a start as running statistics: a score after every sample, large where there is motion.
 //!
 //! A detector alarms where its score reaches a threshold. None of the thresholds is exact for all of them, so they are
-//! measured at one rate of false alarms. Samples are in deviations of the noise; the bias is 0.
+//! measured at one rate of false alarms. Samples are in deviations of the noise; the bias is 0, and those that are told σ
+//! take it for 1.
 //!
 //! | detector | score | learns |
 //! |---|---|---|

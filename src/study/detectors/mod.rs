@@ -21,6 +21,7 @@
 //! interval. The interval of a ratio is that of the extreme quotients.
 
 mod compare;
+mod findings;
 mod noise;
 mod picture;
 mod pilot;
@@ -35,7 +36,7 @@ use crate::counts::{Shape, Sums};
 use crate::experiment::Experiment;
 use crate::plot::Plot;
 use crate::results::Quantity;
-use crate::run::{Identity, Progress, StudyError};
+use crate::run::{self, Identity, Progress, StudyError};
 use crate::stats::tally::Tally;
 use crate::study::estimate::{Estimate, quantile, rate, share};
 use crate::study::kind::Context;
@@ -169,6 +170,10 @@ impl Outcomes for Detectors {
 
     fn extremes(&self, rows: &[Row]) -> Vec<Quantity> {
         compare::quantities(rows, &self.table)
+    }
+
+    fn findings(&self, rows: &[Row]) -> Option<run::Table> {
+        Some(findings::of(rows, &self.table, &self.extremes(rows)))
     }
 
     fn plot(&self, rows: &[Row], seed: u64) -> Plot {

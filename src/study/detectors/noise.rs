@@ -1,4 +1,4 @@
-//! Noise of unit deviation: white of some law, coloured, in steps.
+//! Noise: white of some law, coloured, in steps. Before it is rounded to steps its deviation is 1.
 
 use crate::rng::{Generator, Stream};
 use crate::rule::{OutOfRange, Rule};

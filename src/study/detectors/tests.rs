@@ -91,7 +91,7 @@ fn refusals() {
     };
     assert_eq!(refused(SOME, START, NOISE), None);
     for (detector, start, noise, expected) in [
-        ("\"rank\"", START, NOISE, "unknown variant `rank`"),
+        ("\"rank\"", START, NOISE, "unknown value `rank`"),
         (
             "",
             START,
