@@ -1,8 +1,10 @@
 //! Means of blocks of samples, and the reference that blocks are measured by.
 
-use super::Score;
 use libm::sqrt;
 use std::collections::VecDeque;
+
+/// A second, samples.
+pub const RATE: usize = 100;
 
 /// Samples of a block.
 pub const BLOCK: usize = 20;
@@ -10,6 +12,12 @@ pub const BLOCK: usize = 20;
 /// Blocks of the reference, and of the gap between it and the newest.
 pub const REFERENCE: usize = 60;
 pub const GAP: usize = 15;
+
+/// What is computed from the newest sample or block.
+pub trait Score {
+    /// −∞ before there is anything to compute it from.
+    fn step(&mut self, x: f64) -> f64;
+}
 
 /// A score of means of so many samples; between them the last stands.
 #[derive(Clone, Debug)]

@@ -7,8 +7,7 @@
 //!
 //! [^1]: H. L. Van Trees, "Detection, Estimation, and Modulation Theory", part I, 1968, section 4.2.
 
-use super::Score;
-use super::blocks::{BLOCK, Blocks};
+use super::blocks::{BLOCK, Blocks, Score};
 use libm::sqrt;
 use std::collections::VecDeque;
 

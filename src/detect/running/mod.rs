@@ -27,12 +27,13 @@ mod standard;
 mod tests;
 mod three;
 
+pub use blocks::RATE;
 pub use matched::Told;
 pub use three::Tables;
 
 use super::rule::Exceedances;
 use crate::rng::Generator;
-use blocks::Blocks;
+use blocks::{Blocks, Score};
 use matched::Matched;
 use plain::{Uniform, ZeroRule};
 use ranks::SequentialRanks;
@@ -41,9 +42,6 @@ use serde::{Deserialize, Serialize};
 use standard::{Chart, Standard};
 use std::fmt;
 use three::ThreeSamples;
-
-/// A second, samples.
-pub const RATE: usize = 100;
 
 /// A detector has learnt after so many samples: a reference of 12 s and a gap of 3 s.
 pub const LEARNING: usize = blocks::BLOCK * (blocks::REFERENCE + blocks::GAP);
@@ -88,12 +86,6 @@ enum Kind {
     Zero(ZeroRule),
     Uniform(Uniform),
     Matched(Matched),
-}
-
-/// What is computed from the newest sample or block.
-trait Score {
-    /// −∞ before there is anything to compute it from.
-    fn step(&mut self, x: f64) -> f64;
 }
 
 impl Detector {

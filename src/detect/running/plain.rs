@@ -9,7 +9,7 @@
 //! [^1]: Yang et al., a lift monitor by accelerometer and barometer (in Chinese).
 //! [^2]: The trip filter of a patent (in Chinese).
 
-use super::{RATE, Score};
+use super::blocks::{RATE, Score};
 use libm::fabs;
 use std::collections::VecDeque;
 

@@ -1,7 +1,6 @@
 //! CUSUMs of the normal scores of sequential ranks, up and down: see [`sequential`](crate::detect::sequential).
 
-use super::Score;
-use super::blocks::{GAP, REFERENCE};
+use super::blocks::{GAP, REFERENCE, Score};
 use crate::detect::sequential::{Cusum, Lattice, Ranks, STEPS, Score as Of, Side, units};
 use crate::rng::{Generator, unit};
 

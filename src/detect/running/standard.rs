@@ -13,8 +13,7 @@
 //! [^1]: E. S. Page, "Continuous inspection schemes", Biometrika 41, 1954.
 //! [^2]: M. Basseville, I. V. Nikiforov, "Detection of Abrupt Changes", 1993, sections 2.2 and 2.4.
 
-use super::Score;
-use super::blocks::Reference;
+use super::blocks::{Reference, Score};
 use libm::log;
 use std::collections::VecDeque;
 

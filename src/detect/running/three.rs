@@ -3,7 +3,7 @@
 //! The score is −ln(p_W p_T), two-sided in W; with T′ for T that of the mended rule. A region of rule `product` is where it
 //! reaches a value. Ties are broken by random keys.
 
-use super::Score;
+use super::blocks::Score;
 use crate::detect::{Alternative, Exceedances, NullLaws, Pooled, Samples, Statistics};
 use crate::rng::Generator;
 use libm::log;

@@ -1,7 +1,8 @@
 //! What follows from several rows: Δ/σ for a probability of 0.9, ratios of it, and the worst rates at rest.
 
 use super::noise::Noise;
-use super::table::{Row, Start, Table};
+use super::start::Start;
+use super::table::{Row, Table};
 use crate::detect::running::Detector;
 use crate::results::{Quantity, eight_digits};
 use crate::stats::normal;

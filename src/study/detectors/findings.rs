@@ -1,7 +1,8 @@
 //! The table to print: a line for each detector and start in the first noise, and its worst rates at rest.
 
 use super::compare::operating_point;
-use super::table::{Row, Start, Table};
+use super::start::Start;
+use super::table::{Row, Table};
 use crate::detect::running::Detector;
 use crate::results::Quantity;
 use crate::run;

@@ -25,6 +25,7 @@ mod findings;
 mod noise;
 mod picture;
 mod pilot;
+mod start;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -44,9 +45,9 @@ use crate::study::outcomes::{Outcomes, checked};
 use pilot::Pilot;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::Value;
+use start::{REST, SECOND, Start};
 use std::sync::OnceLock;
-use table::{Point, Start, Table};
-use trial::{REST, SECOND};
+use table::{Point, Table};
 
 /// The table, and the thresholds once they are measured.
 #[derive(Debug)]

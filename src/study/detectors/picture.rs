@@ -1,6 +1,7 @@
 //! Probability by Δ for each start in the first noise, and rates at rest by noise.
 
-use super::table::{Row, Start, Table};
+use super::start::Start;
+use super::table::{Row, Table};
 use crate::format::thousands;
 use crate::plot::{
     Axis, Colour, Curve, Entry, Key, Mark, Panel, Place, Plot, Point, Style, add_bands, ends,

@@ -1,8 +1,8 @@
 //! The thresholds, measured on white normal noise.
 
 use super::noise::Noise;
-use super::table::{Point, Start, Table};
-use super::trial::{LEARNING, REST};
+use super::start::{LEARNING, REST, Start};
+use super::table::{Point, Table};
 use crate::detect::running::{Detector, Running, Tables, Told};
 use crate::rng::Stream;
 use crate::run::Progress;

@@ -1,7 +1,7 @@
 //! `[detectors]`: which detectors, noise and starts, and the columns of `points.csv`.
 
 use super::noise::Noise;
-use super::trial::{REST, SECOND};
+use super::start::{REST, SECOND, Start};
 use crate::detect::running::Detector;
 use crate::rule::{OutOfRange, Rule};
 use crate::study::curves::name_of;
@@ -28,19 +28,6 @@ pub struct Table {
     pub start: Vec<Start>,
     /// The noise, the first of the picture.
     pub noise: Vec<Noise>,
-}
-
-/// A pulse of acceleration: straight up, level, straight down.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Start {
-    /// Its name.
-    pub label: String,
-    /// How long it lasts, s.
-    pub lasts: f64,
-    /// How long it takes up, and down, s; 0: a step.
-    #[serde(default)]
-    pub rise: f64,
 }
 
 /// A detector on a noise, at rest or with a start.
@@ -143,19 +130,6 @@ impl Point {
     /// Whether nothing starts.
     pub fn rests(&self) -> bool {
         self.delta == 0.0
-    }
-}
-
-impl Start {
-    fn check(&self) -> Result<(), OutOfRange> {
-        Rule::Within(0.1, 60.0, "s").check("detectors.start.lasts", &self.lasts)?;
-        let half = Rule::Within(0.0, self.lasts / 2.0, "s");
-        half.check("detectors.start.rise", &self.rise)
-    }
-
-    /// Everything but its name.
-    pub fn subject(&self) -> String {
-        format!("{} s, up in {} s", self.lasts, self.rise)
     }
 }
 

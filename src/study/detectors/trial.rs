@@ -1,21 +1,14 @@
 //! One trial: records at rest, or one record with every start.
 
 use super::pilot::Pilot;
-use super::table::{Point, Start};
+use super::start::{LEARNING, REST, SECOND};
+use super::table::Point;
 use crate::counts::{Shape, Sums, Values};
-use crate::detect::running::{self, Running, Told};
+use crate::detect::running::Running;
 use crate::rng::{Generator, Stream, unit};
-use crate::signal::{Motion, Profile};
 use libm::ceil;
 
-/// Samples of a second.
-pub const SECOND: usize = running::RATE;
-
-/// Rest at the beginning of a record, samples: every detector has learnt.
-pub const LEARNING: usize = running::LEARNING;
-
-/// What is looked at of a record at rest, and of a start, samples.
-pub const REST: usize = 120 * SECOND;
+/// What is looked at of a start, samples.
 const LOOKED_AT: usize = 6 * SECOND;
 
 /// An alarm so soon after a start counts, samples.
@@ -26,32 +19,6 @@ const LATER: usize = SECOND;
 
 /// Delays are counted in steps of so many samples.
 const STEP: f64 = 10.0;
-
-impl Start {
-    /// The acceleration so many samples after the start, in units of Δ.
-    pub fn shape(&self, time: f64) -> f64 {
-        let samples = |seconds: f64| seconds * SECOND as f64;
-        let profile = Profile::Trapezoid {
-            rise: samples(self.rise),
-        };
-        let motion = Motion {
-            profile,
-            duration: samples(self.lasts) as usize,
-            ..Motion::default()
-        };
-        motion.shape(time)
-    }
-
-    /// Its mean in each of the first blocks that the clairvoyant looks at.
-    pub fn blocks(&self) -> Vec<f64> {
-        let mean = |block: usize| {
-            let samples = block * Told::BLOCK..(block + 1) * Told::BLOCK;
-            let sum: f64 = samples.map(|i| self.shape(i as f64 + 0.5)).sum();
-            sum / Told::BLOCK as f64
-        };
-        (0..Told::BLOCKS).map(mean).collect()
-    }
-}
 
 /// The sums of records at rest: alarms, and samples up to them.
 pub fn at_rest(
