@@ -14,6 +14,7 @@ mod likelihood;
 mod product;
 mod region;
 mod rule;
+pub mod running;
 mod samples;
 pub mod sequential;
 mod statistics;

@@ -10,6 +10,7 @@ mod along;
 mod any;
 pub(crate) mod autocorrelation;
 mod curves;
+pub mod detectors;
 mod dots;
 mod estimate;
 pub mod floors;
@@ -67,6 +68,7 @@ pub const STUDIES: &[Entry] = &[
     Entry::of::<outcomes::Of<vibration::Table>>(),
     Entry::of::<outcomes::Of<air::Table>>(),
     Entry::of::<outcomes::Of<run_length::RunLengths>>(),
+    Entry::of::<outcomes::Of<detectors::Detectors>>(),
 ];
 
 /// An entry of the list of studies.

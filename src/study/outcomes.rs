@@ -5,7 +5,7 @@
 
 use super::estimate::Estimate;
 use super::kind::{Context, Counters, Study, counted};
-use crate::counts::{Counts, Shape, Sums};
+use crate::counts::{Counts, DecisionSummary, Key, Shape, Sums};
 use crate::experiment::Experiment;
 use crate::figure::FigureError;
 use crate::format::thousands;
@@ -13,7 +13,7 @@ use crate::gate::Scenario;
 use crate::plot::Plot;
 use crate::results::Quantity;
 use crate::rule::{OutOfRange, Rule};
-use crate::run::{Group, Identity, StudyError, Target, Trials};
+use crate::run::{Group, Identity, Progress, StudyError, Table, Target, Trials};
 use schemars::SchemaGenerator;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -46,6 +46,14 @@ pub trait Outcomes: Send + Sync + Sized + 'static {
 
     /// The shape of the sums of a trial.
     fn shape(&self) -> Shape;
+
+    /// Measures what all trials need, before the first.
+    fn prepare(&self, _seed: u64, _progress: &dyn Progress) {}
+
+    /// Does so as far as a run needs it that only measures time; how much work it is, in trials of single points.
+    fn pretend(&self, _seed: u64) -> u64 {
+        0
+    }
 
     /// The sums of one trial of each of these points, which are of one [family](Self::family).
     fn trials(&self, points: &[&Self::Point], seed: u64, trial: u64) -> Vec<Sums>;
@@ -86,6 +94,11 @@ pub trait Outcomes: Send + Sync + Sized + 'static {
     /// The false alarms that `check` tests, and the rate that each scenario promises.
     fn false_alarms(&self, _rows: &[Self::Row]) -> Vec<Scenario> {
         Vec::new()
+    }
+
+    /// The table to print when the rows are written.
+    fn findings(&self, _rows: &[Self::Row]) -> Option<Table> {
+        None
     }
 
     /// Draws the rows.
@@ -219,6 +232,10 @@ impl<T: Outcomes> Study for Of<T> {
         self.study.false_alarms(rows)
     }
 
+    fn findings(&self, rows: &[T::Row]) -> Option<Table> {
+        self.study.findings(rows)
+    }
+
     fn plot(&self, rows: &[T::Row], seed: u64) -> Result<Plot, FigureError> {
         Ok(self.study.plot(rows, seed))
     }
@@ -241,6 +258,21 @@ impl<T: Outcomes> Trials for &Of<T> {
             }
         }
         Ok(())
+    }
+
+    fn prepare(
+        &mut self,
+        targets: &[usize],
+        progress: &dyn Progress,
+    ) -> Result<BTreeMap<Key, DecisionSummary>, StudyError> {
+        if !targets.is_empty() {
+            self.study.prepare(self.context.seed, progress);
+        }
+        Ok(BTreeMap::new())
+    }
+
+    fn pretend(&mut self) -> Result<u64, StudyError> {
+        Ok(self.study.pretend(self.context.seed))
     }
 
     /// Points of one family form a group.
