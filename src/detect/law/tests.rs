@@ -37,9 +37,12 @@ fn statistics(row: &[u8]) -> (u64, u64, u64) {
     (ranks(1).sum(), outside(2), outside(1) + outside(2))
 }
 
+/// How often each W occurs with each number of exceedances.
+type Joint = HashMap<(u64, u64), u64>;
+
 /// How often each (W, T) and each (W, T′) occurs among all rank vectors, and their number.
-fn enumerated(sizes: [usize; 3]) -> ([HashMap<(u64, u64), u64>; 2], u64) {
-    let mut joint: [HashMap<(u64, u64), u64>; 2] = Default::default();
+fn enumerated(sizes: [usize; 3]) -> ([Joint; 2], u64) {
+    let mut joint: [Joint; 2] = Default::default();
     let mut all = 0;
     enumerate(sizes, &mut Vec::new(), &mut |row| {
         let (w, of_scale, of_motion) = statistics(row);

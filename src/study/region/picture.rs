@@ -21,7 +21,7 @@ pub fn plot(laws: &NullLaws, rows: &[Row], title: &[String]) -> Plot {
     let (low, high) = visible(laws);
     let x = Axis::linear(low as f64 - 0.5, high as f64 + 0.5, 7).labelled("W, rank sum of Y_1");
     let top = laws.exceedances().last() as f64 + 0.5;
-    let y = Axis::linear(-0.5, top, 8).labelled(&format!(
+    let y = Axis::linear(-0.5, top, 8).labelled(format!(
         "{}, exceedances of {}",
         laws.of().symbol(),
         laws.of().samples()
