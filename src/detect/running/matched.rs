@@ -21,7 +21,7 @@ pub struct Told {
     pub ar: Vec<f64>,
     /// Of the white noise that drives it, in deviations of the noise.
     pub deviation: f64,
-    /// The mean shape of the start in each of its first [`BLOCKS`] blocks.
+    /// The mean shape of the start in each of its first `BLOCKS` blocks.
     pub shape: Vec<f64>,
 }
 
