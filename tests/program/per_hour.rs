@@ -61,6 +61,12 @@ fn refusals() {
     for (arguments, expected) in [
         (vec!["--per-hour", "1"], "--rate <HZ>"),
         (
+            "--reference 12 --shift 12 --scale 12 --alpha 0.01 --rate 5"
+                .split(' ')
+                .collect(),
+            "cannot be used with",
+        ),
+        (
             vec!["--per-hour", "1", "--alpha", "0.1"],
             "cannot be used with",
         ),
@@ -72,7 +78,7 @@ fn refusals() {
             vec!["--rate", "5", "--reference", "12"],
             "--per-hour <RATE>",
         ),
-        (vec!["--k", "0.5", "--alpha", "1"], "--per-hour <RATE>"),
+        (vec!["--k", "0.5", "--alpha", "1"], "cannot be used with"),
         (vec!["--reference", "12"], "--shift <M1>"),
         (
             vec!["--per-hour", "-1"],

@@ -29,7 +29,8 @@ pub struct PerHour {
         long,
         value_name = "HZ",
         allow_negative_numbers = true,
-        requires = "per_hour"
+        requires = "per_hour",
+        conflicts_with = "three samples"
     )]
     rate: Option<f64>,
     /// Samples in a block: the delays are those of a shift by Δ/σ of each.
@@ -37,15 +38,16 @@ pub struct PerHour {
         long,
         value_name = "SAMPLES",
         default_value_t = 1,
-        requires = "per_hour"
+        requires = "per_hour",
+        conflicts_with = "three samples"
     )]
     block: u32,
     /// What a rank scores.
-    #[arg(long, value_parser = one_of(&SCORES), default_value = "normal", requires = "per_hour")]
+    #[arg(long, value_parser = one_of(&SCORES), default_value = "normal", requires = "per_hour", conflicts_with = "three samples")]
     score: Score,
     /// The changes that it looks for, with commas in between.
     #[arg(long, value_parser = one_of(&SIDES), value_delimiter = ',', default_value = "up,down",
-          requires = "per_hour")]
+          requires = "per_hour", conflicts_with = "three samples")]
     sides: Vec<Side>,
     /// What each score is lowered by, a multiple of 0.025: half the shift of a block, in deviations, that is to be seen
     /// soonest.
@@ -54,7 +56,8 @@ pub struct PerHour {
         value_name = "K",
         allow_negative_numbers = true,
         default_value_t = 0.8,
-        requires = "per_hour"
+        requires = "per_hour",
+        conflicts_with = "three samples"
     )]
     k: f64,
 }

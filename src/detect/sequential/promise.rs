@@ -28,7 +28,8 @@ impl ThresholdError {
         let got = blocks / self.wanted;
         let least = rounded_up(blocks / self.reachable);
         match self.reference {
-            None => OutOfRange::new(rate, format!("be at least {least}"), got),
+            None => OutOfRange::new(rate, format!("be at least {least}"), got)
+                .explained(" (or raise k: thresholds beyond 20 are not computed)"),
             Some(n) if self.reachable == 0.0 => {
                 let rule = "be longer for a shift of any size to reach a threshold";
                 OutOfRange::new(reference, rule, n)
