@@ -102,9 +102,10 @@ struct Simulation {
 impl Simulation {
     /// Reads the config, lays the command line over it, and plans it.
     fn study(&self) -> Result<Loaded, Failure> {
-        let study = Loaded::new(self.config()?).map_err(Failure::study)?;
+        let experiment = self.config()?;
+        // Before the plan: large joint laws are counted on all threads.
         self.start_threads()?;
-        Ok(study)
+        Loaded::new(experiment).map_err(Failure::study)
     }
 
     /// The config with the command line in its place.

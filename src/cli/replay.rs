@@ -34,8 +34,8 @@ impl ReplayCommand {
     /// Runs the command.
     pub fn run(self) -> CommandResult {
         let config = SweepConfig::new(self.simulation.config()?).map_err(Failure::input)?;
-        let plan = Plan::new(&config).map_err(Failure::input)?;
         self.simulation.start_threads()?;
+        let plan = Plan::new(&config).map_err(Failure::input)?;
         let (points, trials) = (plan.points.len(), plan.schedule.trials);
         if self.point > points as u64 {
             return Err(Failure::Input(anyhow!(
