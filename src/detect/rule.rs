@@ -66,7 +66,7 @@ pub enum Exceedances {
     #[default]
     /// T, of Y₂ alone, as the paper has it.
     Scale,
-    /// T′, of Y₁ and Y₂: all of the motion.
+    /// T′, of Y₁ and Y₂, which stays powerful where vibration scatters Y₁.
     Motion,
 }
 

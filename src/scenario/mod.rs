@@ -59,8 +59,7 @@ pub struct Detector {
     #[serde(rename = "rule")]
     #[schemars(extend("default" = "product"))]
     pub method: Method,
-    /// Whose exceedances of the range of X are counted beside W. `scale`: T, of Y₂, as the paper has it; `motion`: T′, of
-    /// Y₁ and Y₂, which stays powerful where vibration scatters Y₁.
+    /// Whose exceedances of the range of X are counted beside W.
     pub exceedances: Exceedances,
     /// The sign of Δ that is looked for.
     pub alternative: Alternative,
