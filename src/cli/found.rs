@@ -71,11 +71,12 @@ fn rest(detection: &Detection) -> String {
     if let Some(reference) = &knowledge.reference {
         text += &learnt(reference, design.block);
     }
+    let alpha = design.settings.detector.alpha;
     text += &format!(
-        "decisions: {} blocks, alpha {}; {}\n\n",
+        "decisions: {} blocks, alpha {alpha}; {}\n{}\n",
         design.samples,
-        design.settings.detector.alpha,
-        at_rest(&detection.at_rest)
+        at_rest(&detection.at_rest),
+        ranks(&detection.at_rest, alpha),
     );
     text
 }
@@ -105,6 +106,22 @@ fn at_rest(at_rest: &AtRest) -> String {
     }
     let percent = 100.0 * alarms as f64 / decisions as f64;
     format!("false alarms at rest: {alarms} of {decisions} ({percent:.2} %)")
+}
+
+/// How often ranks alarmed at rest, and how often they may.
+fn ranks(at_rest: &AtRest, alpha: f64) -> String {
+    let AtRest {
+        ranked,
+        rank_alarms,
+        ..
+    } = at_rest;
+    match ranked {
+        0 => String::new(),
+        _ => format!(
+            "ranks: alarms at rest: {rank_alarms} in {ranked} blocks, where {:.1} are promised\n",
+            alpha * *ranked as f64
+        ),
+    }
 }
 
 fn trips(report: &DetectReport) -> String {

@@ -1,11 +1,12 @@
 //! What `detect` and `monitor` share: how the monitor is set up.
 
 use super::Failure;
+use super::threshold::{Choice, one_of};
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use liftsim::detection::{MonitorOptions, SLOW};
 use liftsim::explain::STRONGEST;
-use liftsim::monitor::{MOST_ORDER, SavedState, Settings};
+use liftsim::monitor::{DecisionRule, MOST_ORDER, SavedState, Settings};
 use liftsim::whiten::Order;
 use serde::Serialize;
 use std::fmt::Display;
@@ -39,8 +40,11 @@ enum Lift {
 /// The settings that have a flag, named as the ends of their keys.
 #[derive(Debug, Args, Serialize)]
 struct SettingFlags {
+    #[arg(long, value_name = "RULE", conflicts_with = "state", value_parser = one_of(&RULES))]
+    #[arg(help = help("What must see a motion before it is told", |usual| usual.detector.rule))]
+    rule: Option<DecisionRule>,
     #[arg(long, value_name = "A", conflicts_with = "state")]
-    #[arg(help = help("The level of each decision", |usual| usual.detector.alpha))]
+    #[arg(help = help("The level of each decision; of ranks, false alarms per block", |usual| usual.detector.alpha))]
     alpha: Option<f64>,
     #[arg(long, value_name = "M", conflicts_with = "state", value_parser = order)]
     #[arg(help = help(
@@ -55,6 +59,19 @@ struct SettingFlags {
     #[arg(help = help("The speed of the slowest motion, m/s", |usual| usual.monitor.least_speed))]
     least_speed: Option<f64>,
 }
+
+static RULES: [Choice<DecisionRule>; 2] = [
+    (
+        "sequential",
+        DecisionRule::Sequential,
+        "CUSUMs of sequential ranks",
+    ),
+    (
+        "three-sample",
+        DecisionRule::ThreeSample,
+        "The three-sample rule on (W, T)",
+    ),
+];
 
 /// How a record begins.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]

@@ -8,7 +8,7 @@
 use super::rests::Rests;
 use crate::detect::Pooled;
 use crate::explain::{Explanation, Pulse};
-use crate::monitor::{Decider, Decision, Design, Reference, Verdict};
+use crate::monitor::{Decider, Decision, Design, Ranked, Reference, Verdict};
 use crate::whiten;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -24,6 +24,10 @@ pub struct AtRest {
     pub decisions: u64,
     /// The number of decisions for motion.
     pub false_alarms: u64,
+    /// Blocks that were ranked, if the rule is `sequential`, each rest among its own,
+    pub ranked: u64,
+    /// and the alarms that they brought.
+    pub rank_alarms: u64,
 }
 
 /// A record whitened, ready for decisions.
@@ -127,7 +131,7 @@ impl<'a> Decisions<'a> {
         let (shift, gap, scale) = (samples.shift(), samples.gap(), samples.scale());
         let within = |rest: Range<usize>| {
             let mut decider = Decider::new(self.design);
-            let mut found = AtRest::default();
+            let mut found = self.ranks(&self.whitened[rest.clone()]);
             for end in rest.start + shift + gap + scale..=rest.end {
                 let from = end - scale - gap - shift;
                 let verdict = self.verdict(&mut decider, from..from + shift, end - scale..end);
@@ -141,7 +145,28 @@ impl<'a> Decisions<'a> {
         found.reduce(AtRest::default, |a, b| AtRest {
             decisions: a.decisions + b.decisions,
             false_alarms: a.false_alarms + b.false_alarms,
+            ranked: a.ranked + b.ranked,
+            rank_alarms: a.rank_alarms + b.rank_alarms,
         })
+    }
+
+    /// The alarms of ranks in a rest, which begin with as many of its blocks as a monitor learns from.
+    fn ranks(&self, rest: &[f64]) -> AtRest {
+        let learnt_from = self.design.settings.learnt_from();
+        let Some(ranks) = (self.design.ranks.as_ref()).filter(|_| rest.len() > learnt_from) else {
+            return AtRest::default();
+        };
+        let (reference, monitored) = rest.split_at(learnt_from);
+        let mut ranked = Ranked::new(ranks.clone(), reference);
+        let alarms = monitored
+            .iter()
+            .zip(0..)
+            .filter(|(block, number)| ranked.step(**block, *number, reference).is_some());
+        AtRest {
+            rank_alarms: alarms.count() as u64,
+            ranked: monitored.len() as u64,
+            ..AtRest::default()
+        }
     }
 
     /// Whether all uniform motions, from and to these times in s, scatter more than rest, two of them at least.

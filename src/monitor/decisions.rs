@@ -2,9 +2,11 @@
 
 use super::decide::{Decider, Verdict, Windows};
 use super::design::Design;
-use super::event::Decision;
+use super::event::{Decided, Decision, Direction, RankDecision};
 use super::history::History;
-use super::reference::Reference;
+use super::ranked::Ranked;
+use super::reference::{MOST_RANKED, Reference};
+use crate::detect::sequential::Side;
 use crate::explain::Block;
 use std::ops::Range;
 
@@ -28,35 +30,51 @@ pub struct Observation {
     pub moves: Option<bool>,
 }
 
+/// What decides.
+#[derive(Clone, Debug)]
+enum Rule {
+    /// With the decision at the newest block, and its windows.
+    ThreeSample(Decider, Option<(Windows, Verdict)>),
+    /// With time, s, and side of the latest alarm.
+    Sequential(Ranked, Option<(f64, Side)>),
+}
+
 /// All of them.
 #[derive(Clone, Debug)]
 pub(super) struct Decisions {
     pub design: Design,
     pub reference: Option<Reference>,
     history: History,
-    decider: Decider,
-    /// The decision at the newest block, and its windows.
-    latest: Option<(Windows, Verdict)>,
+    rule: Rule,
     /// The last time that the decision was H₁*, or could not be made, s.
     moved: f64,
     /// The mean square of whitened blocks, in that of the reference.
     strength: f64,
     /// The first block that the next reference may be learnt from.
     learns_from: u64,
+    /// Where ranks decide, the next reference is learnt when this block has been seen: when the rest is twice as long.
+    due: u64,
 }
 
 impl Decisions {
     pub fn new(design: Design, reference: Option<Reference>) -> Self {
         let samples = &design.samples;
-        let learnt = design.settings.whitening.training + samples.reference() + samples.shift();
+        let most = design.ranks.as_ref().map_or(0, |_| MOST_RANKED);
+        let learnt = most.max(design.settings.learnt_from()) + samples.shift();
         let looked_back = 4 * samples.span() + (LONGEST_BRAKING / design.block) as usize;
         Self {
             history: History::new(learnt.max(looked_back)),
-            decider: Decider::new(&design),
-            latest: None,
+            rule: match &design.ranks {
+                None => Rule::ThreeSample(Decider::new(&design), None),
+                Some(ranks) => {
+                    let ranked = reference.as_ref().map_or(&[][..], |it| &it.ranked);
+                    Rule::Sequential(Ranked::new(ranks.clone(), ranked), None)
+                }
+            },
             moved: f64::NEG_INFINITY,
             strength: CALM.2,
             learns_from: 0,
+            due: 0,
             reference,
             design,
         }
@@ -65,9 +83,7 @@ impl Decisions {
     /// Decides at a new block; `None` without a reference.
     pub fn step(&mut self, block: Block) -> Option<Observation> {
         self.history.push(block, self.reference.as_ref());
-        self.latest = Windows::forwards(&self.design, self.history.end())
-            .and_then(|windows| Some((windows.clone(), self.verdict(&windows)?)));
-        let moves = self.latest.as_ref().map(|(_, verdict)| verdict.moves);
+        let moves = self.decide();
         if moves != Some(false) {
             self.moved = block.to;
         }
@@ -85,9 +101,26 @@ impl Decisions {
         })
     }
 
-    fn verdict(&mut self, windows: &Windows) -> Option<Verdict> {
+    /// Whether the newest block brings H₁*; `None` without a reference, or with too few blocks.
+    fn decide(&mut self) -> Option<bool> {
+        let (design, history) = (&self.design, &self.history);
         let reference = self.reference.as_ref()?;
-        (self.decider).decide(&self.design, reference, &self.history, windows)
+        match &mut self.rule {
+            Rule::ThreeSample(decider, latest) => {
+                let windows = Windows::forwards(design, history.end());
+                *latest = windows.and_then(|windows| {
+                    let verdict = decider.decide(design, reference, history, &windows)?;
+                    Some((windows, verdict))
+                });
+                latest.as_ref().map(|(_, verdict)| verdict.moves)
+            }
+            Rule::Sequential(ranked, latest) => {
+                let (block, whitened) = history.newest();
+                let side = ranked.step(whitened, history.end(), &reference.ranked);
+                *latest = side.map(|side| (block.to, side)).or(*latest);
+                Some(side.is_some())
+            }
+        }
     }
 
     /// Whether the latest blocks look like rest.
@@ -100,18 +133,40 @@ impl Decisions {
         self.moved >= start
     }
 
-    /// The decision at the newest block.
-    pub fn at_start(&self) -> Option<Decision> {
-        let (windows, verdict) = self.latest.as_ref()?;
-        self.decision(windows, verdict)
+    /// The decision at the newest block, or the latest alarm of ranks.
+    pub fn at_start(&self) -> Option<Decided> {
+        match &self.rule {
+            Rule::ThreeSample(_, latest) => {
+                let (windows, verdict) = latest.as_ref()?;
+                self.decision(windows, verdict).map(Decided::ThreeSample)
+            }
+            Rule::Sequential(_, latest) => {
+                let reference = self.reference.as_ref()?;
+                let (alarmed, side) = (*latest)?;
+                Some(Decided::Sequential(RankDecision {
+                    alarmed,
+                    side: match side {
+                        Side::Down => Direction::Down,
+                        _ => Direction::Up,
+                    },
+                    alpha: self.design.settings.detector.alpha,
+                    ranked: reference.ranked.len(),
+                    reference: reference.span,
+                }))
+            }
+        }
     }
 
-    /// The decision on a braking, s.
-    pub fn at_stop(&mut self, (from, to): (f64, f64)) -> Option<Decision> {
+    /// The decision on a braking, s; ranks only look ahead.
+    pub fn at_stop(&mut self, (from, to): (f64, f64)) -> Option<Decided> {
+        let Rule::ThreeSample(decider, _) = &mut self.rule else {
+            return None;
+        };
         let braking = self.history.at(from)..self.history.at(to);
         let windows = Windows::backwards(&self.design, braking)?;
-        let verdict = self.verdict(&windows)?;
-        self.decision(&windows, &verdict)
+        let reference = self.reference.as_ref()?;
+        let verdict = decider.decide(&self.design, reference, &self.history, &windows)?;
+        self.decision(&windows, &verdict).map(Decided::ThreeSample)
     }
 
     fn decision(&self, windows: &Windows, verdict: &Verdict) -> Option<Decision> {
@@ -129,35 +184,64 @@ impl Decisions {
     /// Forgets the blocks, not the reference.
     pub fn forget(&mut self) {
         self.history.clear();
-        self.latest = None;
+        match &mut self.rule {
+            Rule::ThreeSample(_, latest) => *latest = None,
+            Rule::Sequential(ranked, latest) => {
+                *latest = None;
+                (self.reference.iter()).for_each(|reference| ranked.begin(&reference.ranked));
+            }
+        }
         self.moved = f64::NEG_INFINITY;
-        self.learns_from = 0;
+        (self.learns_from, self.due) = (0, 0);
     }
 
     /// The newest block is none to learn from, nor are those before.
     pub fn learn_no_earlier(&mut self) {
-        self.learns_from = self.history.end();
+        (self.learns_from, self.due) = (self.history.end(), 0);
     }
 
     /// Learns the filter and X again from the latest blocks, if the cage has stood quietly for long enough since a
     /// time, s.
     pub fn learn(&mut self, since: f64) {
-        self.learns_from = self.learns_from.max(self.history.at(since));
-        let samples = &self.design.samples;
-        let needed = (self.design.settings.whitening.training + samples.reference()) as u64;
+        if self.history.at(since) > self.learns_from {
+            (self.learns_from, self.due) = (self.history.at(since), 0);
+        }
+        let least = self.design.settings.learnt_from() as u64;
         // Leave out the newest blocks: they may belong to a start that is not seen yet.
-        let to = self.history.end().saturating_sub(samples.shift() as u64);
-        if to < self.learns_from + needed {
+        let to = (self.history.end()).saturating_sub(self.design.samples.shift() as u64);
+        if to < self.due.max(self.learns_from + least) {
             return;
         }
-        let Some(record) = self.history.blocks(to - needed..to) else {
+        let most = match self.rule {
+            Rule::ThreeSample(..) => least,
+            Rule::Sequential(..) => least.max(MOST_RANKED as u64),
+        };
+        let from = self.learns_from.max(to.saturating_sub(most));
+        let Some(record) = self.history.blocks(from..to) else {
             return;
         };
         let span = (record[0].from, record[record.len() - 1].to);
         let record: Vec<f64> = record.iter().map(|block| block.mean).collect();
         let learnt = Reference::from_rest(&record, span, &self.design);
         self.history.whiten(&learnt);
+        self.due = to + (to - from);
+        self.begin(to, &learnt);
         self.reference = Some(learnt);
-        self.learns_from = self.history.end();
+    }
+
+    /// Begins with a new reference, which was learnt from blocks before `to`.
+    fn begin(&mut self, to: u64, reference: &Reference) {
+        let Rule::Sequential(ranked, latest) = &mut self.rule else {
+            self.learns_from = self.history.end();
+            return;
+        };
+        ranked.begin(&reference.ranked);
+        for number in to..self.history.end() {
+            let (block, whitened) = self.history.get(number);
+            if let Some(side) = ranked.step(whitened, number + 1, &reference.ranked) {
+                *latest = Some((block.to, side));
+                self.moved = self.moved.max(block.to);
+            }
+        }
     }
 }

@@ -1,8 +1,12 @@
 //! Settings at one sampling rate: blocks of whole samples, the region of the decisions.
 
-use super::settings::{LONGEST_BLOCK, Settings, SettingsError, WHY_SHORT};
+use super::settings::{DecisionRule, LONGEST_BLOCK, Settings, SettingsError, WHY_SHORT};
+use crate::detect::sequential::{Chart, Detector, Score, Side};
 use crate::detect::{Alternative, Exceedances, NullLaws, Region, Rule, Samples};
 use crate::rule::{self, OutOfRange};
+
+/// k of the sequential ranks.
+const ALLOWANCE: f64 = 0.8;
 
 /// Settings at one sampling rate.
 #[derive(Clone, Debug)]
@@ -13,6 +17,8 @@ pub struct Design {
     pub samples: Samples,
     /// ϑ, for Δ of either sign.
     pub region: Region,
+    /// The detector of sequential ranks, if it decides.
+    pub ranks: Option<Detector>,
     /// Seconds from one block to the next.
     pub block: f64,
     /// Samples per second.
@@ -62,10 +68,29 @@ impl Settings {
         let laws = NullLaws::new(Exceedances::Scale, Alternative::TwoSided, &samples)?;
         Ok(Design {
             region: laws.region(&Rule::Product, self.detector.alpha)?,
+            ranks: match self.detector.rule {
+                DecisionRule::ThreeSample => None,
+                DecisionRule::Sequential => Some(self.ranks()?),
+            },
             block: decimation as f64 / rate,
             settings: self.clone(),
             samples,
             rate,
         })
+    }
+
+    /// The detector that alarms at most once in 1/α blocks of rest, on average.
+    fn ranks(&self) -> Result<Detector, SettingsError> {
+        let sides = [Side::Up, Side::Down];
+        let chart = Chart::new(Score::Normal, &sides, ALLOWANCE, self.learnt_from())?;
+        let threshold = chart.threshold(1.0 / self.detector.alpha);
+        let keys = ["detector.alpha", "whitening.training"];
+        let threshold = threshold.map_err(|error| error.per_hour(keys, 1.0))?;
+        Ok(chart.detector(threshold))
+    }
+
+    /// The fewest blocks of rest that a reference is learnt from.
+    pub(crate) fn learnt_from(&self) -> usize {
+        self.whitening.training + self.samples.reference
     }
 }

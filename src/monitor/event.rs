@@ -51,6 +51,31 @@ pub struct Decision {
     pub scale: Span,
 }
 
+/// An alarm of sequential ranks.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RankDecision {
+    /// When S reached its threshold, s.
+    #[serde(serialize_with = "rounded")]
+    pub alarmed: f64,
+    /// The sign of Δ.
+    pub side: Direction,
+    /// At most so many false alarms per block.
+    pub alpha: f64,
+    /// The number of blocks that the ranks begin with,
+    pub ranked: usize,
+    /// and where they are from; `None` if that was all rest of a record.
+    #[serde(serialize_with = "rounded")]
+    pub reference: Option<Span>,
+}
+
+/// The decision of either rule.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Decided {
+    ThreeSample(Decision),
+    Sequential(RankDecision),
+}
+
 /// An event reported by the monitor.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Event {
@@ -93,7 +118,7 @@ pub enum Kind {
         reason: Option<Doubt>,
         /// The decision behind the change, if there was one.
         #[serde(skip_serializing_if = "Option::is_none")]
-        decision: Option<Decision>,
+        decision: Option<Decided>,
     },
 }
 

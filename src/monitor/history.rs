@@ -87,10 +87,15 @@ impl History {
         self.first + self.blocks.partition_point(|block| block.to <= time) as u64
     }
 
+    /// A block that is held, and whitened.
+    pub fn get(&self, number: u64) -> (Block, f64) {
+        let place = (number - self.first) as usize;
+        (self.blocks[place], self.whitened[place])
+    }
+
     /// The last block, and whitened. There must be one.
     pub fn newest(&self) -> (Block, f64) {
-        let last = self.blocks.len() - 1;
-        (self.blocks[last], self.whitened[last])
+        self.get(self.end() - 1)
     }
 
     /// Time of the first sample of a block, or of the oldest block held if that one is gone.

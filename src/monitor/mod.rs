@@ -49,6 +49,7 @@ mod hypothesis;
 mod live;
 mod noise;
 mod prices;
+mod ranked;
 mod recent;
 mod reference;
 mod saved_state;
@@ -61,11 +62,15 @@ mod track;
 
 pub use decisions::Observation;
 pub use design::Design;
-pub use event::{Alarm, Decision, Direction, Doubt, Event, Fault, Kind, Span, State};
+pub use event::{
+    Alarm, Decided, Decision, Direction, Doubt, Event, Fault, Kind, RankDecision, Span, State,
+};
 pub use reference::Reference;
 pub use saved_state::{SavedState, SavedStateError};
 pub use sensor::SET_BACK;
-pub use settings::{Level, Limits, MOST_ORDER, Settings, SettingsError, Sizes, Whitening};
+pub use settings::{
+    DecisionRule, Level, Limits, MOST_ORDER, Settings, SettingsError, Sizes, Whitening,
+};
 
 use crate::explain::{Block, Blocks, Prior};
 use crate::recording::Sample;
@@ -75,6 +80,7 @@ use drum::Drum;
 use hypothesis::Hypothesis;
 use live::{Belief, Live};
 use prices::Known;
+pub(crate) use ranked::Ranked;
 use sensor::{Health, Sensor};
 use serde::{Deserialize, Serialize};
 pub(crate) use settings::LEAST_TRAINING;

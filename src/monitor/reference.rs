@@ -4,6 +4,9 @@ use super::design::Design;
 use crate::whiten::{self, Chosen, Fit, LjungBox, Order};
 use serde::{Deserialize, Serialize};
 
+/// The most blocks that ranks begin with: 38 s of 0.05 s each.
+pub(super) const MOST_RANKED: usize = 768;
+
 /// A reference learnt from a record of rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -23,6 +26,9 @@ pub struct Reference {
     pub span: Option<(f64, f64)>,
     /// X: whitened blocks, N of them.
     pub sample: Vec<f64>,
+    /// The whitened blocks that sequential ranks begin with, where they decide.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ranked: Vec<f64>,
 }
 
 impl Reference {
@@ -35,7 +41,15 @@ impl Reference {
         let filter = Filter::fit(&[&centred[..training.len()]], design);
         let mut sample = vec![0.0; n];
         whiten::whiten(&filter.coefficients, &centred, training.len(), &mut sample);
-        filter.into_reference(level, Some(span), training.len(), sample)
+        let ranked = match design.ranks {
+            Some(_) => [&filter.whitened[..], &sample].concat(),
+            None => Vec::new(),
+        };
+        let reference = filter.into_reference(level, Some(span), training.len(), sample);
+        Self {
+            ranked,
+            ..reference
+        }
     }
 
     /// Learns from all stretches of rest in a record. X is taken at even distances from all of them, so that it
@@ -47,11 +61,23 @@ impl Reference {
         let centred: Vec<Vec<f64>> = stretches.iter().map(centre).collect();
         let slices: Vec<&[f64]> = centred.iter().map(Vec::as_slice).collect();
         let filter = Filter::fit(&slices, design);
-        let n = design.samples.reference();
-        let sample = (0..n).map(|i| filter.whitened[(2 * i + 1) * filter.whitened.len() / (2 * n)]);
-        let sample = sample.collect();
-        filter.into_reference(level, None, blocks, sample)
+        let sample = spread(&filter.whitened, design.samples.reference());
+        let ranked = match design.ranks {
+            Some(_) => spread(&filter.whitened, MOST_RANKED.min(filter.whitened.len())),
+            None => Vec::new(),
+        };
+        let reference = filter.into_reference(level, None, blocks, sample);
+        Self {
+            ranked,
+            ..reference
+        }
     }
+}
+
+/// `n` blocks at even distances.
+fn spread(blocks: &[f64], n: usize) -> Vec<f64> {
+    let each = (0..n).map(|i| blocks[(2 * i + 1) * blocks.len() / (2 * n)]);
+    each.collect()
 }
 
 /// A filter and the record it was fitted to, whitened.
@@ -104,6 +130,7 @@ impl Filter {
             training,
             span,
             sample,
+            ranked: Vec::new(),
         }
     }
 }

@@ -1,11 +1,13 @@
 //! The saved state of a monitor, as written by `detect --save-state`.
 
-use super::{Design, Knowledge, MOST_ORDER, Settings, SettingsError};
+use super::reference::MOST_RANKED;
+use super::{DecisionRule, Design, Knowledge, MOST_ORDER, Settings, SettingsError};
 use crate::explain::STRONGEST;
 use crate::recording::Sample;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::{self, Read};
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 /// The largest size of a state, bytes.
@@ -50,6 +52,11 @@ enum Problem {
     Filter(Vec<f64>),
     #[error("X must have {expected} finite blocks as settings.samples.reference says, got {got}")]
     Sample { expected: usize, got: usize },
+    #[error("ranked must have {} to {} blocks under this rule, got {got}", .needed.start(), .needed.end())]
+    Ranked {
+        needed: RangeInclusive<usize>,
+        got: usize,
+    },
 }
 
 impl SavedState {
@@ -93,6 +100,10 @@ impl SavedState {
             if got != expected {
                 return Err(Problem::Sample { expected, got });
             }
+            let (needed, got) = (saved.ranked(), reference.ranked.len());
+            if !needed.contains(&got) {
+                return Err(Problem::Ranked { needed, got });
+            }
             if reference.level.abs() > STRONGEST {
                 return Err(Problem::Level(reference.level));
             }
@@ -101,6 +112,14 @@ impl SavedState {
             }
         }
         Ok(saved)
+    }
+
+    /// With how many blocks the ranks may begin.
+    fn ranked(&self) -> RangeInclusive<usize> {
+        match self.settings.detector.rule {
+            DecisionRule::ThreeSample => 0..=0,
+            DecisionRule::Sequential => 1..=MOST_RANKED.max(self.settings.learnt_from()),
+        }
     }
 
     /// The knowledge of a record that begins with this sample.
@@ -151,6 +170,7 @@ mod tests {
             training: settings.whitening.training,
             span: None,
             sample: vec![0.01; settings.samples.reference],
+            ranked: Vec::new(),
         };
         SavedState {
             settings,

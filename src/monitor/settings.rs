@@ -13,6 +13,7 @@ pub use crate::whiten::MOST_ORDER;
 use crate::whiten::Order;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// The fewest blocks that a filter is fitted to; they still allow a choice among a few orders.
 pub(crate) const LEAST_TRAINING: usize = 24;
@@ -95,9 +96,11 @@ settings! {
         /// Blocks of rest before X, when the filter is learnt anew.
         training: usize = 72, TRAINING;
     }
-    /// The rule `product`, two-sided.
+    /// What decides between rest and motion, for Δ of either sign.
     detector: Level {
-        /// The level of each decision.
+        /// The rule: "three-sample" compares the latest blocks with X, "sequential" sums up ranks.
+        rule: DecisionRule = DecisionRule::Sequential, Any;
+        /// The level of each decision; of `sequential`, the rate of false alarms per block.
         alpha: f64 = 0.001, Rule::Level;
     }
     /// What a motion is.
@@ -152,6 +155,32 @@ impl Settings {
             Ok(()) => Ok(changed),
             Err(error) => Err(error.called(|path| called(last_word(path)))),
         }
+    }
+}
+
+/// What decides at every block.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum DecisionRule {
+    /// `product` on (W, T).
+    ThreeSample,
+    /// CUSUMs of sequential ranks, up and down.
+    #[default]
+    Sequential,
+}
+
+impl fmt::Display for DecisionRule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(f)
+    }
+}
+
+/// The rule of what is right by its type.
+struct Any;
+
+impl Any {
+    fn check<T>(&self, _: &str, _: &T) -> Result<(), OutOfRange> {
+        Ok(())
     }
 }
 

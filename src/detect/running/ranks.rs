@@ -1,28 +1,30 @@
 //! CUSUMs of the normal scores of sequential ranks, up and down: see [`sequential`](crate::detect::sequential).
 
 use super::blocks::{GAP, REFERENCE, Score};
-use crate::detect::sequential::{Cusum, Lattice, Ranks, STEPS, Score as Of, Side, units};
+use crate::detect::sequential::{self, Chart, Detector, Side, Step, units};
 use crate::rng::{Generator, unit};
 
-/// k, in steps: 0.8.
-const ALLOWANCE: i32 = 4 * STEPS / 5;
+/// k.
+const ALLOWANCE: f64 = 0.8;
 
-/// The ranks of all blocks so far.
+/// A detector whose threshold is never reached.
 #[derive(Clone, Debug)]
 pub struct SequentialRanks {
-    ranks: Ranks,
-    lattice: Lattice,
-    sums: [(Side, Cusum); 2],
+    detector: Detector,
     ties: Generator,
 }
 
 impl SequentialRanks {
     pub fn new(ties: Generator) -> Self {
-        let cusum = Cusum::new(ALLOWANCE, i32::MAX);
+        let sides = [Side::Up, Side::Down];
+        let chart = Chart::new(
+            sequential::Score::Normal,
+            &sides,
+            ALLOWANCE,
+            REFERENCE + GAP,
+        );
         Self {
-            ranks: Ranks::default(),
-            lattice: Lattice::new(Of::Normal),
-            sums: [Side::Up, Side::Down].map(|side| (side, cusum)),
+            detector: chart.expect("k is on the lattice").detector(i32::MAX),
             ties,
         }
     }
@@ -30,14 +32,9 @@ impl SequentialRanks {
 
 impl Score for SequentialRanks {
     fn step(&mut self, x: f64) -> f64 {
-        let u = self.ranks.step(x, 1.0 - unit(&mut self.ties));
-        if self.ranks.seen() <= REFERENCE + GAP {
-            return f64::NEG_INFINITY;
+        match self.detector.step(x, 1.0 - unit(&mut self.ties)) {
+            Step::Reference => f64::NEG_INFINITY,
+            _ => units(self.detector.sums().map(|(_, sum)| sum).max().unwrap_or(0)),
         }
-        let each = self.sums.iter_mut().map(|(side, cusum)| {
-            cusum.step(self.lattice.score(side.of(u)));
-            cusum.sum()
-        });
-        units(each.max().unwrap_or(0))
     }
 }

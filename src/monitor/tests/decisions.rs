@@ -33,7 +33,7 @@ fn decisions_are_those_of_a_recount() {
     let mut counted = 0;
     for event in events {
         let Kind::Change {
-            decision: Some(decision),
+            decision: Some(Decided::ThreeSample(decision)),
             ..
         } = event.kind
         else {

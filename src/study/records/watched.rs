@@ -3,7 +3,7 @@
 use crate::lift::{Class, Record};
 use crate::monitor::{Alarm, Design, Event, Knowledge, Monitor, State};
 use crate::recording::Sample;
-use crate::study::ride::account::{Account, Truth};
+use crate::study::ride::account::{Account, Seen, Truth};
 
 /// What a monitor said of a record, one entry for each event that it was given or that it reported.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -66,7 +66,8 @@ impl Watched {
             journeys: record.journeys.clone(),
             to: record.times.last().copied().unwrap_or_default(),
         };
-        let account = Account::new(&truth, &events, tolerance);
+        let seen = Seen::of(events);
+        let account = Account::new(&truth, &seen, tolerance);
         let mut watched = Self {
             rest_in_motion: danger.milliseconds(),
             false_rides: account.false_motions,
@@ -79,7 +80,7 @@ impl Watched {
             watched.stop_delays.push(tenths(trip.stop_delay));
         }
         let patience = design.settings.monitor.longest_slack + tolerance;
-        watched.judge_slack(record, &events, patience);
+        watched.judge_slack(record, &seen.events, patience);
         watched
     }
 

@@ -11,6 +11,16 @@ pub struct Truth {
     pub to: f64,
 }
 
+/// What a monitor showed.
+#[derive(Default)]
+pub struct Seen {
+    pub events: Vec<Event>,
+    /// The end of each block at which the rule decided for motion, s.
+    pub decided: Vec<f64>,
+    /// For how long a motion is in the windows of a decision, s: what lies nearer belongs together.
+    pub span: f64,
+}
+
 /// The result of a trial, or of several.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Account {
@@ -19,6 +29,8 @@ pub struct Account {
     pub false_motions: u64,
     /// Jam alarms without a jam.
     pub false_alarms: u64,
+    /// Alarms of the rule while the cage stood.
+    pub rule_alarms: u64,
     /// How long the cage stood, s, and how long of that the monitor said `rest`.
     pub stood: f64,
     pub known: f64,
@@ -39,6 +51,8 @@ pub struct Trip {
     pub start_delay: f64,
     /// Time from the stop to its report.
     pub stop_delay: f64,
+    /// Time from the start to the rule's first alarm in the trip.
+    pub rule_delay: f64,
     /// Time from the jam to its alarm, if the trip jammed.
     pub alarm_delay: Option<f64>,
 }
@@ -51,7 +65,8 @@ struct Sighting {
 }
 
 impl Account {
-    pub fn new(truth: &Truth, events: &[Event], tolerance: f64) -> Self {
+    pub fn new(truth: &Truth, seen: &Seen, tolerance: f64) -> Self {
+        let events = &seen.events;
         let sightings = sightings(events);
         let alarms: Vec<&Event> = (events.iter())
             .filter(|event| event.kind.alarm() == Some(Alarm::Jam))
@@ -71,8 +86,12 @@ impl Account {
         let second = journeys.get(1).map_or(truth.to, |second| second.start);
         Self {
             trips: (journeys.iter())
-                .map(|journey| Trip::new(journey, &sightings, &alarms, tolerance))
+                .map(|journey| Trip {
+                    rule_delay: seen.delay(journey),
+                    ..Trip::new(journey, &sightings, &alarms, tolerance)
+                })
                 .collect(),
+            rule_alarms: truth.rests().map(|rest| seen.alarms(rest)).sum(),
             false_motions: (sightings.len() - sightings.iter().filter(belongs).count()) as u64,
             false_alarms: (alarms.len() - alarms.iter().filter(is_of_a_jam).count()) as u64,
             stood: truth.rests().map(|(from, to)| to - from).sum(),
@@ -91,6 +110,7 @@ impl Account {
         self.trips.extend(other.trips);
         self.false_motions += other.false_motions;
         self.false_alarms += other.false_alarms;
+        self.rule_alarms += other.rule_alarms;
         self.stood += other.stood;
         self.known += other.known;
         self.misled |= other.misled;
@@ -121,6 +141,7 @@ impl Trip {
             start_delay: start.map_or(f64::INFINITY, |sighting| sighting.start.1 - journey.start),
             stop_delay: sightings.iter().find_map(stop).unwrap_or(f64::INFINITY),
             alarm_delay: journey.jam().map(alarm),
+            rule_delay: f64::INFINITY,
         }
     }
 }
@@ -131,6 +152,39 @@ impl Journey {
     fn is_told_by(&self, alarm: &Event, tolerance: f64) -> bool {
         let told = |jam| jam <= alarm.reported && alarm.time <= self.stop + tolerance;
         self.jam().is_some_and(told)
+    }
+}
+
+impl Seen {
+    /// By events alone.
+    pub fn of(events: Vec<Event>) -> Self {
+        Self {
+            events,
+            ..Self::default()
+        }
+    }
+
+    /// From the start of a trip to the first decision for motion in it, s.
+    fn delay(&self, journey: &Journey) -> f64 {
+        let first = self.decided.partition_point(|time| *time < journey.start);
+        let within = self
+            .decided
+            .get(first)
+            .filter(|time| **time <= journey.stop);
+        within.map_or(f64::INFINITY, |time| time - journey.start)
+    }
+
+    /// The decisions for motion in a rest, those that lie near each other as one, and without those that lie near the
+    /// motion before.
+    fn alarms(&self, (from, to): (f64, f64)) -> u64 {
+        let within = |time: &&f64| from + self.span < **time && **time <= to;
+        let mut last = f64::NEG_INFINITY;
+        let mut alarms = 0;
+        for time in self.decided.iter().filter(within) {
+            alarms += u64::from(time - last > self.span);
+            last = *time;
+        }
+        alarms
     }
 }
 

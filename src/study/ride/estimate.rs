@@ -16,12 +16,19 @@ pub(super) fn of(measure: Measure, sums: &RideSums, trials: u64, confidence: f64
         confidence,
     };
     match measure {
-        Measure::Rides => [all.trips(), all.rest(), vec![all.false_alarms()]].concat(),
+        Measure::Rides => [
+            all.trips(),
+            all.rest(),
+            vec![all.false_alarms()],
+            all.rule(),
+        ]
+        .concat(),
         Measure::Rest => {
             let disturbed = all.share("disturbed", sums.disturbed);
-            [all.rest(), vec![disturbed, all.false_alarms()]].concat()
+            let alarms = vec![disturbed, all.false_alarms(), all.rule_alarms()];
+            [all.rest(), alarms].concat()
         }
-        Measure::Tradeoff => [all.trips(), all.rest()].concat(),
+        Measure::Tradeoff => [all.trips(), all.rest(), all.rule()].concat(),
         Measure::Jam => {
             let alarmed = all.share("alarmed", sums.alarmed);
             let delays = all.delays("alarm_delay", &sums.alarm_delays);
@@ -77,6 +84,16 @@ impl All<'_> {
             high: 1.0 / rate.low,
             ..rate
         }
+    }
+
+    fn rule(&self) -> Vec<Estimate> {
+        let delays = self.delays("rule_delay", &self.sums.rule_delays);
+        [vec![self.rule_alarms()], delays].concat()
+    }
+
+    fn rule_alarms(&self) -> Estimate {
+        let hours = self.sums.stood.value() / HOUR;
+        self.rate("rule_alarms", self.sums.rule_alarms, hours, "hours")
     }
 
     fn false_alarms(&self) -> Estimate {

@@ -37,6 +37,7 @@ outcome_row! {
     length: f64 = point.of.keys.length.get();
     jam_within: f64 = point.of.keys.jam_within.get();
     tolerance: f64 = point.of.keys.tolerance.get();
+    rule: String = point.of.design.settings.detector.rule.to_string();
     alpha: f64 = point.of.design.settings.detector.alpha;
     /// The exact size of one decision.
     size: f64 = eight_digits(point.of.design.region.size());

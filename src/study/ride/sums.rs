@@ -25,6 +25,8 @@ pub(super) struct RideSums {
     pub knew: u64,
     pub false_motions: u64,
     pub false_alarms: u64,
+    /// Alarms of the rule at rest.
+    pub rule_alarms: u64,
     /// Total time for which the cage stood, s.
     pub stood: Fixed,
     /// Delay of the start of every trip, s.
@@ -32,6 +34,8 @@ pub(super) struct RideSums {
     pub stop_delays: Values,
     /// Delay of the alarm of every jam, s.
     pub alarm_delays: Values,
+    /// Delay of the rule in every trip, s.
+    pub rule_delays: Values,
 }
 
 impl RideSums {
@@ -46,24 +50,26 @@ impl RideSums {
         self.knew += u64::from(account.knew);
         self.false_motions += account.false_motions;
         self.false_alarms += account.false_alarms;
+        self.rule_alarms += account.rule_alarms;
         self.stood += Fixed::new(account.stood);
         for trip in &account.trips {
             self.start_delays.push(trip.start_delay);
             self.stop_delays.push(trip.stop_delay);
+            self.rule_delays.push(trip.rule_delay);
             trip.alarm_delay
                 .into_iter()
                 .for_each(|delay| self.alarm_delays.push(delay));
         }
     }
 
-    /// Six events, two counts without a limit, a time, and three lists of delays. A trip adds at most one
+    /// Six events, three counts without a limit, a time, and four lists of delays. A trip adds at most one
     /// delay to each list.
     pub fn shape(table: &Table) -> Shape {
         let trips = table.points.iter().map(|point| point.of.keys.trips).max();
         Shape {
-            most: [vec![Some(1); 6], vec![None; 2]].concat(),
+            most: [vec![Some(1); 6], vec![None; 3]].concat(),
             lengths: 1,
-            values: vec![trips.unwrap_or_default() as u64; 3],
+            values: vec![trips.unwrap_or_default() as u64; 4],
         }
     }
 
@@ -96,7 +102,7 @@ impl RideSums {
         &self,
         point: &RidePoint,
         trials: u64,
-    ) -> [(&'static str, u64, RangeInclusive<u64>); 9] {
+    ) -> [(&'static str, u64, RangeInclusive<u64>); 10] {
         let trips = if point.measure.rides() {
             point.keys.trips as u64
         } else {
@@ -109,9 +115,14 @@ impl RideSums {
         } else {
             0
         };
-        let delays = [&self.start_delays, &self.stop_delays, &self.alarm_delays];
-        let [starts, stops, alarms] = delays.map(|delays| delays.count(|_| true));
-        let [start, stop, alarm] = delays.map(|delays| delays.count(f64::is_finite));
+        let delays = [
+            &self.start_delays,
+            &self.stop_delays,
+            &self.alarm_delays,
+            &self.rule_delays,
+        ];
+        let [starts, stops, alarms, rules] = delays.map(|delays| delays.count(|_| true));
+        let [start, stop, alarm, _] = delays.map(|delays| delays.count(f64::is_finite));
         let is_none = |delay: f64| delay.is_nan() || delay == f64::NEG_INFINITY;
         let none = delays.iter().map(|delays| delays.count(is_none)).max();
         // A found ride has a finite delay for every start and stop. A ride without trips is always found.
@@ -127,6 +138,7 @@ impl RideSums {
             ("start_delays", starts, all..=all),
             ("stop_delays", stops, all..=all),
             ("alarm_delays", alarms, jams..=jams),
+            ("rule_delays", rules, all..=all),
             ("delays that are none", none.unwrap_or_default(), 0..=0),
             (
                 "found",
@@ -153,9 +165,15 @@ impl From<RideSums> for Sums {
                 sums.knew,
                 sums.false_motions,
                 sums.false_alarms,
+                sums.rule_alarms,
             ],
             lengths: vec![sums.stood],
-            values: vec![sums.start_delays, sums.stop_delays, sums.alarm_delays],
+            values: vec![
+                sums.start_delays,
+                sums.stop_delays,
+                sums.alarm_delays,
+                sums.rule_delays,
+            ],
         }
     }
 }
@@ -175,17 +193,19 @@ impl From<Sums> for RideSums {
             knew: counts[5],
             false_motions: counts[6],
             false_alarms: counts[7],
+            rule_alarms: counts[8],
             stood: sums.lengths[0],
             start_delays: next(),
             stop_delays: next(),
             alarm_delays: next(),
+            rule_delays: next(),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::account::Truth;
+    use super::super::account::{Seen, Truth};
     use super::*;
     use crate::monitor::{Alarm, Direction, Event, Kind, State};
     use crate::signal::Phase;
@@ -246,7 +266,8 @@ mod tests {
                 journeys: ride.journeys(),
                 to: ride.duration(),
             };
-            Account::new(&truth, &events(said, truth.to), point.keys.tolerance.get())
+            let seen = Seen::of(events(said, truth.to));
+            Account::new(&truth, &seen, point.keys.tolerance.get())
         };
         let mut account = Account::default();
         if point.measure.rides() {

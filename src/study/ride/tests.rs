@@ -1,6 +1,6 @@
 //! Tests of accounts on hand-made events, and of whole studies on several threads.
 
-use super::account::{Account, Truth};
+use super::account::{Account, Seen, Truth};
 use super::estimate::of;
 use super::measure::Measure;
 use super::sums::RideSums;
@@ -84,7 +84,7 @@ fn said() -> Vec<Event> {
 }
 
 fn account(events: &[Event]) -> Account {
-    Account::new(&truth(), events, 0.5)
+    Account::new(&truth(), &Seen::of(events.to_vec()), 0.5)
 }
 
 #[test]

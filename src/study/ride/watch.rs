@@ -1,10 +1,10 @@
 //! One trial: a ride and the monitor's reports on it.
 
-use super::account::{Account, Truth};
+use super::account::{Account, Seen, Truth};
 use super::measure::Measure;
 use super::point::RidePoint;
 use crate::lift::Ride;
-use crate::monitor::{Event, Knowledge, Monitor};
+use crate::monitor::{Knowledge, Monitor};
 use crate::recording::Sample;
 use crate::rng::{self, Stream};
 
@@ -63,17 +63,23 @@ impl Watch<'_> {
     /// Watches a ride from the time `from` on, s.
     fn watch(&self, ride: &Ride, part: Part, from: f64) -> Account {
         let mut monitor = Monitor::new(self.point.design.clone(), self.knowledge());
-        let mut events: Vec<Event> = Vec::new();
+        let design = &self.point.design;
+        let mut seen = Seen {
+            span: design.samples.span() as f64 / design.rate,
+            ..Seen::default()
+        };
         for sample in self.samples(ride, part) {
             if sample.time >= from {
-                events.extend_from_slice(monitor.step(sample, None));
+                seen.events.extend_from_slice(monitor.step(sample, None));
+                let decided = monitor.newest().filter(|newest| newest.moves == Some(true));
+                seen.decided.extend(decided.map(|newest| newest.times.1));
             }
         }
         let truth = Truth {
             journeys: ride.journeys(),
             to: ride.duration(),
         };
-        Account::new(&truth, &events, self.point.keys.tolerance.get())
+        Account::new(&truth, &seen, self.point.keys.tolerance.get())
     }
 
     fn samples(&self, ride: &Ride, part: Part) -> impl Iterator<Item = Sample> {

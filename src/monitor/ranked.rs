@@ -1,0 +1,42 @@
+//! Decisions by sequential ranks: the whitened blocks of the reference begin the ranks, and every block since is ranked
+//! among all before it.
+//!
+//! After an alarm, as after a new reference, everything begins again with the reference. The promised rate of false
+//! alarms is exact for the first alarm on each reference, if the whitened blocks of rest are exchangeable; see
+//! [`sequential`](crate::detect::sequential).
+
+use crate::detect::sequential::{Detector, Side, Step};
+use crate::rng::{Stream, unit};
+
+/// Ranks at work, with random numbers for ties.
+#[derive(Clone, Debug)]
+pub(crate) struct Ranked {
+    detector: Detector,
+    ties: Stream,
+}
+
+impl Ranked {
+    pub fn new(detector: Detector, reference: &[f64]) -> Self {
+        let mut ranked = Self {
+            detector,
+            ties: Stream::new(0, "ties", "monitor"),
+        };
+        ranked.begin(reference);
+        ranked
+    }
+
+    /// Begins again.
+    pub fn begin(&mut self, reference: &[f64]) {
+        self.detector.begin(reference);
+    }
+
+    /// Takes in a whitened block; the side that alarms, if one does. `number` chooses the key of ties.
+    pub fn step(&mut self, whitened: f64, number: u64, reference: &[f64]) -> Option<Side> {
+        let v = 1.0 - unit(&mut self.ties.at(number));
+        let Step::Alarm(side) = self.detector.step(whitened, v) else {
+            return None;
+        };
+        self.begin(reference);
+        Some(side)
+    }
+}
