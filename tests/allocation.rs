@@ -131,6 +131,9 @@ fn a_monitor_does_not_grow() {
     }
     println!("{events} events, {held_at:?} bytes held after 5 minutes and after 5.5 hours");
     assert!(events > 2000);
-    // The filter's order may differ from rest to rest.
-    assert!((held_at[1] - held_at[0]).abs() < 1024, "{held_at:?}");
+    // The filter's order may differ from rest to rest, and so may the blocks that are ranked: 768 of 8 bytes at most.
+    assert!(
+        (held_at[1] - held_at[0]).abs() < 1024 + 8 * 768,
+        "{held_at:?}"
+    );
 }

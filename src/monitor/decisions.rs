@@ -52,7 +52,7 @@ pub(super) struct Decisions {
     strength: f64,
     /// The first block that the next reference may be learnt from.
     learns_from: u64,
-    /// Where ranks decide, the next reference is learnt when this block has been seen: when the rest is twice as long.
+    /// Where ranks decide, the next reference is learnt when this block has been seen.
     due: u64,
 }
 
@@ -224,7 +224,7 @@ impl Decisions {
         let record: Vec<f64> = record.iter().map(|block| block.mean).collect();
         let learnt = Reference::from_rest(&record, span, &self.design);
         self.history.whiten(&learnt);
-        self.due = to + (to - from);
+        self.due = to + (to - from).min(2 * least);
         self.begin(to, &learnt);
         self.reference = Some(learnt);
     }

@@ -4,7 +4,8 @@
 //!
 //! # The flow
 //! samples → blocks → pulses of acceleration → hypotheses → state → [`Event`]s, and blocks → whitened blocks → a
-//! decision on (X, Y₁, Y₂) at every block. [`Monitor::step`] does all of it; reading a file is a loop over it.
+//! decision at every block, by sequential ranks or on (X, Y₁, Y₂). [`Monitor::step`] does all of it; reading a file is a
+//! loop over it.
 //!
 //! # What it says
 //! An accelerometer cannot tell a cage that stands from one that moves uniformly; it shows pulses, and a motion is
@@ -14,12 +15,11 @@
 //! moves; `slack` is raised unless all do.
 //!
 //! # Scope of the exact level
-//! Each single decision keeps its level α if the whitened blocks at rest are exchangeable. In a real lift they
-//! are only nearly so: people move, the filter is fitted, some colour is left. A monitor also makes twenty
-//! decisions a second, each sharing most of its blocks with the one before, while X stays the same for
-//! seconds. So α determines neither the number of wrong decisions nor that of false motions in an hour. The
-//! rate at rest can be counted (`liftsim detect` prints it), and the time between false motions is simulated
-//! (`configs/ride_*.toml`).
+//! Ranks alarm at most α times per block of rest, on average, if the whitened blocks are exchangeable. In a real lift they
+//! are only nearly so: people move, the filter is fitted, some colour is left. A single decision on three samples keeps its
+//! level α on the same condition, but neighbouring ones share most of their blocks, so that α does not determine how many
+//! times an hour they go wrong. Both can be counted at rest (`liftsim detect` prints it); the time between false motions is
+//! simulated (`configs/ride_*.toml`).
 //!
 //! ```
 //! use liftsim::monitor::{Knowledge, Monitor, Settings};
@@ -314,7 +314,7 @@ impl Monitor {
         }
     }
 
-    /// A motion that begins is told only once a decision was H₁* since its start, where decisions can be made.
+    /// A motion that begins is told only once a decision was for it since its start, where decisions can be made.
     fn confirmed(&self, statement: Statement, now: f64) -> Statement {
         let is_new = !self.said.state.moves();
         match statement.start {

@@ -8,6 +8,9 @@
 use crate::detect::sequential::{Detector, Side, Step};
 use crate::rng::{Stream, unit};
 
+/// Where no rest is learnt from for long, everything begins again after so many blocks, to bound the memory.
+const MOST: usize = 1 << 12;
+
 /// Ranks at work, with random numbers for ties.
 #[derive(Clone, Debug)]
 pub(crate) struct Ranked {
@@ -32,6 +35,9 @@ impl Ranked {
 
     /// Takes in a whitened block; the side that alarms, if one does. `number` chooses the key of ties.
     pub fn step(&mut self, whitened: f64, number: u64, reference: &[f64]) -> Option<Side> {
+        if self.detector.seen() >= reference.len() + MOST {
+            self.begin(reference);
+        }
         let v = 1.0 - unit(&mut self.ties.at(number));
         let Step::Alarm(side) = self.detector.step(whitened, v) else {
             return None;

@@ -170,7 +170,7 @@ mod tests {
             training: settings.whitening.training,
             span: None,
             sample: vec![0.01; settings.samples.reference],
-            ranked: Vec::new(),
+            ranked: vec![0.01; settings.learnt_from()],
         };
         SavedState {
             settings,
@@ -203,7 +203,7 @@ mod tests {
             let refused = SavedState::from_json("lift.json", &saved.to_json());
             refused.unwrap_err().to_string()
         };
-        let cases: [(&str, Change); 11] = [
+        let cases: [(&str, Change); 13] = [
             (
                 "settings.samples.gap: must lie in [0, 200] blocks, got 18446744073709551615",
                 &|saved, _| saved.settings.samples.gap = usize::MAX,
@@ -225,6 +225,12 @@ mod tests {
             }),
             ("X must have 24 finite blocks", &|_, reference| {
                 reference.sample.truncate(3);
+            }),
+            ("ranked must have 1 to 768 blocks", &|_, reference| {
+                reference.ranked.clear();
+            }),
+            ("ranked must have 0 to 0 blocks", &|saved, _| {
+                saved.settings.detector.rule = DecisionRule::ThreeSample;
             }),
             ("level must lie within 10000 m/s^2", &|_, reference| {
                 reference.level = 1e300;

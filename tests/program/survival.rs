@@ -516,27 +516,27 @@ fn impossible_rides_are_refused() {
         ),
         (
             "values",
-            json!([{ "0": 12 }, { "0": 11 }, {}]),
+            json!([{ "0": 12 }, { "0": 11 }, {}, { "0": 12 }]),
             "stop_delays: must lie in [12, 12]",
         ),
         (
             "values",
-            json!([{ "0": 12 }, { "0": 12 }, { "0": 1 }]),
+            json!([{ "0": 12 }, { "0": 12 }, { "0": 1 }, { "0": 12 }]),
             "alarm_delays: must",
         ),
         (
             "counts",
-            json!([13, 0, 0, 0, 0, 0, 0, 0]),
+            json!([13, 0, 0, 0, 0, 0, 0, 0, 0]),
             "13 of something",
         ),
         (
             "counts",
-            json!([0, 0, 5, 0, 0, 0, 0, 0]),
+            json!([0, 0, 5, 0, 0, 0, 0, 0, 0]),
             "alarmed: must lie in [0, 0]",
         ),
         (
             "counts",
-            json!([0, 0, 0, 0, 0, 0, 3, 0]),
+            json!([0, 0, 0, 0, 0, 0, 3, 0, 0]),
             "disturbed: must lie in [1, 3]",
         ),
         ("lengths", json!(["-5"]), "stood: must lie in"),

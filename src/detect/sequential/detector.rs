@@ -71,7 +71,12 @@ impl Detector {
     pub fn begin(&mut self, reference: &[f64]) {
         self.clear();
         self.reference = reference.len();
-        self.ranks = Ranks::of(reference);
+        self.ranks.begin(reference);
+    }
+
+    /// The number of blocks that the next one is ranked among.
+    pub fn seen(&self) -> usize {
+        self.ranks.seen()
     }
 
     /// S of each side, in steps.

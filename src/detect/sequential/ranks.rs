@@ -32,13 +32,6 @@ pub struct Ranks {
 }
 
 impl Ranks {
-    /// After these blocks, which are numbers.
-    pub fn of(blocks: &[f64]) -> Self {
-        let mut sorted = blocks.to_vec();
-        sorted.sort_unstable_by(f64::total_cmp);
-        Self { sorted }
-    }
-
     /// Takes in a block `x`, which is a number, with `v` uniform on (0, 1], and returns U in (0, 1].
     pub fn step(&mut self, x: f64, v: f64) -> f64 {
         debug_assert!(!x.is_nan() && v > 0.0 && v <= 1.0);
@@ -51,6 +44,13 @@ impl Ranks {
     /// t, the number of blocks so far.
     pub fn seen(&self) -> usize {
         self.sorted.len()
+    }
+
+    /// Begins anew after these blocks, which are numbers.
+    pub fn begin(&mut self, blocks: &[f64]) {
+        self.clear();
+        self.sorted.extend_from_slice(blocks);
+        self.sorted.sort_unstable_by(f64::total_cmp);
     }
 
     /// Begins anew.

@@ -1,12 +1,14 @@
 //! Decisions, and what they are made from.
 
 use super::*;
+use crate::detect::sequential::{Chart, Score, Side};
 
 /// W and T of every decision against a recount from the record at the stated times: means of five, no
 /// filter, ranks by sorting.
 #[test]
 fn decisions_are_those_of_a_recount() {
     let mut settings = Settings::default();
+    settings.detector.rule = DecisionRule::ThreeSample;
     settings.whitening.order = Order::Fixed(0);
     let record = Record::quiet()
         .rest(8.0)
@@ -66,43 +68,87 @@ fn decisions_are_those_of_a_recount() {
     assert_eq!(counted, 4);
 }
 
-/// One decision of each of 40 000 monitors on white noise, with X and a filter of order 0 from the noise
-/// before: its level is exact. Two-sided test at 1e-6.
-#[test]
-fn a_decision_at_rest_has_its_exact_size() {
-    let mut settings = Settings::default();
-    settings.whitening.order = Order::Fixed(0);
-    settings.detector.alpha = 0.01;
-    let design = settings.at(20.0).unwrap();
-    let trials = 40_000;
-    let mut alarms = 0;
+/// Monitors on white noise, each of them with X and a filter of order 0 from the noise before, and `after` blocks since:
+/// in how many of `trials` one of the last `counted` decisions was H₁*.
+fn alarmed(design: &Design, trials: u64, after: usize, counted: usize) -> u64 {
     let normal = crate::signal::Noise::default();
     let stream = Stream::new(2014, "monitor size", "");
-    let mut blocks = vec![0.0; 24 + 24 + 24];
+    let mut blocks = vec![0.0; 48 + after];
+    let mut alarms = 0;
     for trial in 0..trials {
         normal.fill(&mut stream.at(trial), &mut blocks);
-        let reference = Reference::from_rest(&blocks[..48], (0.0, 0.0), &design);
-        let mut monitor = Monitor::new(
-            design.clone(),
-            Knowledge {
-                reference: Some(reference),
-                ..Knowledge::default()
-            },
-        );
-        for (i, acceleration) in blocks[48..].iter().enumerate() {
+        let reference = Reference::from_rest(&blocks[..48], (0.0, 0.0), design);
+        let knowledge = Knowledge {
+            reference: Some(reference),
+            ..Knowledge::default()
+        };
+        let mut monitor = Monitor::new(design.clone(), knowledge);
+        let decided = blocks[48..].iter().enumerate().map(|(i, acceleration)| {
             let sample = Sample {
                 time: i as f64 * 0.05,
                 acceleration: *acceleration,
             };
             monitor.step(sample, None);
-        }
-        alarms += u64::from(monitor.newest().unwrap().moves.unwrap());
+            monitor.newest().unwrap().moves
+        });
+        let decided: Vec<Option<bool>> = decided.collect();
+        alarms += u64::from(decided[after - counted..].contains(&Some(true)));
     }
-    let size = design.region.size();
-    let tail =
-        binomial::lower_tail(alarms, trials, size).min(binomial::upper_tail(alarms, trials, size));
-    println!("{alarms} of {trials} at exact size {size}: smaller tail {tail:.3e}");
+    alarms
+}
+
+/// The smaller tail of the alarms of 40 000 monitors is not below 5e-7: a two-sided test at 1e-6.
+fn assert_probability(alarms: u64, p: f64) {
+    let tail = binomial::lower_tail(alarms, 40_000, p).min(binomial::upper_tail(alarms, 40_000, p));
+    println!("{alarms} of 40000 at exact probability {p}: smaller tail {tail:.3e}");
     assert!(tail > 5e-7);
+}
+
+fn white(rule: DecisionRule) -> Design {
+    let mut settings = Settings::default();
+    settings.whitening.order = Order::Fixed(0);
+    settings.detector = Level { rule, alpha: 0.01 };
+    settings.at(20.0).unwrap()
+}
+
+#[test]
+fn a_decision_at_rest_has_its_exact_size() {
+    let design = white(DecisionRule::ThreeSample);
+    assert_probability(alarmed(&design, 40_000, 24, 1), design.region.size());
+}
+
+/// Whatever few blocks they begin with.
+#[test]
+fn ranks_alarm_at_rest_with_the_exact_probability() {
+    let design = white(DecisionRule::Sequential);
+    let chart = Chart::new(Score::Normal, &[Side::Up, Side::Down], 0.8, 96).unwrap();
+    let law = chart.run_length(chart.threshold(100.0).unwrap());
+    assert_probability(alarmed(&design, 40_000, 60, 60), 1.0 - law.survival(60));
+}
+
+/// A start is decided by an alarm of its side that comes after it, and there is none before.
+#[test]
+fn a_start_is_decided_by_ranks() {
+    for sign in [1.0, -1.0] {
+        let record = Record::quiet().rest(8.0).trip(sign).rest(7.0);
+        let events = record.watch(&mut standing());
+        let decided = events.iter().find_map(|event| match event.kind {
+            Kind::Change {
+                decision: Some(Decided::Sequential(decision)),
+                ..
+            } => Some(decision),
+            _ => None,
+        });
+        let RankDecision {
+            alarmed,
+            side,
+            reference,
+            ..
+        } = decided.unwrap();
+        assert!((8.0..10.3).contains(&alarmed), "{alarmed}");
+        assert_eq!(side, Direction::of(sign));
+        assert!(reference.unwrap().1 <= 8.0);
+    }
 }
 
 /// The reference follows an offset that drifts by three times the weakest acceleration, 0.09 m/s² a minute.

@@ -15,6 +15,8 @@
 //! | `disturbed` | trials | rests with a false motion |
 //! | `alarmed` | trials | jams with an alarm that is told after them, of no later time than the stand |
 //! | `alarm_delay_…` | jams | the time from a jam to its alarm |
+//! | `rule_alarms` | hours | how often the rule decided for motion at rest, per hour; decisions that share blocks count as one |
+//! | `rule_delay_…` | trips | the time from a start to the rule's first decision for motion |
 //! | `false_alarms` | trials | jam alarms without a jam, per trial |
 //! | `misled` | trials | switched on in motion, the monitor said `rest` before the cage stood |
 //! | `knew_soon`, `knew` | trials | it said `rest` when the next trip began, and when the record ended |

@@ -11,7 +11,9 @@ use crate::study::along::{self, Kind, Outcome, Shown};
 pub fn plot(rows: &[Row], table: &Table, seed: u64) -> Plot {
     let outcomes = rows.iter().map(|row| Outcome::of(row, row.curve, row.x));
     let axis = match table.measure {
-        Measure::Tradeoff => "median delay from a start to H_1*, s".to_owned(),
+        Measure::Tradeoff => {
+            "median delay from a start to the first decision for motion, s".to_owned()
+        }
         _ => key_in_words(&table.axis),
     };
     along::plot(
@@ -38,10 +40,10 @@ fn shown(measure: Measure) -> Vec<Shown> {
             vec![positive("false_motions", label, Limit::Upper)]
         }
         Measure::Tradeoff => {
-            let label = "hours of rest between false motions";
+            let label = "decisions for motion per hour of rest";
             vec![Shown {
-                against: Some("start_delay_50"),
-                ..positive("hours_between", label, Limit::Lower)
+                against: Some("rule_delay_50"),
+                ..positive("rule_alarms", label, Limit::Upper)
             }]
         }
         Measure::Jam => vec![
@@ -127,6 +129,7 @@ fn facts(measure: Measure, row: &Row) -> Vec<Option<String>> {
         (row.nu > 0.0).then(|| format!("ν = {}, θ = {} σ", row.nu, row.theta)),
         (row.footfalls > 0.0)
             .then(|| format!("footfalls {} per sample, {} σ", row.footfalls, row.jolt)),
+        Some(row.rule.clone()),
         Some(format!("α = {}", row.alpha)),
         Some(format!(
             "N, M_1, M_2 = {}, {}, {}",
