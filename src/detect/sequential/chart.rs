@@ -47,6 +47,16 @@ impl Chart {
         &self.sides
     }
 
+    /// The sign of a shift that it looks for: −1 where only that of smaller blocks is, else 1.
+    pub fn sign(&self) -> f64 {
+        let looks = |side| self.sides.contains(&side);
+        if looks(Side::Down) && !looks(Side::Up) {
+            -1.0
+        } else {
+            1.0
+        }
+    }
+
     /// N.
     pub fn reference(&self) -> usize {
         self.reference

@@ -94,5 +94,6 @@ fn seen_after(
     for _ in 0..chart.reference() {
         step(0.0);
     }
-    (1..=latest).find(|_| matches!(step(shift), Step::Alarm(_)))
+    let level = chart.sign() * shift;
+    (1..=latest).find(|_| matches!(step(level), Step::Alarm(_)))
 }

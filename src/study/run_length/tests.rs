@@ -103,3 +103,20 @@ fn delays_of_a_finite_reference() {
         }
     }
 }
+
+/// A shift is seen as often whatever sides look for it: of its own sign, and no less with vibration looked for too.
+#[test]
+fn every_side_sees_its_shift() {
+    let seen = |sides: &[Side]| {
+        let chart = Chart::new(Score::Normal, sides, 0.8, 60).unwrap();
+        let delay = delays(&chart, 200, &[1.5], 2000)[0];
+        println!("{sides:?}: {delay:?}");
+        delay.seen.rate()
+    };
+    let up = seen(&[Side::Up]);
+    // Two rates of 2000 trials differ by less than 5.2 times sqrt(2 · 0.25 / 2000).
+    assert!((seen(&[Side::Down]) - up).abs() < 5.2 * 0.016 && up > 0.8);
+    for sides in [[Side::Down, Side::Scale], [Side::Up, Side::Scale]] {
+        assert!(seen(&sides) > up - 5.2 * 0.016);
+    }
+}
