@@ -21,7 +21,7 @@ impl Found<'_> {
 
     /// Probabilities of a false alarm, each with the hours in which it is no larger.
     fn quantiles(&self) -> Vec<(f64, f64)> {
-        let hours = |p: f64| self.hours(self.law.quantile(p) as f64);
+        let hours = |p: f64| self.hours(self.law.quantile(p));
         PROBABILITIES.into_iter().map(|p| (p, hours(p))).collect()
     }
 

@@ -44,6 +44,16 @@ impl Chain {
         }
     }
 
+    /// Probabilities one step later, without those of an alarm.
+    pub fn after(&self, masses: &[f64]) -> Vec<f64> {
+        let mut after = vec![0.0; self.states];
+        for (mass, row) in masses.iter().zip(self.moves.chunks_exact(self.states)) {
+            let each = after.iter_mut().zip(row);
+            each.for_each(|(sum, to)| *sum += mass * to);
+        }
+        after
+    }
+
     /// The mean number of steps from 0 to an alarm.
     pub fn mean(&self) -> f64 {
         let (n, mut moves) = (self.states, self.moves.clone());

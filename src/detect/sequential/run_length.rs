@@ -32,8 +32,12 @@
 
 use super::chain::Chain;
 use super::chart::Chart;
-use super::powers::Powers;
+use super::powers::{Ahead, Powers};
 use super::score::Side;
+use libm::{exp2, log1p};
+
+/// The mean of one side's run, in blocks, from which on it counts as exponential.
+pub(super) const RARE: f64 = 1e9;
 
 /// The law of the time to a false alarm, for one threshold.
 #[derive(Clone, Debug)]
@@ -53,8 +57,8 @@ impl RunLength {
         let has = |side| chart.sides.contains(&side);
         let is_pair = has(Side::Up) && has(Side::Down);
         let singles = chart.sides.len() - 2 * usize::from(is_pair);
-        let pair = is_pair.then(|| Powers::new(chain.states, signed(&chain)));
-        let single = Powers::new(chain.states, chain.moves.clone());
+        let pair = is_pair.then(|| Powers::new(signed(&chain), doubled(&chain)));
+        let single = Powers::new(chain.moves.clone(), chain.alarms.clone());
         let parts = pair.into_iter().chain(vec![single; singles]);
         Self {
             sides: chart.sides.len(),
@@ -79,37 +83,65 @@ impl RunLength {
         self.parts.len() == 1
     }
 
-    /// P(no false alarm in `blocks` monitored blocks), to 14 decimals or so.
+    /// The monitored blocks after which S has forgotten that it began at 0: a block then alarms with its long-run probability
+    /// 1/L₁, within a thousandth of it.
+    pub fn settled(&self) -> u64 {
+        let Chain { alarms, states, .. } = &self.chain;
+        let mut sums = vec![0.0; *states];
+        sums[0] = 1.0;
+        let mean = self.one_side();
+        let mut next = |_: &u64| {
+            let rate: f64 = sums
+                .iter()
+                .zip(alarms)
+                .map(|(mass, alarm)| mass * alarm)
+                .sum();
+            sums = self.chain.after(&sums);
+            sums[0] += rate;
+            (rate * mean - 1.0).abs() < 1e-3
+        };
+        (0..)
+            .find(|block| next(block))
+            .expect("the chain is ergodic")
+    }
+
+    /// P(no false alarm in `blocks` monitored blocks), to 13 decimals; so many digits has the probability of one, however
+    /// rare it is.
     pub fn survival(&self, blocks: u64) -> f64 {
         let bits = (0..64).filter(|bit| blocks >> bit & 1 == 1);
-        let ahead = bits.fold(self.start(), |rows, bit| self.advance(&rows, bit));
-        survival(&ahead)
+        let ahead = bits.fold(self.start(), |ahead, bit| self.advance(&ahead, bit));
+        1.0 - alarmed(&ahead)
     }
 
     /// The largest number of blocks that pass without a false alarm with a probability of 1 − `p` or more, 0 < `p` < 1.
-    pub fn quantile(&self, p: f64) -> u64 {
-        let mut bit = 0;
-        while survival(&self.advance(&self.start(), bit)) >= 1.0 - p {
-            bit += 1;
+    ///
+    /// Where the mean is [`RARE`] or more it is that of an exponential law. P(run > n) is P(run > m) P(run > n − m) but
+    /// for climbs under way after m blocks that end in an alarm. Their probability is about (blocks in a climb that ends
+    /// in an alarm)·(blocks between visits of 0)/L₁, below 1000/L₁. So `p` is off by less than 1e-6.
+    pub fn quantile(&self, p: f64) -> f64 {
+        if self.one_side() >= RARE {
+            return (-log1p(-p) * self.promised()).floor();
         }
-        let (mut rows, mut blocks) = (self.start(), 0);
-        for bit in (0..bit).rev() {
-            let ahead = self.advance(&rows, bit);
-            if survival(&ahead) >= 1.0 - p {
-                rows = ahead;
-                blocks += 1 << bit;
+        let passes = |ahead: &[Ahead]| alarmed(ahead) <= p;
+        let bits = (0..).find(|bit| !passes(&self.advance(&self.start(), *bit)));
+        let (mut ahead, mut blocks) = (self.start(), 0.0);
+        for bit in (0..bits.expect("an alarm comes at last")).rev() {
+            let later = self.advance(&ahead, bit);
+            if passes(&later) {
+                ahead = later;
+                blocks += exp2(bit as f64);
             }
         }
         blocks
     }
 
-    fn start(&self) -> Vec<Vec<f64>> {
+    fn start(&self) -> Vec<Ahead> {
         self.parts.iter().map(Powers::start).collect()
     }
 
-    fn advance(&self, rows: &[Vec<f64>], bit: usize) -> Vec<Vec<f64>> {
-        let each = self.parts.iter().zip(rows);
-        each.map(|(part, row)| part.advance(row, bit)).collect()
+    fn advance(&self, ahead: &[Ahead], bit: usize) -> Vec<Ahead> {
+        let each = self.parts.iter().zip(ahead);
+        each.map(|(part, ahead)| part.advance(ahead, bit)).collect()
     }
 }
 
@@ -121,8 +153,13 @@ fn signed(chain: &Chain) -> Vec<f64> {
     moves
 }
 
-/// What is left when the alarms of each part are taken away.
-fn survival(rows: &[Vec<f64>]) -> f64 {
-    let alarmed = rows.iter().map(|row| 1.0 - row.iter().sum::<f64>());
-    (1.0 - alarmed.sum::<f64>()).max(0.0)
+/// 1 less the sums of its rows.
+fn doubled(chain: &Chain) -> Vec<f64> {
+    chain.alarms.iter().map(|alarm| 2.0 * alarm).collect()
+}
+
+/// The alarms of all parts.
+fn alarmed(ahead: &[Ahead]) -> f64 {
+    let sum: f64 = ahead.iter().map(|part| part.loss).sum();
+    sum.min(1.0)
 }

@@ -119,19 +119,48 @@ fn quantiles_bracket_their_probability() {
         let law = chart(sides, 20).run_length(200);
         for p in [0.001, 0.05, 0.5, 0.99] {
             let blocks = law.quantile(p);
-            assert!(law.survival(blocks) >= 1.0 - p && law.survival(blocks + 1) < 1.0 - p);
+            let survival = |blocks: f64| law.survival(blocks as u64);
+            assert!(survival(blocks) >= 1.0 - p && survival(blocks + 1.0) < 1.0 - p);
             let exponential = -libm::log1p(-p) * law.promised();
-            let ratio = blocks as f64 / exponential;
+            let ratio = blocks / exponential;
             println!("{sides:?}: {p}: {blocks} blocks, {ratio:.4} of an exponential law");
             // Of two parts the union bound takes the place of the exact law: at p = 0.99 it is early.
             assert!(law.is_exact() == (sides.len() == 1 || sides.contains(&Side::Down)));
             // The first alarm comes some blocks later than by that law, as S has to climb first.
             let [low, high] = [if law.is_exact() { 0.98 } else { 0.25 }, 1.02];
-            assert!(
-                blocks as f64 > low * exponential && (blocks as f64) < high * exponential + 10.0
-            );
+            assert!(blocks > low * exponential && blocks < high * exponential + 10.0);
         }
     }
+}
+
+/// However rare alarms are, P(run ≤ n) has its digits, and is that of an exponential law but for 1000/L₁, which is said
+/// of climbs: below [`RARE`], where quantiles are exact, and above.
+#[test]
+fn rare_alarms_keep_their_digits() {
+    let both = [Side::Up, Side::Down];
+    for (sides, mean) in [
+        (&both[..1], 1e7),
+        (&both[..1], 0.9 * RARE),
+        (&both[..1], 4e15),
+        (&both, 1e7),
+        (&both, 1e12),
+    ] {
+        let chart = Chart::new(Score::Normal, sides, 1.2, 1000).unwrap();
+        let law = chart.run_length(chart.threshold(mean).unwrap());
+        let far = 1e-12 + 1000.0 / law.one_side();
+        for p in [0.01, 0.5, 0.95] {
+            let blocks = law.quantile(p);
+            let ratio = blocks / (-libm::log1p(-p) * law.promised());
+            let off = 1.0 - law.survival(blocks as u64) - p;
+            println!(
+                "{sides:?}: {mean:.1e} blocks: {p}: {ratio:.12} of an exponential law, off {off:+.1e}"
+            );
+            assert!((ratio - 1.0).abs() < far / p && off.abs() < far);
+        }
+    }
+    let chart = Chart::new(Score::Normal, &both, 2.0, 1000).unwrap();
+    let law = chart.run_length(chart.threshold(1e30).unwrap());
+    assert!((law.quantile(0.5) / law.promised() - 2f64.ln()).abs() < 1e-12);
 }
 
 /// The smallest threshold that keeps the promise.

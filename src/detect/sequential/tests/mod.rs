@@ -7,6 +7,7 @@ mod laws;
 mod ranks;
 mod together;
 
+use super::run_length::RARE;
 use super::*;
 use crate::rng::{self, Generator, Stream};
 use crate::signal::{Law, Noise};
