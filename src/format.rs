@@ -20,6 +20,11 @@ pub fn eight_digits(value: f64) -> f64 {
     format!("{value:.7e}").parse().unwrap_or(value)
 }
 
+/// A number in a message.
+pub fn brief(number: f64) -> String {
+    shorten(&number.to_string()).into_owned()
+}
+
 /// Writes the hyphen of a number as a minus sign.
 pub fn minus(number: &str) -> String {
     number.replace('-', "−")
@@ -28,9 +33,18 @@ pub fn minus(number: &str) -> String {
 /// The most characters of user input that a message repeats.
 const MOST_SHOWN: usize = 200;
 
-/// `text`, or its two ends if it is too long for a message.
+/// The most characters of a number that a message writes out; those of a usual f64 are fewer.
+const MOST_DIGITS: usize = 24;
+
+/// `text`, or its two ends if it is too long for a message; a long number as a power of ten.
 pub fn shorten(text: &str) -> Cow<'_, str> {
     let length = text.chars().count();
+    if length > MOST_DIGITS
+        && let Ok(number) = text.parse::<f64>()
+        && number.is_finite()
+    {
+        return format!("{number:e}").into();
+    }
     if length <= MOST_SHOWN {
         return text.into();
     }
@@ -55,6 +69,10 @@ mod tests {
     fn long_text_is_shortened() {
         let (fits, long) = ("ä".repeat(200), "ä".repeat(1_000_000) + "end");
         assert_eq!(shorten(&fits), fits);
+        for number in [1e-300, -1e300, 1e-30] {
+            assert_eq!(shorten(&number.to_string()), format!("{number:e}"));
+        }
+        assert_eq!(shorten("-0.0001234567890123456"), "-0.0001234567890123456");
         let short = shorten(&long);
         assert_eq!(short.chars().count(), 200);
         assert!(short.starts_with("ää") && short.contains("ä…ä") && short.ends_with("äend"));

@@ -1,6 +1,6 @@
 //! Rules for single values, and the error for a value that breaks one.
 
-use crate::format::shorten;
+use crate::format::{brief, shorten};
 use std::fmt::{self, Display};
 
 /// A rule for one number.
@@ -83,8 +83,13 @@ impl Display for Rule {
         match self {
             Self::Positive => f.write_str("be positive and finite"),
             Self::Level => f.write_str("lie strictly between 0 and 1"),
-            Self::Within(least, most, "") => write!(f, "lie in [{least}, {most}]"),
-            Self::Within(least, most, unit) => write!(f, "lie in [{least}, {most}] {unit}"),
+            Self::Within(least, most, unit) => {
+                write!(f, "lie in [{}, {}]", brief(*least), brief(*most))?;
+                match *unit {
+                    "" => Ok(()),
+                    unit => write!(f, " {unit}"),
+                }
+            }
         }
     }
 }
@@ -104,6 +109,13 @@ impl OutOfRange {
     pub fn of(rule: &'static str, got: impl Display) -> Self {
         let (rule, remedy) = rule.split_at(rule.find(" (").unwrap_or(rule.len()));
         Self::new("", rule, got).explained(remedy)
+    }
+
+    /// The same for a value in `place`, a table or an entry of a list.
+    #[must_use]
+    pub fn under(self, place: impl Display) -> Self {
+        let key = format!("{place}.{}", self.key);
+        Self { key, ..self }
     }
 
     /// Adds a remedy.

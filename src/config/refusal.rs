@@ -1,6 +1,6 @@
 //! Why a value was refused, in the words of a user: its path, its position, and the rule.
 
-use crate::format::shorten;
+use crate::format::{brief, shorten};
 use crate::suggest::among;
 use serde::de::{Error, Expected, Unexpected};
 use std::fmt::{self, Display};
@@ -105,7 +105,7 @@ fn described(got: Unexpected) -> String {
         Unexpected::Bool(flag) => flag.to_string(),
         Unexpected::Unsigned(number) => number.to_string(),
         Unexpected::Signed(number) => number.to_string(),
-        Unexpected::Float(number) => number.to_string(),
+        Unexpected::Float(number) => brief(number),
         Unexpected::Str(text) => format!("\"{}\"", shorten(text)),
         Unexpected::Map => "a table".to_owned(),
         Unexpected::Seq => "a list".to_owned(),

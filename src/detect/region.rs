@@ -23,6 +23,7 @@
 use super::law::NullLawError;
 use super::rule::{Alternative, Exceedances, Rule};
 use super::statistics::Statistics;
+use crate::format::brief;
 
 /// A region ϑ with its exact size.
 #[derive(Clone, Debug, PartialEq)]
@@ -123,13 +124,13 @@ impl Bounds {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RegionError {
     /// α is outside (0, 1).
-    #[error("alpha must lie strictly between 0 and 1, got {0}")]
+    #[error("alpha must lie strictly between 0 and 1, got {}", brief(*.0))]
     Alpha(f64),
     /// Every region of this rule has a larger size.
     #[error(
-        "alpha: rule {rule} at {sizes} decides H1 nowhere at {alpha}; the smallest alpha it can \
+        "alpha: rule {rule} at {sizes} decides H1 nowhere at {}; the smallest alpha it can \
          reach is {} (raise alpha or the sizes)",
-        rounded_up(*.reachable)
+        brief(*.alpha), rounded_up(*.reachable)
     )]
     Unreachable {
         /// The rule asked for.
@@ -160,7 +161,8 @@ pub enum RegionError {
     },
     /// A table whose exact size exceeds α.
     #[error(
-        "rule table has exact size {size:.6}, above alpha = {alpha} (raise its entries or alpha)"
+        "rule table has exact size {size:.6}, above alpha = {} (raise its entries or alpha)",
+        brief(*.alpha)
     )]
     TableTooLarge {
         /// Its exact size.

@@ -5,6 +5,7 @@
 //!
 //! [^1]: see [`crate::signal`].
 
+use crate::format::brief;
 use crate::values::Size;
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -72,7 +73,7 @@ pub enum Profile {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum MotionError {
     /// Δ is NaN or infinite.
-    #[error("delta: must be finite, got {0}")]
+    #[error("delta: must be finite, got {}", brief(*.0))]
     Delta(f64),
     /// A duration of no samples.
     #[error(

@@ -8,6 +8,7 @@
 //! Math. Comp. 62, 1994.
 
 use super::gaussian::normals;
+use crate::format::brief;
 use crate::rng::Generator;
 use crate::simd::{Value, Vectors};
 use libm::{log, pow, sqrt, tan};
@@ -46,13 +47,13 @@ pub enum Law {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum LawError {
     /// Degrees of freedom out of range.
-    #[error("student_t must have at least 0.25 and finite degrees of freedom, got {0}")]
+    #[error("student_t must have at least 0.25 and finite degrees of freedom, got {}", brief(*.0))]
     DegreesOfFreedom(f64),
     /// A share outside [0, 1].
-    #[error("contaminated.share must lie in [0, 1], got {0}")]
+    #[error("contaminated.share must lie in [0, 1], got {}", brief(*.0))]
     Share(f64),
     /// A scale out of range.
-    #[error("contaminated.scale must lie in [1e-6, 1e6], got {0}")]
+    #[error("contaminated.scale must lie in [1e-6, 1e6], got {}", brief(*.0))]
     Scale(f64),
 }
 
