@@ -1,7 +1,7 @@
 //! The construction of regions: from the exact laws at given sizes to the critical values of each rule.
 
 use super::joint;
-use super::law::{NullLaw, NullLawError, check_memory, ratio};
+use super::law::{Needs, NullLaw, NullLawError, check, ratio};
 use super::region::{NEVER, Region, RegionError};
 use super::rule::{Alternative, Exceedances, Rule};
 use super::samples::Samples;
@@ -42,19 +42,24 @@ impl NullLaws {
     /// The laws of W and the exceedances `of` these samples at these sizes.
     ///
     /// # Errors
-    /// If their counts do not fit in memory.
+    /// If their counts do not fit in memory, or take long.
     pub fn new(
         of: Exceedances,
         alternative: Alternative,
         samples: &Samples,
     ) -> Result<Self, NullLawError> {
         // All sizes are checked before any law is computed.
-        check_memory(samples, |samples| {
+        check(of, samples, |samples| {
             let joint = match of {
-                Exceedances::Scale => 0.0,
-                Exceedances::Motion => joint::bytes(samples),
+                Exceedances::Scale => Needs::default(),
+                Exceedances::Motion => joint::needs(samples),
             };
-            NullLaw::rank_sum_bytes(samples) + NullLaw::exceedances_bytes(of, samples) + joint
+            let marginal =
+                NullLaw::rank_sum_bytes(samples) + NullLaw::exceedances_bytes(of, samples);
+            Needs {
+                bytes: marginal + joint.bytes,
+                ..joint
+            }
         })?;
         // W is symmetric about its mean, for every T too, so its mirror image has the same law.
         let scored = |law: NullLaw| match alternative {

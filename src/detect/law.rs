@@ -40,22 +40,58 @@ pub struct NullLaw {
 pub enum NullLawError {
     /// The counts would not fit in memory.
     #[error(
-        "the exact laws of W and T at {samples} need {megabytes:.0} MB of counts, more than the {limit:.0} MB allowed \
+        "the exact laws of W and {t} at {samples} need {megabytes:.0} MB of counts, more than the {limit:.0} MB allowed \
          (sizes of about {fits} would fit: lower reference, shift or scale)",
+        t = .of.symbol(),
+        fits = shrunk(.samples, *.share),
         limit = MEMORY_LIMIT / 1e6
     )]
     TooLarge {
+        /// The exceedances asked for.
+        of: Exceedances,
         /// The sizes asked for.
         samples: Samples,
         /// The memory needed, in MB.
         megabytes: f64,
-        /// About the largest sizes that fit, in the same proportions.
-        fits: Samples,
+        /// About the largest share of each size that fits.
+        share: f64,
+    },
+    /// Counting them would take too long.
+    #[error(
+        "the joint law of W and T' at {samples} takes some {seconds:.0} s to count, more than the {limit:.0} s allowed \
+         (sizes of about {fits} would do: lower reference, shift or scale)",
+        fits = shrunk(.samples, *.share),
+        limit = TIME_LIMIT
+    )]
+    TooLong {
+        /// The sizes asked for.
+        samples: Samples,
+        /// The time it takes, about.
+        seconds: f64,
+        /// About the largest share of each size that is counted in time.
+        share: f64,
     },
 }
 
-/// The most memory for counts, in bytes; so many take minutes to compute.
+/// The most memory for counts, in bytes; those of W alone take minutes to compute.
 const MEMORY_LIMIT: f64 = 1e8;
+
+/// The longest time for a joint law, in seconds on one core.
+const TIME_LIMIT: f64 = 12.0;
+
+/// What laws take.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Needs {
+    pub bytes: f64,
+    /// On one core.
+    pub seconds: f64,
+}
+
+impl Needs {
+    fn are_met(self) -> bool {
+        self.bytes <= MEMORY_LIMIT && self.seconds <= TIME_LIMIT
+    }
+}
 
 impl NullLaw {
     /// The law of the rank sum W.
@@ -64,7 +100,10 @@ impl NullLaw {
     /// If its counts do not fit in memory.
     pub fn rank_sum(samples: &Samples) -> Result<Self, NullLawError> {
         let (m1, others) = shift_and_others(samples);
-        check_memory(samples, Self::rank_sum_bytes)?;
+        check(Exceedances::Scale, samples, |samples| Needs {
+            bytes: Self::rank_sum_bytes(samples),
+            ..Needs::default()
+        })?;
         Ok(Self::from_counts(
             smallest_rank_sum(m1),
             gaussian_binomial(m1, others),
@@ -77,7 +116,10 @@ impl NullLaw {
     /// If its counts do not fit in memory.
     pub fn exceedances(of: Exceedances, samples: &Samples) -> Result<Self, NullLawError> {
         let (n, m2) = (samples.reference(), of.most(samples));
-        check_memory(samples, |samples| Self::exceedances_bytes(of, samples))?;
+        check(of, samples, |samples| Needs {
+            bytes: Self::exceedances_bytes(of, samples),
+            ..Needs::default()
+        })?;
         if n == 1 {
             let mut counts = vec![BigUint::ZERO; m2];
             counts.push(BigUint::from(m2 + 1));
@@ -229,40 +271,53 @@ pub(super) fn gaussian_binomial(chosen: usize, others: usize) -> Vec<BigUint> {
     counts
 }
 
-/// Refuses counts that take more memory than is allowed: `bytes`, of sizes.
-pub(super) fn check_memory(
+/// Refuses counts that need more than is allowed.
+pub(super) fn check(
+    of: Exceedances,
     samples: &Samples,
-    bytes: impl Fn(&Samples) -> f64,
+    needs: impl Fn(&Samples) -> Needs,
 ) -> Result<(), NullLawError> {
-    let needed = bytes(samples);
-    if needed <= MEMORY_LIMIT {
+    let Needs { bytes, seconds } = needs(samples);
+    if needs(samples).are_met() {
         return Ok(());
     }
-    let fits = |samples: &Samples| bytes(samples) <= MEMORY_LIMIT;
-    Err(NullLawError::TooLarge {
-        samples: *samples,
-        megabytes: needed / 1e6,
-        fits: largest(samples, fits),
+    let share = largest_below_one(|share| needs(&shrunk(samples, share)).are_met());
+    let samples = *samples;
+    Err(if bytes > MEMORY_LIMIT {
+        NullLawError::TooLarge {
+            of,
+            samples,
+            megabytes: bytes / 1e6,
+            share,
+        }
+    } else {
+        NullLawError::TooLong {
+            samples,
+            seconds,
+            share,
+        }
     })
 }
 
-/// The largest sizes in the same proportions that fit.
-fn largest(samples: &Samples, fits: impl Fn(&Samples) -> bool) -> Samples {
-    let shrunk = |factor: f64| {
-        let size = |of: usize| ((of as f64 * factor) as usize).max(1);
-        let (n, m1, m2) = (samples.reference(), samples.shift(), samples.scale());
-        Samples::contiguous(size(n), size(m1), size(m2)).expect("each is at least 1")
-    };
-    shrunk(largest_below_one(|factor| fits(&shrunk(factor))))
+/// A share of each size, or 1.
+pub(super) fn shrunk(samples: &Samples, share: f64) -> Samples {
+    let size = |of: usize| ((of as f64 * share) as usize).max(1);
+    let (n, m1, m2) = (samples.reference(), samples.shift(), samples.scale());
+    Samples::contiguous(size(n), size(m1), size(m2)).expect("each is at least 1")
 }
 
 /// Memory for `values` counts up to the number of ways to divide a whole into these parts: their digits, and the
 /// overhead of a vector of digits.
 pub(super) fn bytes(values: f64, parts: &[usize]) -> f64 {
+    values * (bits(parts) / 8.0 + 40.0)
+}
+
+/// Bits of the number of ways to divide a whole into these parts, at most.
+pub(super) fn bits(parts: &[usize]) -> f64 {
     let whole: f64 = parts.iter().map(|&part| part as f64).sum();
     let entropy = parts.iter().map(|&part| {
         let share = part as f64 / whole;
         -share * libm::log2(share)
     });
-    values * (whole * entropy.sum::<f64>() / 8.0 + 40.0)
+    whole * entropy.sum::<f64>()
 }

@@ -120,6 +120,10 @@ fn huge_sizes_are_refused_at_once() {
             "MB of counts",
         ),
         (
+            "threshold --reference 67 --shift 67 --scale 67 --alpha 0.01 --exceedances motion",
+            "s to count, more than the 12 s allowed (sizes of about 45/45/45 would do",
+        ),
+        (
             "sweep configs/fig6.toml --threads 10000",
             "must lie in 1 to 1024 (leave it out to use all cores)",
         ),
@@ -308,5 +312,28 @@ fn the_readme_is_right() {
         let (path, _) = link.split_once(')').unwrap();
         let is_there = project().join(path).exists();
         assert!(is_there, "{path}");
+    }
+}
+
+/// The joint law of W and T' is counted on the threads that are asked for, by every command that simulates.
+#[test]
+fn joint_laws_on_any_number_of_threads() {
+    let directory = tempfile::tempdir().unwrap();
+    let config = directory.path().join("motion.toml");
+    let text = "question = \"?\"\nseed = 1\ntrials = 20\n[detector]\nexceedances = \"motion\"\n[axis]\ndelta = [0.0, 1.0]\n";
+    std::fs::write(&config, text).unwrap();
+    let config = config.to_str().unwrap();
+    for threads in ["1", "2", "5"] {
+        let out = directory.path().join(threads);
+        let out = out.to_str().unwrap();
+        for (command, expected) in [
+            (vec!["sweep", config, "-q", "--out", out], 0),
+            (vec!["plan", config], 0),
+            (vec!["check", config, "-q"], 3),
+            (vec!["replay", config, "--point", "1", "--trial", "3"], 0),
+        ] {
+            let (code, _, err) = outcome(liftsim().args(&command).args(["--threads", threads]));
+            assert_eq!((code, err.as_str()), (expected, ""), "{command:?}");
+        }
     }
 }

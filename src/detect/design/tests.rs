@@ -1,5 +1,6 @@
 //! Regions against their definitions, cell by cell.
 
+use super::super::law::shrunk;
 use super::*;
 use crate::detect::Statistics;
 use crate::detect::statistics::smallest_rank_sum;
@@ -322,10 +323,40 @@ fn large_joint_law() {
 #[test]
 fn joint_law_too_large() {
     let laws = |n| NullLaws::new(Exceedances::Motion, Alternative::Greater, &sizes(n, n, n));
-    let Err(NullLawError::TooLarge { fits, .. }) = laws(300) else {
+    let Err(NullLawError::TooLarge { share, .. }) = laws(300) else {
         panic!("300/300/300 fits");
     };
+    let fits = shrunk(&sizes(300, 300, 300), share);
     assert!(fits.shift() > 40 && fits.shift() < 100, "{fits}");
     let one_more = fits.shift() + 1;
-    assert!(matches!(laws(one_more), Err(NullLawError::TooLarge { .. })));
+    assert!(laws(one_more).is_err());
+}
+
+/// What would take minutes is refused with sizes that do not, whatever their proportions.
+#[test]
+fn long_joint_laws_are_refused() {
+    let laws = |of, [n, m1, m2]: [usize; 3]| {
+        let samples = Samples::contiguous(n, m1, m2).unwrap();
+        NullLaws::new(of, Alternative::Greater, &samples)
+    };
+    for sizes in [[67, 67, 67], [50, 50, 50], [100, 80, 3], [200_000, 1, 1]] {
+        let error = laws(Exceedances::Motion, sizes).unwrap_err();
+        println!("{error}");
+        let NullLawError::TooLong { samples, share, .. } = error else {
+            panic!("{error}");
+        };
+        let fits = shrunk(&samples, share);
+        let seconds = |samples: &Samples| joint::needs(samples).seconds;
+        assert!(seconds(&fits) <= 12.0 && seconds(&samples) > 12.0);
+        assert!(fits.reference() < sizes[0] && fits.shift() <= sizes[1]);
+    }
+    let error = laws(Exceedances::Motion, [5000, 60, 60]).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .starts_with("the exact laws of W and T' at "),
+        "{error}"
+    );
+    assert!(laws(Exceedances::Scale, [67, 67, 67]).is_ok());
+    assert!(laws(Exceedances::Motion, [20, 20, 20]).is_ok());
 }
