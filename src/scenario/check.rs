@@ -1,7 +1,7 @@
 //! Rules across sections, and the keys to blame when they are broken.
 
 use super::{Calibration, Scenario};
-use crate::detect::{Baseline, Method, RegionError, Rule};
+use crate::detect::{Baseline, Exceedances, Method, RegionError, Rule};
 use crate::signal::MotionError;
 use crate::whiten::{Fit, WhiteningError};
 
@@ -30,6 +30,8 @@ pub enum ScenarioError {
          (give motion.delta or impulses.nu and theta, or take the value that moves nothing out of the axis)"
     )]
     NothingStated(&'static str),
+    #[error("detector.exceedances: rule {0} counts none (take it out)")]
+    NothingExceeds(&'static str),
     #[error(
         "detector.calibrate: a table's entries are given (leave calibrate out, or name a rule)"
     )]
@@ -80,6 +82,7 @@ impl ScenarioError {
             Self::ClairvoyantDecimated(_) => &[DECIMATION],
             Self::ClairvoyantOrder(_) => SENSOR,
             Self::NoVariance => &["samples.reference", "samples.scale"],
+            Self::NothingExceeds(_) => &["detector.exceedances"],
             Self::NothingStated(_) | Self::NotCalibrated(_) | Self::RestTooShort { .. } => &[RULE],
         }
     }
@@ -117,6 +120,9 @@ impl Scenario {
         match &detector.method {
             Method::Rule(Rule::Table(_)) if is_calibrated => Err(ScenarioError::TableCalibrated),
             Method::Baseline(_) if !is_calibrated => Err(ScenarioError::NotCalibrated(name)),
+            Method::Baseline(_) if detector.exceedances != Exceedances::default() => {
+                Err(ScenarioError::NothingExceeds(name))
+            }
             Method::Baseline(baseline) => self.check_baseline(*baseline),
             _ => Ok(()),
         }

@@ -267,6 +267,14 @@ pub const CONFIGS: &[(&str, &str)] = &[
         "[detector]\nrule = \"student-t\"\n[axis]\ndelta = [1.0]\n",
     ),
     (
+        "exceedances of a baseline",
+        "[detector]\nrule = \"student-t\"\ncalibrate = true\nexceedances = \"motion\"\n[axis]\ndelta = [1.0]\n",
+    ),
+    (
+        "a number of many digits",
+        "[detector]\nalpha = 1e300\n[axis]\ndelta = [1.0]\n",
+    ),
+    (
         "a table to be calibrated",
         "[detector]\ncalibrate = true\n[axis]\nrule = [{ table = [1] }]\n",
     ),
