@@ -4,10 +4,11 @@ use super::progress::{self, Progress, Reporter};
 use super::{CommandResult, Failure, Simulation, print, table};
 use anyhow::anyhow;
 use clap::Args;
-use liftsim::experiment::{Experiment, SweepConfig};
-use liftsim::format::eight_digits;
+use liftsim::experiment::{Experiment, SWEEP, SweepConfig};
+use liftsim::format::{brief, eight_digits};
 use liftsim::gate::{self, EXCESS, FAMILY_LEVEL, Finding, Scenario, Verdict};
 use liftsim::results::Row;
+use liftsim::rule::OutOfRange;
 use liftsim::study::{Loaded, Study, Sweep};
 use std::process::ExitCode;
 
@@ -25,7 +26,7 @@ pub struct Check {
     #[command(flatten)]
     simulation: Simulation,
     /// Test against this rate, while the regions keep the config's alpha.
-    #[arg(long, value_name = "A")]
+    #[arg(long, value_name = "A", allow_negative_numbers = true)]
     nominal: Option<f64>,
     #[command(flatten)]
     progress: Progress,
@@ -38,14 +39,18 @@ impl Check {
             && !(nominal > 0.0 && nominal < 1.0)
         {
             return Err(Failure::Input(anyhow!(
-                "--nominal must lie strictly between 0 and 1, got {nominal}"
+                "--nominal must lie strictly between 0 and 1, got {}",
+                brief(nominal)
             )));
         }
         let experiment = self.simulation.config()?;
         self.simulation.start_threads()?;
         let reporter = Reporter::new(quiet, &self.progress, "");
-        if ["floors", "run_length"].contains(&experiment.study()) {
-            return self.promises(&experiment, &reporter);
+        if experiment.study() != SWEEP {
+            let loaded = Loaded::new(experiment.clone()).map_err(Failure::study)?;
+            if let Some(nothing) = loaded.study.nothing_promised() {
+                return self.promises(&experiment, &loaded, nothing, &reporter);
+            }
         }
         let sweep = sweep(experiment)?;
         let counts = progress::count(&sweep, &reporter)?;
@@ -58,19 +63,20 @@ impl Check {
     }
 
     /// Tests the rates that a study promises: of stops in simulated buildings, of blocks at rest.
-    fn promises(&self, experiment: &Experiment, reporter: &Reporter) -> CommandResult {
+    fn promises(
+        &self,
+        experiment: &Experiment,
+        loaded: &Loaded,
+        nothing: OutOfRange,
+        reporter: &Reporter,
+    ) -> CommandResult {
         let (seed, confidence) = (experiment.header.seed, experiment.header.confidence.get());
-        let loaded = Loaded::new(experiment.clone()).map_err(Failure::study)?;
-        let counts = progress::count_all(&loaded, reporter)?;
+        let counts = progress::count_all(loaded, reporter)?;
         let output = loaded.study.output(&counts).map_err(Failure::study)?;
         let scenarios = loaded.study.false_alarms(&output.points);
         let scenarios = scenarios.map_err(Failure::run)?;
         let Some(Scenario { cases, .. }) = scenarios.first() else {
-            return Err(Failure::Input(anyhow!(match experiment.study() {
-                "floors" =>
-                    "floors: counts no ordinary stops (set trips, and measure = \"alarm\" or \"stops\")",
-                _ => "run_length.noise: promises nothing (take out a promised = false)",
-            })));
+            return Err(Failure::input(experiment.conflict(nothing.into())));
         };
         let nominal = |scenario: &Scenario| self.nominal.unwrap_or(scenario.nominal);
         let tallies = scenarios.iter().map(|of| (nominal(of), of.tally));

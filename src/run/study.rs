@@ -7,6 +7,7 @@ use crate::figure::FigureError;
 use crate::gate::Scenario;
 use crate::plot::Plot;
 use crate::results::{Comparison, Origin, csv_bytes};
+use crate::rule::OutOfRange;
 
 /// A study of any kind. Its rows are passed as the bytes of `points.csv`.
 pub trait AnyStudy: Send + Sync {
@@ -49,6 +50,9 @@ pub trait AnyStudy: Send + Sync {
     /// # Errors
     /// If the bytes are not the study's rows.
     fn false_alarms(&self, points: &[u8]) -> Result<Vec<Scenario>, csv::Error>;
+
+    /// What is wrong with a config of which these are none; none if the study promises no rate at all.
+    fn nothing_promised(&self) -> Option<OutOfRange>;
 
     /// The plot of the study's rows.
     ///

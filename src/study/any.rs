@@ -7,6 +7,7 @@ use crate::figure::FigureError;
 use crate::gate::Scenario;
 use crate::plot::Plot;
 use crate::results::{Comparison, Origin, csv_bytes};
+use crate::rule::OutOfRange;
 use crate::run::{AnyStudy, DrawError, Identity, Output, StudyError, Trials};
 
 impl<S: Study> AnyStudy for S {
@@ -54,6 +55,10 @@ impl<S: Study> AnyStudy for S {
 
     fn false_alarms(&self, points: &[u8]) -> Result<Vec<Scenario>, csv::Error> {
         Ok(Study::false_alarms(self, &rows::<S>(points)?))
+    }
+
+    fn nothing_promised(&self) -> Option<OutOfRange> {
+        S::nothing_promised()
     }
 
     fn plot(&self, points: &[u8], seed: u64) -> Result<Plot, DrawError> {

@@ -7,6 +7,7 @@ use crate::figure::FigureError;
 use crate::gate::Scenario;
 use crate::plot::Plot;
 use crate::results::{Comparison, Quantity};
+use crate::rule::OutOfRange;
 use crate::run::{Identity, StudyError, Table, Target, Trials};
 use schemars::SchemaGenerator;
 use serde::Serialize;
@@ -69,6 +70,12 @@ pub trait Study: Send + Sync + Sized + 'static {
     /// The false alarms that `check` tests, and the rate that each scenario promises.
     fn false_alarms(&self, _rows: &[Self::Row]) -> Vec<Scenario> {
         Vec::new()
+    }
+
+    /// What is wrong with a config of which [`false_alarms`](Self::false_alarms) are none; none if the study promises no
+    /// rate at all.
+    fn nothing_promised() -> Option<OutOfRange> {
+        None
     }
 
     /// Draws the rows.

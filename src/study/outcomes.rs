@@ -96,6 +96,12 @@ pub trait Outcomes: Send + Sync + Sized + 'static {
         Vec::new()
     }
 
+    /// What is wrong with a config of which [`false_alarms`](Self::false_alarms) are none; none if the study promises no
+    /// rate at all.
+    fn nothing_promised() -> Option<OutOfRange> {
+        None
+    }
+
     /// The table to print when the rows are written.
     fn findings(&self, _rows: &[Self::Row]) -> Option<Table> {
         None
@@ -114,7 +120,7 @@ pub fn checked<T: DeserializeOwned>(
     check: impl Fn(&T) -> Result<(), OutOfRange>,
 ) -> Result<T, StudyError> {
     let table = experiment.read()?;
-    check(&table).map_err(|error| experiment.refuse(error))?;
+    check(&table).map_err(|error| experiment.conflict(error.into()))?;
     Ok(table)
 }
 
@@ -230,6 +236,10 @@ impl<T: Outcomes> Study for Of<T> {
 
     fn false_alarms(&self, rows: &[T::Row]) -> Vec<Scenario> {
         self.study.false_alarms(rows)
+    }
+
+    fn nothing_promised() -> Option<OutOfRange> {
+        T::nothing_promised()
     }
 
     fn findings(&self, rows: &[T::Row]) -> Option<Table> {

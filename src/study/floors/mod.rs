@@ -132,6 +132,11 @@ impl Outcomes for Table {
         scenarios
     }
 
+    fn nothing_promised() -> Option<OutOfRange> {
+        let remedy = " (set trips, and measure = \"alarm\" or \"stops\")";
+        Some(OutOfRange::new("floors", "count ordinary stops", "none").explained(remedy))
+    }
+
     fn plot(&self, rows: &[Row], seed: u64) -> Plot {
         picture::plot(rows, self, seed)
     }

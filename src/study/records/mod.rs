@@ -86,7 +86,7 @@ impl Outcomes for Table {
 
     fn read(experiment: &Experiment) -> Result<Self, StudyError> {
         let table: Self = experiment.read()?;
-        table.check().map_err(|error| experiment.refuse(error))?;
+        (table.check()).map_err(|error| experiment.conflict(error.into()))?;
         let settings = table.settings.check();
         settings.map_err(|error| {
             experiment.refuse(error.called(|path| format!("records.settings.{path}")))
