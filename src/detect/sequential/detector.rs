@@ -36,8 +36,7 @@ impl Detector {
         }
     }
 
-    /// Takes in a block `x`, which is a number, with `v` uniform on (0, 1]. Blocks of the reference need no `v` of their
-    /// own.
+    /// Takes in a block `x`, which is a number, with `v` uniform on (0, 1]. In the reference `v` has no effect.
     pub fn step(&mut self, x: f64, v: f64) -> Step {
         let u = self.ranks.step(x, v);
         if self.ranks.seen() <= self.reference {
@@ -56,6 +55,12 @@ impl Detector {
                 Step::Alarm(side)
             }
         }
+    }
+
+    /// Takes in all blocks of the reference, as if one by one.
+    pub fn refer(&mut self, blocks: &[f64]) {
+        debug_assert!(self.ranks.seen() == 0 && blocks.len() == self.reference);
+        self.ranks.take(blocks);
     }
 
     /// Starts again with a new reference. This never brings a false alarm that would not have come without it, in as many
