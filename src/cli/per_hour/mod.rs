@@ -5,10 +5,12 @@ mod words;
 use super::output::Output;
 use super::threshold::{Choice, one_of};
 use super::{CommandResult, Failure, print};
-use clap::Args;
-use liftsim::detect::sequential::{Chart, RunLength, Score, Side};
+use clap::builder::{PossibleValue, TypedValueParser};
+use clap::{Arg, Args, Command};
+use liftsim::detect::sequential::{Change, Chart, Rate, RunLength, Score, Side};
 use liftsim::rule::{OutOfRange, Rule};
 use liftsim::study::run_length::{Delay, delays};
+use std::ffi::OsStr;
 use std::process::ExitCode;
 
 /// The threshold of a rate of false alarms.
@@ -37,16 +39,17 @@ pub struct PerHour {
     #[arg(
         long,
         value_name = "SAMPLES",
+        allow_negative_numbers = true,
         default_value_t = 1,
         requires = "per_hour",
         conflicts_with = "three samples"
     )]
-    block: u32,
+    block: i64,
     /// What a rank scores.
     #[arg(long, value_parser = one_of(&SCORES), default_value = "normal", requires = "per_hour", conflicts_with = "three samples")]
     score: Score,
     /// The changes that it looks for, with commas in between.
-    #[arg(long, value_parser = one_of(&SIDES), value_delimiter = ',', default_value = "up,down",
+    #[arg(long, value_parser = Trimmed(one_of(&SIDES)), value_delimiter = ',', default_value = "up,down",
           requires = "per_hour", conflicts_with = "three samples")]
     sides: Vec<Side>,
     /// What each score is lowered by, a multiple of 0.025: half the shift of a block, in deviations, that is to be seen
@@ -73,13 +76,38 @@ static SIDES: [Choice<Side>; 3] = [
     ("scale", Side::Scale, "Blocks farther out either way"),
 ];
 
+/// Reads a part of a list, with blanks around it.
+#[derive(Clone)]
+struct Trimmed<P>(P);
+
+impl<P: TypedValueParser> TypedValueParser for Trimmed<P> {
+    type Value = P::Value;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        flag: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<P::Value, clap::Error> {
+        let trimmed = value.to_str().map_or(value, |text| OsStr::new(text.trim()));
+        self.0.parse_ref(command, flag, trimmed)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        self.0.possible_values()
+    }
+}
+
 /// N, if no other is given.
 const REFERENCE: usize = 60;
 
 /// The shifts of a block, in deviations, whose delays are printed.
 const SHIFTS: [f64; 9] = [0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0];
 
-/// Trials behind a simulated delay.
+/// The growths of its deviation whose delays are printed.
+const GROWTHS: [f64; 4] = [1.5, 2.0, 3.0, 5.0];
+
+/// Trials behind a simulated delay, or fewer where the reference is long or the change is hardly seen.
 const TRIALS: u64 = 4000;
 
 impl PerHour {
@@ -91,7 +119,7 @@ impl PerHour {
         figure: Option<Output>,
     ) -> CommandResult {
         let found = self.found(reference.unwrap_or(REFERENCE));
-        let found = found.map_err(Failure::input)?;
+        let found = found.map_err(|error| Failure::input(flag(error)))?;
         if let Some(figure) = figure {
             let caption = found.caption();
             let plot = found.plot(&caption);
@@ -107,28 +135,32 @@ impl PerHour {
 
     fn found(&self, reference: usize) -> Result<Found<'_>, OutOfRange> {
         let (per_hour, rate) = (self.per_hour.unwrap_or(0.0), self.rate.unwrap_or(0.0));
-        Rule::Positive.check("--per-hour", &per_hour)?;
-        Rule::Within(1e-6, 1e6, "blocks per second").check("--rate", &rate)?;
-        Rule::Within(1.0, 1e6, "samples").check("--block", &f64::from(self.block))?;
-        let chart = Chart::new(self.score, &self.sides, self.k, reference);
-        let chart = chart.map_err(|error| OutOfRange {
-            key: format!("--{}", error.key),
-            ..error
-        })?;
-        let blocks = 3600.0 * rate;
-        let threshold = chart.threshold(blocks / per_hour);
-        let threshold =
-            threshold.map_err(|error| error.per_hour(["--per-hour", "--reference"], blocks))?;
+        Rule::Within(1.0, 1e6, "samples").check("block", &(self.block as f64))?;
+        let promise = Rate::new(per_hour, rate)?;
+        let chart = Chart::new(self.score, &self.sides, self.k, reference)?;
+        let threshold = promise.threshold(&chart)?;
+        let has_scale = chart.sides().contains(&Side::Scale);
+        let growths = if has_scale { &GROWTHS[..] } else { &[] };
+        let changes = (SHIFTS.map(Change::shift).into_iter())
+            .chain(growths.iter().map(|growth| Change::growth(*growth)));
+        let mut shifts = delays(&chart, threshold, &changes.collect::<Vec<_>>(), TRIALS);
         Ok(Found {
             flags: self,
             per_hour,
             rate,
             law: chart.run_length(threshold),
-            delays: delays(&chart, threshold, &SHIFTS, TRIALS),
+            growths: shifts.split_off(SHIFTS.len()),
+            shifts,
             chart,
             threshold,
         })
     }
+}
+
+/// A key as a flag.
+fn flag(error: OutOfRange) -> OutOfRange {
+    let key = format!("--{}", error.key.replace('_', "-"));
+    OutOfRange { key, ..error }
 }
 
 /// The threshold and all that follows from it.
@@ -140,5 +172,7 @@ struct Found<'a> {
     /// In steps.
     threshold: i32,
     law: RunLength,
-    delays: Vec<Delay>,
+    shifts: Vec<Delay>,
+    /// Of the deviation, if that is looked for.
+    growths: Vec<Delay>,
 }

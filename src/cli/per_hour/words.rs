@@ -1,10 +1,10 @@
 //! What was found, as a table, JSON and a picture.
 
 use super::super::table;
-use super::{Found, TRIALS};
-use liftsim::detect::sequential::{Side, units};
+use super::Found;
+use liftsim::detect::sequential::{Change, Side, units};
 use liftsim::study::run_length::{Delay, plot_delays};
-use serde_json::json;
+use serde_json::{Value, json};
 
 /// Probabilities of a false alarm by the times printed.
 const PROBABILITIES: [f64; 4] = [0.01, 0.05, 0.5, 0.95];
@@ -16,7 +16,7 @@ impl Found<'_> {
 
     /// Δ/σ of a sample.
     fn delta(&self, shift: f64) -> f64 {
-        shift / f64::from(self.flags.block).sqrt()
+        shift / (self.flags.block as f64).sqrt()
     }
 
     /// Probabilities of a false alarm, each with the hours in which it is no larger.
@@ -44,20 +44,25 @@ impl Found<'_> {
             format!("k = {}", flags.k),
             format!("h = {}", units(self.threshold)),
             format!("reference of {} blocks", self.chart.reference()),
-            format!(
-                "{} blocks per second, {} samples each",
-                self.rate, flags.block
-            ),
+            format!("{} blocks per second, {} each", self.rate, self.samples()),
             format!("at most {} false alarms per hour", self.per_hour),
-            format!("a shift in normal noise; {TRIALS} trials, drawn where 99 % are seen"),
+            format!(
+                "a shift of normal noise; {}, drawn where 99 % are seen",
+                trials(&self.shifts)
+            ),
         ]
     }
 
     pub fn plot(&self, caption: &[String]) -> liftsim::plot::Plot {
         let shifts = (0..=110).map(|step| 0.5 + 0.05 * f64::from(step));
-        let long = shifts.map(|shift| (shift, self.chart.delay(self.threshold, shift)));
-        let scale = [self.rate, f64::from(self.flags.block)];
-        plot_delays(&long.collect::<Vec<_>>(), &self.delays, scale, caption)
+        let long = shifts.map(|shift| {
+            (
+                shift,
+                self.chart.delay(self.threshold, Change::shift(shift)),
+            )
+        });
+        let scale = [self.rate, self.flags.block as f64];
+        plot_delays(&long.collect::<Vec<_>>(), &self.shifts, scale, caption)
     }
 
     pub fn as_table(&self) -> String {
@@ -77,24 +82,19 @@ impl Found<'_> {
                 "not before, h"
             },
         ];
-        let header = [
-            "Δ/σ",
-            "of a block",
-            "blocks",
-            "seconds",
-            "this reference: seen",
-            "blocks",
-            "95 % interval",
-            "seconds",
-        ];
-        let delays: Vec<_> = self.delays.iter().map(|delay| self.cells(delay)).collect();
+        let shifts = self.shifts.iter().map(|delay| {
+            let shift = delay.change.shift;
+            let before = [digits(self.delta(shift)), shift.to_string()];
+            [before.to_vec(), self.cells(delay)].concat()
+        });
+        let shifts = delays_table(&["Δ/σ", "of a block"], shifts);
         format!(
             "{} scores of sequential ranks, sides {}, k = {}, reference {} blocks, {} blocks per second\n\n\
              threshold h = {}\n\
              mean time between false alarms: {exactly}{} h, or {} per hour (asked for: at most {}); of one side alone {} h\n\n\
              {}\n\
-             mean delay of a shift in normal noise, {} to a block: with a long reference (exact), and where it begins \
-             right after\nthis reference of {}, which it enters ({TRIALS} trials; where 99 % are seen)\n\n{}",
+             mean delay of a shift of normal noise, {} to a block: with a long reference (exact), and where it begins \
+             right after\nthis reference of {}, which it enters ({}; where 99 % are seen)\n\n{shifts}{}",
             flags.score,
             self.sides().join(", "),
             flags.k,
@@ -108,15 +108,30 @@ impl Found<'_> {
             table(&first, &quantiles.collect::<Vec<_>>()),
             self.samples(),
             self.chart.reference(),
-            table(&header, &delays),
+            trials(&self.shifts),
+            self.growths(),
+        )
+    }
+
+    /// The delays of vibration, if that is looked for.
+    fn growths(&self) -> String {
+        if self.growths.is_empty() {
+            return String::new();
+        }
+        let rows = self.growths.iter().map(|delay| {
+            let before = vec![delay.change.growth.to_string()];
+            [before, self.cells(delay)].concat()
+        });
+        format!(
+            "\nmean delay of a growth of the deviation of blocks, as by vibration ({})\n\n{}",
+            trials(&self.growths),
+            delays_table(&["times"], rows)
         )
     }
 
     fn cells(&self, delay: &Delay) -> Vec<String> {
         let (low, high) = delay.interval;
-        let long = [delay.long, delay.long / self.rate].map(digits);
-        let mut cells = vec![digits(self.delta(delay.shift)), delay.shift.to_string()];
-        cells.extend(long);
+        let mut cells = [delay.long, delay.long / self.rate].map(digits).to_vec();
         cells.push(format!("{:.4}", delay.seen.rate()));
         // The mean of those seen says little where many are not.
         let short = delay.is_nearly_always_seen().then(|| {
@@ -131,21 +146,13 @@ impl Found<'_> {
         let Self { flags, law, .. } = self;
         let first = self.quantiles().into_iter();
         let first = first.map(|(p, hours)| json!({ "probability": p, "hours": hours }));
-        let delays = self.delays.iter().map(|delay| {
-            json!({
-                "delta": self.delta(delay.shift),
-                "shift": delay.shift,
-                "blocks": delay.long,
-                "seconds": delay.long / self.rate,
-                "this_reference": {
-                    "trials": delay.seen.trials,
-                    "seen": delay.seen.hits,
-                    "blocks": delay.mean,
-                    "low": delay.interval.0,
-                    "high": delay.interval.1,
-                    "seconds": delay.mean / self.rate,
-                },
-            })
+        let shifts = self.shifts.iter().map(|delay| {
+            let shift = delay.change.shift;
+            self.with_delay(json!({ "delta": self.delta(shift), "shift": shift }), delay)
+        });
+        let growths = self.growths.iter().map(|delay| {
+            let growth = delay.change.growth;
+            self.with_delay(json!({ "growth": growth }), delay)
         });
         let value = json!({
             "score": flags.score,
@@ -160,14 +167,57 @@ impl Found<'_> {
             "hours_between_false_alarms": self.hours(law.promised()),
             "hours_of_one_side": self.hours(law.one_side()),
             "first_false_alarm": first.collect::<Vec<_>>(),
-            "delays": delays.collect::<Vec<_>>(),
+            "delays": shifts.collect::<Vec<_>>(),
+            "growths": growths.collect::<Vec<_>>(),
         });
         format!("{value:#}\n")
     }
+
+    /// A change with its delay.
+    fn with_delay(&self, mut change: Value, delay: &Delay) -> Value {
+        change["blocks"] = json!(delay.long);
+        change["seconds"] = json!(delay.long / self.rate);
+        change["this_reference"] = json!({
+            "trials": delay.seen.trials,
+            "seen": delay.seen.hits,
+            "blocks": delay.mean,
+            "low": delay.interval.0,
+            "high": delay.interval.1,
+            "seconds": delay.mean / self.rate,
+        });
+        change
+    }
+}
+
+/// How many there are behind each delay.
+fn trials(delays: &[Delay]) -> String {
+    let of = || delays.iter().map(|delay| delay.seen.trials);
+    let (least, most) = (of().min().unwrap_or(0), of().max().unwrap_or(0));
+    if least == most {
+        format!("{most} trials")
+    } else {
+        format!("{least} to {most} trials")
+    }
+}
+
+/// The columns of the delay after those that say of what it is.
+fn delays_table(first: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
+    let columns = [
+        "blocks",
+        "seconds",
+        "this reference: seen",
+        "blocks",
+        "95 % interval",
+        "seconds",
+    ];
+    table(&[first, &columns].concat(), &rows.collect::<Vec<_>>())
 }
 
 /// Four digits.
 fn digits(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
     let decimals = 3 - value.abs().log10().floor().clamp(-300.0, 3.0) as i32;
     if (1e-4..1e7).contains(&value) {
         format!("{value:.0$}", decimals.max(0) as usize)

@@ -1,5 +1,6 @@
 //! What a sequential detector is made of.
 
+use super::change::Change;
 use super::score::{Lattice, STEPS, Score, Side};
 use crate::rule::{OutOfRange, Rule};
 
@@ -47,13 +48,14 @@ impl Chart {
         &self.sides
     }
 
-    /// The sign of a shift that it looks for: −1 where only that of smaller blocks is, else 1.
-    pub fn sign(&self) -> f64 {
+    /// A change with its shift the way that is looked for: down, if only down is.
+    pub fn towards(&self, change: Change) -> Change {
         let looks = |side| self.sides.contains(&side);
-        if looks(Side::Down) && !looks(Side::Up) {
-            -1.0
-        } else {
-            1.0
+        let is_down = looks(Side::Down) && !looks(Side::Up);
+        let sign = if is_down { -1.0 } else { 1.0 };
+        Change {
+            shift: sign * change.shift,
+            ..change
         }
     }
 

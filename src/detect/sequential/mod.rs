@@ -26,22 +26,26 @@
 //! [^1]: D. McDonald, "A CUSUM procedure based on sequential ranks", Naval Research Logistics 37, 1990.
 
 mod chain;
+mod change;
 mod chart;
 mod cusum;
 mod detector;
 mod powers;
 mod promise;
 mod ranks;
+mod rate;
 mod reach;
 mod run_length;
 mod score;
 #[cfg(test)]
 mod tests;
 
+pub use change::Change;
 pub use chart::{Chart, units};
 pub use cusum::Cusum;
 pub use detector::{Detector, Step};
-pub use promise::ThresholdError;
+pub use promise::{Remedy, ThresholdError};
 pub use ranks::Ranks;
+pub use rate::Rate;
 pub use run_length::RunLength;
 pub use score::{Lattice, STEPS, Score, Side};

@@ -1,14 +1,13 @@
 //! The threshold that keeps a promised rate of false alarms, and the delay that it costs.
 
 use super::chain::Chain;
+use super::change::Change;
 use super::chart::Chart;
 use super::detector::Detector;
 use super::reach::Reach;
 use super::run_length::RunLength;
-use super::score::{STEPS, Side};
-use crate::rule::OutOfRange;
+use super::score::STEPS;
 use crate::stats::bisect::first;
-use crate::stats::normal;
 
 /// A rate of false alarms that no threshold keeps.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -18,41 +17,19 @@ pub struct ThresholdError {
     pub wanted: f64,
     /// The most that can be promised.
     pub reachable: f64,
-    /// N, if a longer reference could promise more; if not, the threshold is too high to be computed.
-    pub reference: Option<usize>,
+    /// What would help.
+    pub remedy: Remedy,
 }
 
-impl ThresholdError {
-    /// The same of a rate per hour at so many blocks an hour. The keys are those of the rate and of the reference.
-    pub fn per_hour(&self, [rate, reference]: [&str; 2], blocks: f64) -> OutOfRange {
-        let got = blocks / self.wanted;
-        let least = rounded_up(blocks / self.reachable);
-        match self.reference {
-            None => OutOfRange::new(rate, format!("be at least {least}"), got)
-                .explained(" (or raise k: thresholds beyond 20 are not computed)"),
-            Some(n) if self.reachable == 0.0 => {
-                let rule = "be longer for a shift of any size to reach a threshold";
-                OutOfRange::new(reference, rule, n)
-            }
-            Some(n) => {
-                let rule = format!("be at least {least} with a reference of {n} blocks");
-                let remedy =
-                    " (lengthen the reference: in this one no shift, however large, climbs higher)";
-                OutOfRange::new(rate, rule, got).explained(remedy)
-            }
-        }
-    }
-}
-
-/// Three digits, not below the value.
-fn rounded_up(value: f64) -> f64 {
-    let near = |value: f64| format!("{value:.2e}").parse().unwrap_or(value);
-    let nearest: f64 = near(value);
-    if nearest < value {
-        near(value * 1.01)
-    } else {
-        nearest
-    }
+/// What makes a rate reachable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Remedy {
+    /// A larger k: the threshold is too high to be computed.
+    RaiseAllowance,
+    /// A smaller k: with this one no change reaches any threshold, with half of it one reaches some.
+    LowerAllowance,
+    /// A longer reference.
+    LongerReference,
 }
 
 /// The largest threshold in steps. With normal scores and k = 0.8 its mean run is some 10¹⁴ blocks.
@@ -72,7 +49,7 @@ impl Chart {
     /// The smallest threshold h, in steps, that promises `mean` blocks between false alarms, all sides together.
     ///
     /// # Errors
-    /// If a shift of any size would not reach it, or it is beyond 20.
+    /// If a change of any size would not reach it, or it is beyond 20.
     pub fn threshold(&self, mean: f64) -> Result<i32, ThresholdError> {
         let keeps = |threshold: u64| self.run_length(threshold as i32).promised() >= mean;
         let mut enough = STEPS as u64;
@@ -86,26 +63,38 @@ impl Chart {
             return Ok(threshold as i32);
         }
         let most = first(1..threshold.min(MOST) + 1, |threshold| !reaches(threshold)) - 1;
+        let reachable = match most {
+            0 => 0.0,
+            _ => self.run_length(most as i32).promised(),
+        };
+        let remedy = match most {
+            0 if Reach::new(&self.with_half_the_allowance()).reaches(1) => Remedy::LowerAllowance,
+            MOST => Remedy::RaiseAllowance,
+            _ => Remedy::LongerReference,
+        };
         Err(ThresholdError {
             wanted: mean,
-            reachable: match most {
-                0 => 0.0,
-                _ => self.run_length(most as i32).promised(),
-            },
-            reference: (most < MOST).then_some(self.reference),
+            reachable,
+            remedy,
         })
     }
 
-    /// The mean number of blocks from the start of a shift by `shift` deviations of normal noise to the alarm of the side
-    /// that is fastest on average, from S = 0 with a long reference. With several sides the true mean is at most this.
-    pub fn delay(&self, threshold: i32, shift: f64) -> f64 {
-        let below = |u: f64| normal::below(normal::quantile(u) - shift);
-        let mean = |side: Side| {
-            let law = self.lattice.law(side, below);
+    fn with_half_the_allowance(&self) -> Self {
+        Self {
+            allowance: self.allowance / 2,
+            ..self.clone()
+        }
+    }
+
+    /// The mean number of blocks from the start of a change of normal noise to the alarm of the side that is fastest on
+    /// average, from S = 0 with a long reference. With several sides the true mean is at most this. Shifts are those that
+    /// are looked for.
+    pub fn delay(&self, threshold: i32, change: Change) -> f64 {
+        let change = self.towards(change);
+        let delays = self.sides.iter().map(|side| {
+            let law = self.lattice.law(*side, |u| change.below(u));
             Chain::new(&law, self.allowance, threshold).mean()
-        };
-        let up = |side: &Side| if *side == Side::Down { Side::Up } else { *side };
-        let delays = self.sides.iter().map(|side| mean(up(side)));
+        });
         delays.fold(f64::INFINITY, f64::min)
     }
 }

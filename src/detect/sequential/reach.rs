@@ -4,8 +4,14 @@
 //! j-th has U = (N + j w)/(N + j), with w uniform and independent of all before, by the theorem of
 //! [ranks](super::ranks) among the shifted blocks alone. Without noise these are ties, and v takes the place of w. So the
 //! law of what is climbed is exact. A smaller shift of the same noise gives a smaller U block by block, and climbs no higher.
-//! The mean climb falls with j; of normal scores it is 0 for k = 0.8 where j ≈ N. A threshold counts as reached if S is there with a probability of 99 % before the mean climb has
-//! fallen to 0.
+//!
+//! Vibration puts blocks above and below the reference. Where they do so by turns, (j + 1)/2 of the first j lie on the side
+//! of an odd j-th, which is uniform among those: so |2U − 1| is uniform from (N − 1)/(N + j) to 1, and of an even j from
+//! N/(N + j). It climbs as high as a shift does where the side is up. Where the blocks of vibration are independent the two
+//! sides are not as even, and it climbs nearly as high.
+//!
+//! The mean climb falls with j; of normal scores it is 0 for k = 0.8 where j ≈ N. A threshold counts as reached if S is
+//! there with a probability of 99 % before the mean climb has fallen to 0.
 
 use super::chart::Chart;
 use super::score::{Law, Side};
@@ -13,18 +19,18 @@ use super::score::{Law, Side};
 /// The smallest probability with which the largest shift must be seen.
 const SURE: f64 = 0.99;
 
-/// The climb of an overwhelming shift.
+/// The climb of an overwhelming shift; of vibration, where only that is looked for.
 pub(super) struct Reach<'a> {
     chart: &'a Chart,
-    side: Side,
+    is_vibration: bool,
 }
 
 impl<'a> Reach<'a> {
-    /// By the side of the chart that such a shift raises most.
     pub fn new(chart: &'a Chart) -> Self {
-        let is_scale = chart.sides == [Side::Scale];
-        let side = if is_scale { Side::Scale } else { Side::Up };
-        Self { chart, side }
+        Self {
+            chart,
+            is_vibration: chart.sides == [Side::Scale],
+        }
     }
 
     /// Whether S reaches `threshold`, in steps.
@@ -32,8 +38,8 @@ impl<'a> Reach<'a> {
         let allowance = self.chart.allowance;
         let mut sums = vec![0.0; threshold as usize];
         sums[0] = 1.0;
-        for shifted in 1.. {
-            let law = self.law(shifted);
+        for j in 1.. {
+            let law = self.law(j);
             if law.mean() <= f64::from(allowance) {
                 return false;
             }
@@ -45,11 +51,13 @@ impl<'a> Reach<'a> {
         false
     }
 
-    /// The law of the score of a shifted block.
-    fn law(&self, shifted: usize) -> Law {
-        let (n, j) = (self.chart.reference as f64, shifted as f64);
-        let below = |u: f64| ((u * (n + j) - n) / j).clamp(0.0, 1.0);
-        self.chart.lattice.law(self.side, below)
+    /// The law of the score of the j-th block.
+    fn law(&self, j: usize) -> Law {
+        let n = self.chart.reference;
+        let beyond = j + usize::from(self.is_vibration && j % 2 == 1);
+        let from = 1.0 - beyond as f64 / (n + j) as f64;
+        let below = |u: f64| ((u - from) / (1.0 - from)).clamp(0.0, 1.0);
+        self.chart.lattice.law(Side::Up, below)
     }
 }
 

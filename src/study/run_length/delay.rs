@@ -1,22 +1,22 @@
-//! The delay of a step in normal noise: exact with a long reference, simulated with one of N blocks.
+//! The delay of a change of normal noise: exact with a long reference, simulated with one of N blocks.
 //!
-//! The shift begins with the first block after the reference and does not end. With N blocks the shifted ones soon make up
-//! much of the ranks, and S climbs no longer: a shift not seen within 3 N blocks, when they are three in four, counts as not
-//! seen.
+//! The change begins with the first block after the reference and does not end. With N blocks the changed ones soon make up
+//! much of the ranks, and S climbs no longer: a change not seen within 3 N blocks, when they are three in four, within 50 times
+//! its mean delay with a long reference, or within 10 000 blocks, counts as not seen.
 
-use crate::detect::sequential::{Chart, Step};
-use crate::rng::{Stream, unit};
+use crate::detect::sequential::{Change, Chart, Detector, Step};
+use crate::rng::{Generator, Stream, unit};
 use crate::signal::white_noise;
 use crate::stats::normal::two_sided_quantile;
 use crate::stats::tally::Tally;
 use libm::sqrt;
 use rayon::prelude::*;
 
-/// The delay at one shift, in blocks.
+/// The delay of one change, in blocks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Delay {
-    /// The shift, in deviations of a block.
-    pub shift: f64,
+    /// What begins.
+    pub change: Change,
     /// The mean with a long reference: at most this.
     pub long: f64,
     /// Of the trials with N blocks, those in which it was seen.
@@ -37,63 +37,115 @@ impl Delay {
 /// Seed of the trials.
 const SEED: u64 = 2014;
 
-/// So many references later a shift is no longer seen.
+/// So many references later a change is no longer seen.
 const LATEST: usize = 3;
 
-/// The delays at some shifts, each simulated by so many trials, whose noise all shifts share.
-pub fn delays(chart: &Chart, threshold: i32, shifts: &[f64], trials: u64) -> Vec<Delay> {
-    let each = shifts.iter();
-    each.map(|shift| delay(chart, threshold, *shift, trials))
+/// Nor so many times as late as with a long reference.
+const LATEST_DELAY: f64 = 50.0;
+
+/// Nor so many blocks later.
+const LATEST_BLOCK: usize = 10_000;
+
+/// Blocks for the trials of one change, some tenth of a microsecond each; those of a reference take a quarter of that.
+const WORK: f64 = 2.5e6;
+
+/// The fewest trials, however long they take.
+const FEWEST: f64 = 100.0;
+
+/// The delays of some changes, whose trials share their noise: `most` trials each, or fewer where they would take seconds.
+pub fn delays(chart: &Chart, threshold: i32, changes: &[Change], most: u64) -> Vec<Delay> {
+    let planned = changes.iter();
+    let planned = planned.map(|change| Planned::new(chart, threshold, *change, most));
+    let planned: Vec<Planned> = planned.collect();
+    let trials = planned.iter().map(|it| it.trials).max().unwrap_or(0);
+    let trials = (0..trials).into_par_iter().map(|trial| {
+        let reference = Reference::new(chart, threshold, trial);
+        let each = planned.iter().map(|it| {
+            let is_due = trial < it.trials;
+            is_due.then(|| reference.seen_after(it)).flatten()
+        });
+        each.collect()
+    });
+    let all: Vec<Vec<Option<f64>>> = trials.collect();
+    let each = planned.iter().enumerate();
+    each.map(|(at, it)| it.delay(&all.iter().filter_map(|seen| seen[at]).collect::<Vec<_>>()))
         .collect()
 }
 
-fn delay(chart: &Chart, threshold: i32, shift: f64, trials: u64) -> Delay {
-    let stream = Stream::new(SEED, "delay", "");
-    let all = (0..trials).into_par_iter();
-    let all: Vec<Option<usize>> = all
-        .map(|trial| seen_after(chart, threshold, shift, &stream, trial))
-        .collect();
-    let seen: Vec<f64> = all.iter().flatten().map(|blocks| *blocks as f64).collect();
-    let n = seen.len() as f64;
-    let mean = seen.iter().sum::<f64>() / n;
-    let squares: f64 = seen
-        .iter()
-        .map(|blocks| (blocks - mean) * (blocks - mean))
-        .sum();
-    let half = two_sided_quantile(0.95) * sqrt(squares / (n - 1.0) / n);
-    Delay {
-        shift,
-        long: chart.delay(threshold, shift),
-        seen: Tally {
-            hits: seen.len() as u64,
-            trials,
-        },
-        mean,
-        interval: (mean - half, mean + half),
+/// A change, and what its trials take.
+struct Planned {
+    change: Change,
+    /// As it happens: with its shift the way that is looked for.
+    happens: Change,
+    long: f64,
+    /// Blocks after which it counts as not seen.
+    latest: usize,
+    trials: u64,
+}
+
+impl Planned {
+    fn new(chart: &Chart, threshold: i32, change: Change, most: u64) -> Self {
+        let reference = chart.reference();
+        let long = chart.delay(threshold, change);
+        let latest = (LATEST * reference).min(LATEST_BLOCK) as f64;
+        let latest = latest.min(LATEST_DELAY * long);
+        let work = reference as f64 / 4.0 + long.min(latest);
+        Self {
+            change,
+            happens: chart.towards(change),
+            long,
+            latest: latest as usize,
+            trials: most.min((WORK / work).max(FEWEST) as u64),
+        }
+    }
+
+    /// From the delays of the trials in which it was seen.
+    fn delay(&self, seen: &[f64]) -> Delay {
+        let n = seen.len() as f64;
+        let mean = seen.iter().sum::<f64>() / n;
+        let squares = seen.iter().map(|blocks| (blocks - mean) * (blocks - mean));
+        let half = two_sided_quantile(0.95) * sqrt(squares.sum::<f64>() / (n - 1.0) / n);
+        Delay {
+            change: self.change,
+            long: self.long,
+            seen: Tally {
+                hits: seen.len() as u64,
+                trials: self.trials,
+            },
+            mean,
+            interval: (mean - half, mean + half),
+        }
     }
 }
 
-/// The blocks from the start of a shift to its alarm, in one trial.
-fn seen_after(
-    chart: &Chart,
-    threshold: i32,
-    shift: f64,
-    stream: &Stream,
-    trial: u64,
-) -> Option<usize> {
-    let mut draws = stream.at(trial);
-    let mut detector = chart.detector(threshold);
-    let latest = LATEST * chart.reference();
-    let noise = white_noise(chart.reference() + 64, &mut draws);
-    let mut noise = noise.into_iter();
-    let mut step = |level: f64| {
-        let z = noise.next();
-        let z = z.unwrap_or_else(|| white_noise(1, &mut draws)[0]);
-        detector.step(z + level, 1.0 - unit(&mut draws))
-    };
-    for _ in 0..chart.reference() {
-        step(0.0);
+/// One trial at the end of its reference.
+struct Reference {
+    detector: Detector,
+    draws: Generator,
+}
+
+impl Reference {
+    fn new(chart: &Chart, threshold: i32, trial: u64) -> Self {
+        let mut draws = Stream::new(SEED, "delay", "").at(trial);
+        let mut detector = chart.detector(threshold);
+        detector.refer(&white_noise(chart.reference(), &mut draws));
+        Self { detector, draws }
     }
-    let level = chart.sign() * shift;
-    (1..=latest).find(|_| matches!(step(level), Step::Alarm(_)))
+
+    /// The blocks from the start of a change to its alarm.
+    fn seen_after(&self, planned: &Planned) -> Option<f64> {
+        let (mut detector, mut draws) = (self.detector.clone(), self.draws.clone());
+        let mut noise = Vec::new().into_iter();
+        let mut alarms = |_: &usize| {
+            let z = noise.next().unwrap_or_else(|| {
+                noise = white_noise(64, &mut draws).into_iter();
+                noise.next().expect("there are 64")
+            });
+            let x = planned.happens.of(z);
+            matches!(detector.step(x, 1.0 - unit(&mut draws)), Step::Alarm(_))
+        };
+        (1..=planned.latest)
+            .find(|block| alarms(block))
+            .map(|blocks| blocks as f64)
+    }
 }

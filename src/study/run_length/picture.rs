@@ -48,7 +48,7 @@ pub fn delays(
         .map(|(shift, blocks)| place(*shift, *blocks))
         .collect();
     let markers = short.iter().filter(|delay| delay.is_nearly_always_seen());
-    let markers = markers.map(|delay| Point::at(place(delay.shift, delay.mean)));
+    let markers = markers.map(|delay| Point::at(place(delay.change.shift, delay.mean)));
     let markers: Vec<Point> = markers.collect();
     let (low, high) = ends(line.iter().map(|(x, _)| *x));
     let x = Axis::linear(low.min(0.0), 1.03 * high, 8).labelled("Δ/σ of a sample");

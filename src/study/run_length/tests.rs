@@ -1,7 +1,7 @@
 //! Records at rest, counted.
 
 use super::*;
-use crate::detect::sequential::{Chart, Score, Side};
+use crate::detect::sequential::{Change, Chart, Score, Side};
 use crate::study::outcomes::Of;
 use crate::study::tests::{read, refusal, rows};
 
@@ -42,9 +42,27 @@ fn rates_are_those_of_the_law() {
     assert_eq!((tested[0].nominal, tested[0].tally.trials), (0.01, 80_000));
 }
 
+/// Two blocks a trial alarm as often as two of many: 10 000 trials with some 200 alarms, within 5.2 deviations. Without a
+/// warm-up there would be none, as S cannot climb so fast.
+#[test]
+fn short_records_are_no_rarer() {
+    let text = config("", NORMAL).replace("blocks = 2000", "blocks = 2");
+    let text = text.replace("trials = 40", "trials = 10000");
+    let rows = rows(&read::<Of<RunLengths>>(&text), 10_000);
+    let row = rows.iter().find(|row| row.outcome == "over_law").unwrap();
+    println!("{} alarms, {:.3} of the law", row.count, row.estimate);
+    assert!((row.estimate - 1.0).abs() < 5.2 / 14.0);
+}
+
 #[test]
 fn refusals() {
-    let refused = |keys: &str, noise: &str| refusal::<RunLengths>(&config(keys, noise));
+    let refused = |keys: &str, noise: &str| {
+        let text = config(keys, noise);
+        match keys.split_once("per_hour") {
+            Some(_) => refusal::<RunLengths>(&text.replacen("per_hour = 180\n", "", 1)),
+            None => refusal::<RunLengths>(&text),
+        }
+    };
     assert_eq!(refused("", NORMAL), None);
     for (keys, noise, expected) in [
         (
@@ -62,16 +80,27 @@ fn refusals() {
             NORMAL,
             "blocks, got 180 (lengthen the reference",
         ),
+        (
+            "per_hour = 18000",
+            NORMAL,
+            "run_length.per_hour: must be less than 18000, the blocks in an hour, got 18000",
+        ),
+        ("per_hour = 1e300", NORMAL, "got 1e300"),
         ("", "", "run_length.noise: must name a noise, got none"),
         (
             "",
             &format!("{NORMAL}, {NORMAL}"),
-            "run_length.noise.label: must differ",
+            "run_length.noise[1].label: must differ",
         ),
         (
             "",
             "{ label = \"a\", law = \"normal\", colour = 0.3 }",
-            "must lie in [0, 0], got 0.3 (set promised = false",
+            "run_length.noise[0].colour: must be 0 where a rate is promised, got 0.3 (set promised = false",
+        ),
+        (
+            "",
+            "{ label = \"a\", law = \"normal\", quantum = 1e-320 }",
+            "run_length.noise[0].quantum: must be 0 or at least 1e-9, got 1e-320",
         ),
         (
             "",
@@ -89,7 +118,7 @@ fn refusals() {
 fn delays_of_a_finite_reference() {
     let chart = |n| Chart::new(Score::Normal, &[Side::Up, Side::Down], 0.8, n).unwrap();
     for (reference, shift) in [(2000, 1.5), (60, 1.5), (60, 0.75)] {
-        let delay = delays(&chart(reference), 200, &[shift], 2000)[0];
+        let delay = delays(&chart(reference), 200, &[Change::shift(shift)], 2000)[0];
         println!("{reference}: {delay:?}");
         let half = delay.interval.1 - delay.mean;
         match (reference, shift) {
@@ -104,12 +133,27 @@ fn delays_of_a_finite_reference() {
     }
 }
 
+/// A long reference takes no longer than a short one: fewer trials are made where each takes long.
+#[test]
+fn work_is_bounded() {
+    let trials = |reference: usize, shift: f64| {
+        let chart = Chart::new(Score::Normal, &[Side::Up], 3.0, reference).unwrap();
+        let delay = delays(&chart, 200, &[Change::shift(shift)], 1000)[0];
+        println!("N = {reference}, shift {shift}: {:?}", delay.seen);
+        delay.seen.trials
+    };
+    assert_eq!(trials(60, 0.75), 1000, "which is never seen");
+    assert!(trials(3000, 0.75) < 300);
+    assert_eq!(trials(3000, 6.0), 1000, "which would be seen at once");
+    assert_eq!(trials(100_000, 6.0), 100);
+}
+
 /// A shift is seen as often whatever sides look for it: of its own sign, and no less with vibration looked for too.
 #[test]
 fn every_side_sees_its_shift() {
     let seen = |sides: &[Side]| {
         let chart = Chart::new(Score::Normal, sides, 0.8, 60).unwrap();
-        let delay = delays(&chart, 200, &[1.5], 2000)[0];
+        let delay = delays(&chart, 200, &[Change::shift(1.5)], 2000)[0];
         println!("{sides:?}: {delay:?}");
         delay.seen.rate()
     };

@@ -1,0 +1,82 @@
+//! A promised rate of false alarms, in the words of a user.
+
+use super::chart::{Chart, units};
+use super::promise::{Remedy, ThresholdError};
+use crate::rule::{OutOfRange, Rule};
+
+/// False alarms per hour that are promised, of so many blocks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rate {
+    per_hour: f64,
+    /// Blocks per hour.
+    blocks: f64,
+}
+
+impl Rate {
+    /// At most `per_hour` false alarms with `rate` blocks per second. Errors call these `per_hour` and `rate`.
+    ///
+    /// # Errors
+    /// If one is out of range, or as many false alarms as blocks would be promised.
+    pub fn new(per_hour: f64, rate: f64) -> Result<Self, OutOfRange> {
+        Rule::Positive.check("per_hour", &per_hour)?;
+        Rule::Within(1e-30, 1e10, "false alarms").check("per_hour", &per_hour)?;
+        Rule::Within(1e-6, 1e6, "blocks per second").check("rate", &rate)?;
+        let blocks = 3600.0 * rate;
+        if per_hour >= blocks {
+            let rule = format!("be less than {blocks}, the blocks in an hour");
+            return Err(OutOfRange::new("per_hour", rule, per_hour));
+        }
+        Ok(Self { per_hour, blocks })
+    }
+
+    /// False alarms per block.
+    pub fn per_block(self) -> f64 {
+        self.per_hour / self.blocks
+    }
+
+    /// The smallest threshold, in steps, that keeps it. Errors are about `per_hour`, `reference` or `k`.
+    ///
+    /// # Errors
+    /// As of [`Chart::threshold`].
+    pub fn threshold(self, chart: &Chart) -> Result<i32, OutOfRange> {
+        let threshold = chart.threshold(self.blocks / self.per_hour);
+        threshold.map_err(|error| self.refusal(chart, error))
+    }
+
+    fn refusal(self, chart: &Chart, error: ThresholdError) -> OutOfRange {
+        let n = chart.reference();
+        let least = rounded_up(self.blocks / error.reachable);
+        match error.remedy {
+            Remedy::RaiseAllowance => {
+                OutOfRange::new("per_hour", format!("be at least {least}"), self.per_hour)
+                    .explained(" (or raise k: thresholds beyond 20 are not computed)")
+            }
+            Remedy::LowerAllowance => {
+                let rule = format!("be smaller with a reference of {n} blocks");
+                let remedy =
+                    " (no change, however large, reaches a threshold; or lengthen the reference)";
+                OutOfRange::new("k", rule, units(chart.allowance)).explained(remedy)
+            }
+            Remedy::LongerReference if error.reachable == 0.0 => {
+                let rule = "be longer for a change of any size to reach a threshold";
+                OutOfRange::new("reference", rule, n)
+            }
+            Remedy::LongerReference => {
+                let rule = format!("be at least {least} with a reference of {n} blocks");
+                let remedy = " (lengthen the reference: in this one no change, however large, climbs higher)";
+                OutOfRange::new("per_hour", rule, self.per_hour).explained(remedy)
+            }
+        }
+    }
+}
+
+/// Three digits, not below the value.
+fn rounded_up(value: f64) -> f64 {
+    let near = |value: f64| format!("{value:.2e}").parse().unwrap_or(value);
+    let nearest: f64 = near(value);
+    if nearest < value {
+        near(value * 1.01)
+    } else {
+        nearest
+    }
+}
