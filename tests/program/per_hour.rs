@@ -18,7 +18,13 @@ fn json(more: &[&str]) -> Value {
 /// What is promised is kept, by no more than one step of the lattice; the table says the same.
 #[test]
 fn a_rate_gives_a_threshold() {
-    for (sides, is_exact) in [("up", true), ("up,down", true), ("down,scale,up", false)] {
+    for (sides, is_exact) in [
+        ("up", true),
+        ("down", true),
+        ("up, down", true),
+        ("down,scale,up", false),
+        ("down,scale", false),
+    ] {
         let value = json(&["--sides", sides]);
         let number = |name: &str| value[name].as_f64().unwrap();
         let hours = number("hours_between_false_alarms");
@@ -33,6 +39,14 @@ fn a_rate_gives_a_threshold() {
                 .all(|pair| pair[0]["hours"].as_f64() < pair[1]["hours"].as_f64())
         );
         let delays = value["delays"].as_array().unwrap();
+        let growths = value["growths"].as_array().unwrap();
+        assert_eq!(growths.len(), if sides.contains("scale") { 4 } else { 0 });
+        let is_seen =
+            |delay: &&Value| delay["this_reference"]["seen"] == delay["this_reference"]["trials"];
+        assert!(
+            delays.iter().filter(is_seen).count() > 2,
+            "{sides}: {value}"
+        );
         let blocks = |at: usize| delays[at]["blocks"].as_f64().unwrap();
         assert!((1..delays.len()).all(|at| blocks(at) < blocks(at - 1)));
         let delta = delays[1]["delta"].as_f64().unwrap();
@@ -114,7 +128,35 @@ fn refusals() {
         ),
         (
             vec!["--per-hour", "1", "--reference", "1"],
-            "--reference: must be longer for a shift of any size to reach a threshold, got 1",
+            "--reference: must be longer for a change of any size to reach a threshold, got 1",
+        ),
+        (
+            vec!["--per-hour", "1e-300"],
+            "--per-hour: must lie in [1e-30, 10000000000] false alarms, got 1e-300",
+        ),
+        (
+            vec!["--per-hour", "18000"],
+            "--per-hour: must be less than 18000, the blocks in an hour, got 18000",
+        ),
+        (
+            vec!["--per-hour", "1", "--k", "3.975"],
+            "--k: must be smaller with a reference of 60 blocks, got 3.975",
+        ),
+        (
+            vec!["--per-hour", "1", "--block", "-1"],
+            "--block: must lie in [1, 1000000] samples, got -1",
+        ),
+        (
+            "--reference 12 --shift 12 --scale 12 --alpha -0.1"
+                .split(' ')
+                .collect(),
+            "alpha must lie strictly between 0 and 1, got -0.1",
+        ),
+        (
+            "--reference 12 --shift 12 --scale 12 --alpha 1e-300"
+                .split(' ')
+                .collect(),
+            "decides H1 nowhere at 1e-300",
         ),
         (
             vec!["--per-hour", "1e-12", "--reference", "1000"],
@@ -168,4 +210,22 @@ fn the_promised_rate_is_tested() {
             "nothing is promised of coloured blocks"
         );
     }
+}
+
+/// A study that promises nothing says where, and one that cannot says that it is no sweep.
+#[test]
+fn nothing_promised() {
+    let directory = tempfile::tempdir().unwrap();
+    let config = directory.path().join("coloured.toml");
+    let text = "question = \"?\"\nseed = 1\ntrials = 1\n[run_length]\nper_hour = 10\nrate = 5\nblocks = 10\n\
+                noise = [{ label = \"a\", law = \"normal\", promised = false }]\n";
+    fs::write(&config, text).unwrap();
+    let check = |config: &str| outcome(liftsim().args(["check", config, "-q"]));
+    let (code, _, err) = check(config.to_str().unwrap());
+    assert_eq!(code, 2, "{err}");
+    let expected =
+        "coloured.toml:8:9: run_length.noise: must promise a rate, got promised = false in all";
+    assert!(err.contains(expected), "{err}");
+    let (code, _, err) = check("configs/impulse_law.toml");
+    assert!(code == 2 && err.contains("nothing is swept here"), "{err}");
 }

@@ -1,8 +1,9 @@
 //! How often CUSUMs of sequential ranks ([`crate::detect::sequential`]) alarm at rest, by the noise, against what their law
 //! promises.
 //!
-//! A trial is a record at rest of one noise, from which `blocks` blocks are monitored; the references before them and after
-//! every alarm are not counted. Blocks of coloured noise, x ← φ x + e, are not exchangeable, so nothing is promised of them.
+//! A trial is a record at rest of one noise, of which `blocks` monitored blocks count; the references before them and after
+//! every alarm do not, nor does what is monitored before S has forgotten that it began at 0
+//! ([`settled`](crate::detect::sequential::RunLength::settled)). Blocks of coloured noise, x ← φ x + e, are not exchangeable, so nothing is promised of them.
 //!
 //! | outcome | of | is |
 //! |---|---|---|
@@ -12,8 +13,9 @@
 //!
 //! # The test
 //! A monitored block is a case, and an alarm a hit, as if every block alarmed with the promised probability independently of
-//! all before; Garwood's interval of the rate is that of a Poisson count. Alarms come more evenly than that: after one, S
-//! starts at 0, and the wait for the next is at least as long as it ever is. So both are on the safe side.
+//! all before; Garwood's interval of the rate is that of a Poisson count. At rest a block alarms with the probability of the law on average. Alarms come more
+//! evenly than that: after one, S starts at 0, and the wait for the next is at least as long as it ever is. So both are on
+//! the safe side.
 
 mod delay;
 mod picture;
@@ -30,6 +32,7 @@ use crate::counts::{Shape, Sums};
 use crate::experiment::Experiment;
 use crate::gate::Scenario;
 use crate::plot::Plot;
+use crate::rule::OutOfRange;
 use crate::run::{Identity, StudyError};
 use crate::stats::tally::Tally;
 use crate::study::curves::name_of;
@@ -45,7 +48,8 @@ use table::{Blocks, Table, Watch};
 pub(super) struct RunLengths {
     table: Table,
     detector: Watch,
-    /// False alarms per block, by the law.
+    /// False alarms per block: as promised, and by the law.
+    promised: f64,
     exact: f64,
 }
 
@@ -59,10 +63,12 @@ impl Outcomes for RunLengths {
     fn read(experiment: &Experiment) -> Result<Self, StudyError> {
         let table: Table = experiment.read()?;
         let made = table.check().and_then(|()| table.detector());
-        let (detector, exact) = made.map_err(|error| experiment.refuse(error))?;
+        let refuse = |error: OutOfRange| experiment.conflict(error.under(Self::NAME).into());
+        let (detector, [promised, exact]) = made.map_err(refuse)?;
         Ok(Self {
             table,
             detector,
+            promised,
             exact,
         })
     }
@@ -104,7 +110,7 @@ impl Outcomes for RunLengths {
         };
         let named = [
             over("false_alarms", 1.0),
-            over("over_promised", self.table.promised()),
+            over("over_promised", self.promised),
             over("over_law", self.exact),
         ];
         let counted = |estimate| Estimate {
@@ -129,13 +135,19 @@ impl Outcomes for RunLengths {
         let scenario = |row: &Row| Scenario {
             name: row.label.clone(),
             cases: "blocks",
-            nominal: self.table.promised(),
+            nominal: self.promised,
             tally: Tally {
                 hits: row.count,
                 trials: row.exposure as u64,
             },
         };
         rows.iter().filter(tested).map(scenario).collect()
+    }
+
+    fn nothing_promised() -> Option<OutOfRange> {
+        let noise = format!("{}.noise", Self::NAME);
+        let error = OutOfRange::new(noise, "promise a rate", "promised = false in all");
+        Some(error.explained(" (take one of them out)"))
     }
 
     fn plot(&self, rows: &[Row], seed: u64) -> Plot {

@@ -1,7 +1,7 @@
 //! `[run_length]`: the detector, the noise, and the columns of `points.csv`.
 
-use crate::detect::sequential::{Chart, Score, Side, units};
-use crate::rule::{Explained, OutOfRange, Rule};
+use crate::detect::sequential::{Chart, Rate, Score, Side, units};
+use crate::rule::{OutOfRange, Rule};
 use crate::signal::Noise;
 use crate::study::curves::name_of;
 use crate::study::outcomes::outcome_row;
@@ -61,7 +61,9 @@ pub struct Watch {
     pub chart: Chart,
     /// h, in steps.
     pub threshold: i32,
-    /// Monitored blocks.
+    /// Blocks that are monitored before the first that counts.
+    pub warm_up: u64,
+    /// Monitored blocks that count.
     pub blocks: u64,
 }
 
@@ -93,76 +95,67 @@ outcome_row! {
 }
 
 impl Table {
-    /// The false alarms per block that are promised.
-    pub fn promised(&self) -> f64 {
-        self.per_hour / (3600.0 * self.rate)
-    }
-
     /// Checks what the detector does not.
     ///
     /// # Errors
     /// If a number breaks its rule, a point has no name of its own, or something is promised of coloured noise.
     pub fn check(&self) -> Result<(), OutOfRange> {
-        Rule::Positive.check("run_length.per_hour", &self.per_hour)?;
-        Rule::Positive.check("run_length.rate", &self.rate)?;
         let blocks = Rule::Within(1.0, 1e7, "");
-        blocks.check("run_length.blocks", &(self.blocks as f64))?;
+        blocks.check("blocks", &(self.blocks as f64))?;
         for (place, noise) in self.noise.iter().enumerate() {
-            noise.check()?;
+            let within = |error: OutOfRange| error.under(format!("noise[{place}]"));
+            noise.check().map_err(within)?;
             let before = &self.noise[..place];
             if before.iter().any(|other| noise.is_named_like(other)) {
                 let rule = "differ from point to point";
-                let error = OutOfRange::new("run_length.noise.label", rule, &noise.label);
-                return Err(error);
+                return Err(within(OutOfRange::new("label", rule, &noise.label)));
             }
         }
         match self.noise.len() {
-            0 => Err(OutOfRange::new("run_length.noise", "name a noise", "none")),
+            0 => Err(OutOfRange::new("noise", "name a noise", "none")),
             _ => Ok(()),
         }
     }
 
-    /// The detector, and its false alarms per block by the exact law.
+    /// The detector and its false alarms per block: what is promised, and what the exact law says.
     ///
     /// # Errors
     /// If there is none with these keys, or none that keeps the rate.
-    pub fn detector(&self) -> Result<(Watch, f64), OutOfRange> {
-        let chart = Chart::new(self.score, &self.sides, self.k, self.reference);
-        let chart = chart.map_err(|error| OutOfRange {
-            key: format!("run_length.{}", error.key),
-            ..error
-        })?;
-        let threshold = chart.threshold(1.0 / self.promised());
-        let keys = ["run_length.per_hour", "run_length.reference"];
-        let threshold = threshold.map_err(|error| error.per_hour(keys, 3600.0 * self.rate))?;
-        let exact = 1.0 / chart.run_length(threshold).promised();
-        let blocks = self.blocks;
+    pub fn detector(&self) -> Result<(Watch, [f64; 2]), OutOfRange> {
+        let rate = Rate::new(self.per_hour, self.rate)?;
+        let chart = Chart::new(self.score, &self.sides, self.k, self.reference)?;
+        let threshold = rate.threshold(&chart)?;
+        let law = chart.run_length(threshold);
+        let rates = [rate.per_block(), 1.0 / law.promised()];
         let detector = Watch {
             chart,
             threshold,
-            blocks,
+            warm_up: law.settled(),
+            blocks: self.blocks,
         };
-        Ok((detector, exact))
+        Ok((detector, rates))
     }
 }
 
 impl Blocks {
     fn check(&self) -> Result<(), OutOfRange> {
         let quantum = Rule::Within(0.0, 1e3, "");
-        quantum.check("run_length.noise.quantum", &self.quantum)?;
+        quantum.check("quantum", &self.quantum)?;
+        if self.quantum > 0.0 && self.quantum < 1e-9 {
+            let rule = "be 0 or at least 1e-9";
+            return Err(OutOfRange::new("quantum", rule, self.quantum));
+        }
         let colour = Rule::Within(-0.999, 0.999, "");
-        colour.check("run_length.noise.colour", &self.colour)?;
+        colour.check("colour", &self.colour)?;
         if self.colour != 0.0 && self.promised {
-            let free = Explained(
-                Rule::Within(0.0, 0.0, ""),
-                " (set promised = false: coloured blocks are not exchangeable)",
-            );
-            free.check("run_length.noise.colour", &self.colour)?;
+            let remedy = " (set promised = false: coloured blocks are not exchangeable)";
+            let error = OutOfRange::new("colour", "be 0 where a rate is promised", self.colour);
+            return Err(error.explained(remedy));
         }
         match name_of(&self.label).is_empty() {
             true => {
                 let rule = "have a letter or a digit";
-                Err(OutOfRange::new("run_length.noise.label", rule, &self.label))
+                Err(OutOfRange::new("label", rule, &self.label))
             }
             false => Ok(()),
         }

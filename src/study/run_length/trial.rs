@@ -9,16 +9,17 @@ use libm::{round, sqrt};
 const RECORD: usize = 256;
 
 impl Watch {
-    /// The false alarms of one trial.
+    /// The false alarms of one trial, after a warm-up.
     pub fn false_alarms(&self, noise: &Blocks, seed: u64, trial: u64) -> u64 {
         let mut detector = self.chart.detector(self.threshold);
         let mut record = Record::new(noise, seed, trial);
         let (mut alarms, mut blocks) = (0, 0);
-        while blocks < self.blocks {
+        while blocks < self.warm_up + self.blocks {
             let (x, v) = record.next();
             let step = detector.step(x, v);
             blocks += u64::from(step != Step::Reference);
-            alarms += u64::from(matches!(step, Step::Alarm(_)));
+            let counts = matches!(step, Step::Alarm(_)) && blocks > self.warm_up;
+            alarms += u64::from(counts);
         }
         alarms
     }
