@@ -15,7 +15,8 @@ use std::process::ExitCode;
 ///
 /// Columns are stage, sample, index and value. Stages: innovation (the draws behind the noise), noise, acceleration and
 /// impulse (one for each raw sample), record (as observed), coefficient (of the filter, from 1), whitened,
-/// rank, rank_sum (W), exceedances (T), critical (the smallest W that decides H1 at this T) and
+/// rank, rank_sum (W), exceedances (T, or T' if the config counts
+/// those of all of the motion), critical (the smallest W that decides H1 at so many) and
 /// critical_below (the largest, where small ones do), threshold (of a score) and h1 (1 where the decision is
 /// H1). The decision is the one that a sweep with this config, seed and number of pilot trials counts.
 #[derive(Debug, Args)]

@@ -22,21 +22,27 @@ use std::process::ExitCode;
 /// With --per-hour it is the threshold of another detector, which watches block after block: each is ranked among all since
 /// a reference of N blocks began, and a CUSUM of the ranks' scores alarms where it reaches the threshold. Its false alarms
 /// at rest are exactly known whatever the noise is, as long as blocks do not depend on each other. Printed with it: the
-/// mean time between false alarms, how likely the first comes when, and how long after a shift in normal noise it alarms.
+/// mean time between false alarms, the time before which the first comes with a given probability, and how long after a
+/// shift of normal noise it alarms; if it looks for vibration, also how long after a growth of the deviation.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("three samples").args(["shift", "scale", "alpha", "rule", "exceedances", "alternative"]).multiple(true))]
 pub struct Threshold {
     /// N, the size of X; with --per-hour the blocks of the reference, 60 if not given.
-    #[arg(long, value_name = "N", value_parser = size, required_unless_present = "per_hour")]
+    #[arg(long, value_name = "N", value_parser = size, allow_negative_numbers = true, required_unless_present = "per_hour")]
     reference: Option<usize>,
     /// M1, the size of Y1.
-    #[arg(long, value_name = "M1", value_parser = size, required_unless_present = "per_hour")]
+    #[arg(long, value_name = "M1", value_parser = size, allow_negative_numbers = true, required_unless_present = "per_hour")]
     shift: Option<usize>,
     /// M2, the size of Y2.
-    #[arg(long, value_name = "M2", value_parser = size, required_unless_present = "per_hour")]
+    #[arg(long, value_name = "M2", value_parser = size, allow_negative_numbers = true, required_unless_present = "per_hour")]
     scale: Option<usize>,
     /// The level: the rule's false-alarm rate is at most this.
-    #[arg(long, value_name = "A", required_unless_present = "per_hour")]
+    #[arg(
+        long,
+        value_name = "A",
+        allow_negative_numbers = true,
+        required_unless_present = "per_hour"
+    )]
     alpha: Option<f64>,
     /// How the region is filled.
     #[arg(long, value_name = "R", value_parser = one_of(&RULES), default_value = "product")]
