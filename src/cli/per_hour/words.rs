@@ -3,6 +3,7 @@
 use super::super::table;
 use super::Found;
 use liftsim::detect::sequential::{Change, Side, units};
+use liftsim::format::brief;
 use liftsim::study::run_length::{Delay, plot_delays};
 use serde_json::{Value, json};
 
@@ -45,7 +46,7 @@ impl Found<'_> {
             format!("h = {}", units(self.threshold)),
             format!("reference of {} blocks", self.chart.reference()),
             format!("{} blocks per second, {} each", self.rate, self.samples()),
-            format!("at most {} false alarms per hour", self.per_hour),
+            format!("at most {} false alarms per hour", brief(self.per_hour)),
             format!(
                 "a shift of normal noise; {}, drawn where 99 % are seen",
                 trials(&self.shifts)
@@ -103,7 +104,7 @@ impl Found<'_> {
             units(self.threshold),
             digits(self.hours(law.promised())),
             digits(1.0 / self.hours(law.promised())),
-            self.per_hour,
+            brief(self.per_hour),
             digits(self.hours(law.one_side())),
             table(&first, &quantiles.collect::<Vec<_>>()),
             self.samples(),

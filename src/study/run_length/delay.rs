@@ -89,7 +89,8 @@ impl Planned {
         let long = chart.delay(threshold, change);
         let latest = (LATEST * reference).min(LATEST_BLOCK) as f64;
         let latest = latest.min(LATEST_DELAY * long);
-        let work = reference as f64 / 4.0 + long.min(latest);
+        // Where some are not seen, those take up to `latest`.
+        let work = reference as f64 / 4.0 + latest.min(10.0 * long);
         Self {
             change,
             happens: chart.towards(change),
