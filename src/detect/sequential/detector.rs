@@ -57,12 +57,6 @@ impl Detector {
         }
     }
 
-    /// Takes in all blocks of the reference, as if one by one.
-    pub fn refer(&mut self, blocks: &[f64]) {
-        debug_assert!(self.ranks.seen() == 0 && blocks.len() == self.reference);
-        self.ranks.take(blocks);
-    }
-
     /// Starts again with a new reference. This never brings a false alarm that would not have come without it, in as many
     /// monitored blocks.
     pub fn clear(&mut self) {

@@ -2,7 +2,7 @@
 
 use super::chain::Chain;
 use super::change::Change;
-use super::chart::Chart;
+use super::chart::{Chart, units};
 use super::detector::Detector;
 use super::reach::Reach;
 use super::run_length::RunLength;
@@ -22,14 +22,19 @@ pub struct ThresholdError {
 }
 
 /// What makes a rate reachable.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Remedy {
     /// A larger k: the threshold is too high to be computed.
     RaiseAllowance,
     /// A smaller k: with this one no change reaches any threshold, with half of it one reaches some.
-    LowerAllowance,
-    /// A longer reference.
-    LongerReference,
+    LowerAllowance {
+        /// N.
+        reference: usize,
+        /// k.
+        allowance: f64,
+    },
+    /// A longer reference than that of N blocks.
+    LongerReference(usize),
 }
 
 /// The largest threshold in steps. With normal scores and k = 0.8 its mean run is some 10¹⁴ blocks.
@@ -67,10 +72,14 @@ impl Chart {
             0 => 0.0,
             _ => self.run_length(most as i32).promised(),
         };
+        let reference = self.reference;
         let remedy = match most {
-            0 if Reach::new(&self.with_half_the_allowance()).reaches(1) => Remedy::LowerAllowance,
+            0 if Reach::new(&self.with_half_the_allowance()).reaches(1) => Remedy::LowerAllowance {
+                reference,
+                allowance: units(self.allowance),
+            },
             MOST => Remedy::RaiseAllowance,
-            _ => Remedy::LongerReference,
+            _ => Remedy::LongerReference(reference),
         };
         Err(ThresholdError {
             wanted: mean,

@@ -48,12 +48,6 @@ impl Ranks {
         ((below + below_latest) as f64 + v * ((equal + equal_latest) as f64 + 1.0)) / t
     }
 
-    /// Takes in blocks whose U nobody asks for.
-    pub fn take(&mut self, blocks: &[f64]) {
-        self.latest.extend(blocks);
-        self.sort();
-    }
-
     fn sort(&mut self) {
         self.sorted.append(&mut self.latest);
         self.sorted.sort_by(f64::total_cmp);
@@ -67,8 +61,8 @@ impl Ranks {
     /// Begins anew after these blocks, which are numbers.
     pub fn begin(&mut self, blocks: &[f64]) {
         self.clear();
-        self.sorted.extend_from_slice(blocks);
-        self.sorted.sort_unstable_by(f64::total_cmp);
+        self.latest.extend_from_slice(blocks);
+        self.sort();
     }
 
     /// Begins anew.

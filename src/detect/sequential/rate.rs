@@ -1,7 +1,8 @@
 //! A promised rate of false alarms, in the words of a user.
 
-use super::chart::{Chart, units};
+use super::chart::Chart;
 use super::promise::{Remedy, ThresholdError};
+use crate::format::{brief, eight_digits};
 use crate::rule::{OutOfRange, Rule};
 
 /// False alarms per hour that are promised, of so many blocks.
@@ -40,31 +41,35 @@ impl Rate {
     /// As of [`Chart::threshold`].
     pub fn threshold(self, chart: &Chart) -> Result<i32, OutOfRange> {
         let threshold = chart.threshold(self.blocks / self.per_hour);
-        threshold.map_err(|error| self.refusal(chart, error))
+        threshold.map_err(|error| error.per_hour(["per_hour", "reference"], self.blocks))
     }
+}
 
-    fn refusal(self, chart: &Chart, error: ThresholdError) -> OutOfRange {
-        let n = chart.reference();
-        let least = rounded_up(self.blocks / error.reachable);
-        match error.remedy {
-            Remedy::RaiseAllowance => {
-                OutOfRange::new("per_hour", format!("be at least {least}"), self.per_hour)
-                    .explained(" (or raise k: thresholds beyond 20 are not computed)")
-            }
-            Remedy::LowerAllowance => {
-                let rule = format!("be smaller with a reference of {n} blocks");
+impl ThresholdError {
+    /// The same of a rate per hour at so many blocks an hour. The keys are those of the rate and of the reference.
+    pub fn per_hour(&self, [rate, reference]: [&str; 2], blocks: f64) -> OutOfRange {
+        let got = eight_digits(blocks / self.wanted);
+        let least = brief(rounded_up(blocks / self.reachable));
+        match self.remedy {
+            Remedy::RaiseAllowance => OutOfRange::new(rate, format!("be at least {least}"), got)
+                .explained(" (or raise k: thresholds beyond 20 are not computed)"),
+            Remedy::LowerAllowance {
+                reference,
+                allowance,
+            } => {
+                let rule = format!("be smaller with a reference of {reference} blocks");
                 let remedy =
                     " (no change, however large, reaches a threshold; or lengthen the reference)";
-                OutOfRange::new("k", rule, units(chart.allowance)).explained(remedy)
+                OutOfRange::new("k", rule, allowance).explained(remedy)
             }
-            Remedy::LongerReference if error.reachable == 0.0 => {
+            Remedy::LongerReference(n) if self.reachable == 0.0 => {
                 let rule = "be longer for a change of any size to reach a threshold";
-                OutOfRange::new("reference", rule, n)
+                OutOfRange::new(reference, rule, n)
             }
-            Remedy::LongerReference => {
+            Remedy::LongerReference(n) => {
                 let rule = format!("be at least {least} with a reference of {n} blocks");
                 let remedy = " (lengthen the reference: in this one no change, however large, climbs higher)";
-                OutOfRange::new("per_hour", rule, self.per_hour).explained(remedy)
+                OutOfRange::new(rate, rule, got).explained(remedy)
             }
         }
     }

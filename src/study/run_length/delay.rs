@@ -129,7 +129,7 @@ impl Reference {
     fn new(chart: &Chart, threshold: i32, trial: u64) -> Self {
         let mut draws = Stream::new(SEED, "delay", "").at(trial);
         let mut detector = chart.detector(threshold);
-        detector.refer(&white_noise(chart.reference(), &mut draws));
+        detector.begin(&white_noise(chart.reference(), &mut draws));
         Self { detector, draws }
     }
 

@@ -63,7 +63,7 @@ fn reach_agrees_with_simulation() {
         let mut share = |threshold: i32, is_by_chance: bool| {
             let run = |_: &u32| {
                 let mut detector = chart.detector(threshold);
-                detector.refer(&[0.0; 12]);
+                detector.begin(&[0.0; 12]);
                 (0..last).any(|j| {
                     let turn = if is_by_chance {
                         uniform(&mut draws) < 0.5
@@ -101,7 +101,7 @@ fn unreachable_rates_are_refused() {
     let error = short.threshold(1e6).unwrap_err();
     println!("{error}");
     let reachable = error.reachable;
-    assert_eq!(error.remedy, Remedy::LongerReference);
+    assert_eq!(error.remedy, Remedy::LongerReference(8));
     assert!(short.threshold(reachable).is_ok() && short.threshold(reachable * 1.05).is_err());
     let rate = Rate::new(0.072, 20.0).unwrap();
     let said = |chart: &Chart| rate.threshold(chart).unwrap_err().to_string();
@@ -158,7 +158,7 @@ fn a_reference_at_once() {
     let [mut at_once, mut one_by_one] = [0; 2].map(|_| chart.detector(100));
     let mut draws = stream("at once").at(0);
     let blocks = white_noise(200, &mut draws);
-    at_once.refer(&blocks);
+    at_once.begin(&blocks);
     for x in blocks {
         assert_eq!(one_by_one.step(x, 0.5), Step::Reference);
     }
