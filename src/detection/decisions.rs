@@ -161,7 +161,7 @@ impl<'a> Decisions<'a> {
         let alarms = monitored
             .iter()
             .zip(0..)
-            .filter(|(block, number)| ranked.step(**block, *number, reference).is_some());
+            .filter(|(block, number)| ranked.step(**block, *number).is_some());
         AtRest {
             rank_alarms: alarms.count() as u64,
             ranked: monitored.len() as u64,

@@ -116,7 +116,10 @@ impl Decisions {
             }
             Rule::Sequential(ranked, latest) => {
                 let (block, whitened) = history.newest();
-                let side = ranked.step(whitened, history.end(), &reference.ranked);
+                if ranked.is_full() {
+                    ranked.begin(&reference.ranked);
+                }
+                let side = ranked.step(whitened, history.end());
                 *latest = side.map(|side| (block.to, side)).or(*latest);
                 Some(side.is_some())
             }
@@ -186,13 +189,18 @@ impl Decisions {
         self.history.clear();
         match &mut self.rule {
             Rule::ThreeSample(_, latest) => *latest = None,
-            Rule::Sequential(ranked, latest) => {
-                *latest = None;
-                (self.reference.iter()).for_each(|reference| ranked.begin(&reference.ranked));
-            }
+            Rule::Sequential(_, latest) => *latest = None,
         }
+        self.begin_again();
         self.moved = f64::NEG_INFINITY;
         (self.learns_from, self.due) = (0, 0);
+    }
+
+    /// Ranks begin again with the reference, since a motion was among them.
+    pub fn begin_again(&mut self) {
+        if let (Rule::Sequential(ranked, _), Some(reference)) = (&mut self.rule, &self.reference) {
+            ranked.begin(&reference.ranked);
+        }
     }
 
     /// The newest block is none to learn from, nor are those before.
@@ -238,7 +246,7 @@ impl Decisions {
         ranked.begin(&reference.ranked);
         for number in to..self.history.end() {
             let (block, whitened) = self.history.get(number);
-            if let Some(side) = ranked.step(whitened, number + 1, &reference.ranked) {
+            if let Some(side) = ranked.step(whitened, number + 1) {
                 *latest = Some((block.to, side));
                 self.moved = self.moved.max(block.to);
             }

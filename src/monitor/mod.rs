@@ -332,6 +332,9 @@ impl Monitor {
         if was.state == statement.state {
             return;
         }
+        if was.state.moves() && !statement.state.moves() {
+            self.decisions.begin_again();
+        }
         let mut event = statement.event(now);
         if let Kind::Change { decision, .. } = &mut event.kind {
             *decision = match statement.braking {

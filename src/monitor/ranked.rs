@@ -1,14 +1,14 @@
 //! Decisions by sequential ranks: the whitened blocks of the reference begin the ranks, and every block since is ranked
 //! among all before it.
 //!
-//! After an alarm, as after a new reference, everything begins again with the reference. The promised rate of false
-//! alarms is exact for the first alarm on each reference, if the whitened blocks of rest are exchangeable; see
-//! [`sequential`](crate::detect::sequential).
+//! After an alarm the ranks go on, so that the promised rate of false alarms is exact on each reference if the whitened
+//! blocks of rest are exchangeable; see [`sequential`](crate::detect::sequential). With a new reference, and after a motion,
+//! everything begins again.
 
 use crate::detect::sequential::{Detector, Side, Step};
 use crate::rng::{Stream, unit};
 
-/// Where no rest is learnt from for long, everything begins again after so many blocks, to bound the memory.
+/// Where nothing is learnt for long, everything begins again after so many blocks, to bound the memory.
 const MOST: usize = 1 << 12;
 
 /// Ranks at work, with random numbers for ties.
@@ -33,16 +33,17 @@ impl Ranked {
         self.detector.begin(reference);
     }
 
+    /// Whether it should begin again.
+    pub fn is_full(&self) -> bool {
+        self.detector.seen() > MOST
+    }
+
     /// Takes in a whitened block; the side that alarms, if one does. `number` chooses the key of ties.
-    pub fn step(&mut self, whitened: f64, number: u64, reference: &[f64]) -> Option<Side> {
-        if self.detector.seen() >= reference.len() + MOST {
-            self.begin(reference);
-        }
+    pub fn step(&mut self, whitened: f64, number: u64) -> Option<Side> {
         let v = 1.0 - unit(&mut self.ties.at(number));
-        let Step::Alarm(side) = self.detector.step(whitened, v) else {
-            return None;
-        };
-        self.begin(reference);
-        Some(side)
+        match self.detector.step_on(whitened, v) {
+            Step::Alarm(side) => Some(side),
+            _ => None,
+        }
     }
 }

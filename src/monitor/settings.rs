@@ -98,7 +98,7 @@ settings! {
     }
     /// What decides between rest and motion, for Δ of either sign.
     detector: Level {
-        /// The rule: "three-sample" compares the latest blocks with X, "sequential" sums up ranks.
+        /// The rule.
         rule: DecisionRule = DecisionRule::Sequential, Any;
         /// The level of each decision; of `sequential`, the rate of false alarms per block.
         alpha: f64 = 0.001, Rule::Level;

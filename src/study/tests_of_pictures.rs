@@ -288,14 +288,21 @@ fn operating_points_stand_at_their_sizes() {
 #[test]
 fn rides_show_rates_above_delays() {
     let (rows, plot) = drawn::<outcomes::Of<ride::Table>>("ride_found");
-    let curves = ["10 Hz", "25 Hz", "100 Hz", "200 Hz", "100 Hz, within 2 s"];
+    let curves = [
+        "10 Hz",
+        "25 Hz",
+        "100 Hz",
+        "200 Hz",
+        "100 Hz, within 2 s",
+        "100 Hz, three samples",
+    ];
     assert_eq!(names(&plot), curves);
     let y: Vec<&str> = plot
         .panels
         .iter()
         .map(|panel| panel.y.label.as_str())
         .collect();
-    assert_eq!(y, ["P(every trip is found)", "start to H_1*, s"]);
+    assert_eq!(y, ["P(every trip is found)", "start to its report, s"]);
     assert_eq!(points(&plot, 0)[0][0].x, rows[0].x.log10());
 }
 

@@ -12,7 +12,7 @@ pub enum Step {
     Reference,
     /// Monitored, without alarm.
     Quiet,
-    /// Monitored, and this side alarms. Everything starts again with the next block.
+    /// Monitored, and this side alarms.
     Alarm(Side),
 }
 
@@ -36,8 +36,19 @@ impl Detector {
         }
     }
 
-    /// Takes in a block `x`, which is a number, with `v` uniform on (0, 1]. In the reference `v` has no effect.
+    /// Takes in a block `x`, which is a number, with `v` uniform on (0, 1]. In the reference `v` has no effect. After an
+    /// alarm everything starts again with a new reference.
     pub fn step(&mut self, x: f64, v: f64) -> Step {
+        let step = self.step_on(x, v);
+        if matches!(step, Step::Alarm(_)) {
+            self.ranks.clear();
+        }
+        step
+    }
+
+    /// The same without a new reference: after an alarm the sums start again, and the ranks go on, which are uniform at
+    /// rest whatever alarmed before.
+    pub fn step_on(&mut self, x: f64, v: f64) -> Step {
         let u = self.ranks.step(x, v);
         if self.ranks.seen() <= self.reference {
             return Step::Reference;
@@ -51,7 +62,7 @@ impl Detector {
         match alarm {
             None => Step::Quiet,
             Some(side) => {
-                self.clear();
+                self.clear_sums();
                 Step::Alarm(side)
             }
         }
@@ -61,12 +72,15 @@ impl Detector {
     /// monitored blocks.
     pub fn clear(&mut self) {
         self.ranks.clear();
+        self.clear_sums();
+    }
+
+    fn clear_sums(&mut self) {
         self.sums.iter_mut().for_each(|(_, cusum)| cusum.clear());
     }
 
-    /// Starts again with these blocks as the reference, in the place of new ones. The first alarm after that is as exact as
-    /// any if they were taken without regard to what they are; a later one on the same reference nearly so, as long as that
-    /// is long.
+    /// Starts again with these blocks as the reference, in the place of new ones. The law of false alarms stays exact if they
+    /// were chosen without regard to what they and the next ones are.
     pub fn begin(&mut self, reference: &[f64]) {
         self.clear();
         self.reference = reference.len();

@@ -33,11 +33,15 @@ fn shown(measure: Measure) -> Vec<Shown> {
     match measure {
         Measure::Rides => vec![
             share("found", "P(every trip is found)", 130.0),
-            delay("start_delay", "start to H_1*, s"),
+            delay("start_delay", "start to its report, s"),
         ],
         Measure::Rest => {
-            let label = "false motions per hour of rest";
-            vec![positive("false_motions", label, Limit::Upper)]
+            let decided = "decisions for motion per hour";
+            let told = "false motions per hour";
+            vec![
+                positive("rule_alarms", decided, Limit::Upper),
+                positive("false_motions", told, Limit::Upper),
+            ]
         }
         Measure::Tradeoff => {
             let label = "decisions for motion per hour of rest";
