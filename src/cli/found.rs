@@ -2,7 +2,7 @@
 
 use super::table;
 use liftsim::detection::{
-    AtRest, DetectReport, Detection, Event, Recorded, Trip, Undecided, event_lines, no_rides,
+    DetectReport, Detection, Event, Recorded, Trip, Undecided, event_lines, no_rides,
 };
 use liftsim::monitor::Reference;
 use serde_json::Value;
@@ -71,13 +71,18 @@ fn rest(detection: &Detection) -> String {
     if let Some(reference) = &knowledge.reference {
         text += &learnt(reference, design.block);
     }
+    let at_rest = &detection.at_rest;
     let alpha = design.settings.detector.alpha;
     text += &format!(
-        "decisions: {} blocks, alpha {alpha}; {}\n{}\n",
+        "decisions: {} blocks, alpha {alpha}; {}\n",
         design.samples,
-        at_rest(&detection.at_rest),
-        ranks(&detection.at_rest, alpha),
+        wrong(at_rest.false_alarms, at_rest.decisions),
     );
+    if at_rest.ranked > 0 {
+        let wrong = wrong(at_rest.rank_alarms, at_rest.ranked);
+        text += &format!("ranks: alpha {alpha} a block; {wrong}\n");
+    }
+    text += "\n";
     text
 }
 
@@ -99,29 +104,13 @@ fn learnt(reference: &Reference, block: f64) -> String {
     )
 }
 
-fn at_rest(at_rest: &AtRest) -> String {
-    let (alarms, decisions) = (at_rest.false_alarms, at_rest.decisions);
+/// How often decisions at rest were wrong.
+fn wrong(alarms: u64, decisions: u64) -> String {
     if decisions == 0 {
         return "none at rest".to_owned();
     }
     let percent = 100.0 * alarms as f64 / decisions as f64;
     format!("false alarms at rest: {alarms} of {decisions} ({percent:.2} %)")
-}
-
-/// How often ranks alarmed at rest, and how often they may.
-fn ranks(at_rest: &AtRest, alpha: f64) -> String {
-    let AtRest {
-        ranked,
-        rank_alarms,
-        ..
-    } = at_rest;
-    match ranked {
-        0 => String::new(),
-        _ => format!(
-            "ranks: alarms at rest: {rank_alarms} in {ranked} blocks, where {:.1} are promised\n",
-            alpha * *ranked as f64
-        ),
-    }
 }
 
 fn trips(report: &DetectReport) -> String {

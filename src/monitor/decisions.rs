@@ -6,7 +6,6 @@ use super::event::{Decided, Decision, Direction, RankDecision};
 use super::history::History;
 use super::ranked::Ranked;
 use super::reference::{MOST_RANKED, Reference};
-use crate::detect::sequential::Side;
 use crate::explain::Block;
 use std::ops::Range;
 
@@ -35,8 +34,8 @@ pub struct Observation {
 enum Rule {
     /// With the decision at the newest block, and its windows.
     ThreeSample(Decider, Option<(Windows, Verdict)>),
-    /// With time, s, and side of the latest alarm.
-    Sequential(Ranked, Option<(f64, Side)>),
+    /// With time, s, and direction of the latest alarm.
+    Sequential(Ranked, Option<(f64, Direction)>),
 }
 
 /// All of them.
@@ -119,9 +118,9 @@ impl Decisions {
                 if ranked.is_full() {
                     ranked.begin(&reference.ranked);
                 }
-                let side = ranked.step(whitened, history.end());
-                *latest = side.map(|side| (block.to, side)).or(*latest);
-                Some(side.is_some())
+                let alarm = ranked.step(whitened, history.end());
+                *latest = alarm.map(|side| (block.to, side)).or(*latest);
+                Some(alarm.is_some())
             }
         }
     }
@@ -148,10 +147,7 @@ impl Decisions {
                 let (alarmed, side) = (*latest)?;
                 Some(Decided::Sequential(RankDecision {
                     alarmed,
-                    side: match side {
-                        Side::Down => Direction::Down,
-                        _ => Direction::Up,
-                    },
+                    side,
                     alpha: self.design.settings.detector.alpha,
                     ranked: reference.ranked.len(),
                     reference: reference.span,
@@ -232,6 +228,7 @@ impl Decisions {
         let record: Vec<f64> = record.iter().map(|block| block.mean).collect();
         let learnt = Reference::from_rest(&record, span, &self.design);
         self.history.whiten(&learnt);
+        // Often enough to follow a level that drifts, and seldom enough for S to climb.
         self.due = to + (to - from).min(2 * least);
         self.begin(to, &learnt);
         self.reference = Some(learnt);

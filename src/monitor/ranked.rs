@@ -5,6 +5,7 @@
 //! blocks of rest are exchangeable; see [`sequential`](crate::detect::sequential). With a new reference, and after a motion,
 //! everything begins again.
 
+use super::event::Direction;
 use crate::detect::sequential::{Detector, Side, Step};
 use crate::rng::{Stream, unit};
 
@@ -38,12 +39,16 @@ impl Ranked {
         self.detector.seen() > MOST
     }
 
-    /// Takes in a whitened block; the side that alarms, if one does. `number` chooses the key of ties.
-    pub fn step(&mut self, whitened: f64, number: u64) -> Option<Side> {
+    /// Takes in a whitened block; the direction of an alarm, if there is one. `number` chooses the key of ties.
+    pub fn step(&mut self, whitened: f64, number: u64) -> Option<Direction> {
+        if whitened.is_nan() {
+            return None;
+        }
         let v = 1.0 - unit(&mut self.ties.at(number));
         match self.detector.step_on(whitened, v) {
-            Step::Alarm(side) => Some(side),
-            _ => None,
+            Step::Alarm(Side::Down) => Some(Direction::Down),
+            Step::Alarm(_) => Some(Direction::Up),
+            Step::Reference | Step::Quiet => None,
         }
     }
 }

@@ -183,6 +183,59 @@ fn the_monitor_says_the_same() {
     assert_ne!(said(later).get(1), events.get(1));
 }
 
+/// Either rule tells the rides of the example, with its own decision behind each start, also from a saved state, which
+/// holds what the rule needs.
+#[test]
+fn either_rule_tells_the_rides() {
+    let directory = recorded(&[]);
+    let path = directory.path();
+    let starts = |arguments: &[&str]| {
+        let events = objects(&well(monitor(path, arguments, lines(path, ","))));
+        let starts = events.into_iter();
+        let starts = starts.filter(|event| event["state"] == "acceleration");
+        starts.collect::<Vec<Value>>()
+    };
+    let by_default = starts(&["--begins", "rest"]);
+    assert!(!by_default.is_empty());
+    for (rule, decided, other) in [
+        ("sequential", "alarmed", "rank_sum"),
+        ("three-sample", "rank_sum", "alarmed"),
+    ] {
+        let told = starts(&["--begins", "rest", "--rule", rule]);
+        found(
+            path,
+            &[
+                "ride.csv",
+                "--axis",
+                "z",
+                "--rule",
+                rule,
+                "--save-state",
+                "lift.json",
+                "--force",
+            ],
+        );
+        let learnt = starts(&["--state", "lift.json", "--begins", "rest"]);
+        for told in [told, learnt] {
+            assert_eq!(told.len(), by_default.len(), "{rule}");
+            for (event, as_told) in told.iter().zip(&by_default) {
+                let decision = &event["decision"];
+                assert!(
+                    decision[decided].is_number() && decision[other].is_null(),
+                    "{event}"
+                );
+                let apart = event["time"].as_f64().unwrap() - as_told["time"].as_f64().unwrap();
+                assert!(apart.abs() < 0.5, "{event} {as_told}");
+            }
+        }
+    }
+    let (code, _, err) = monitor(path, &["--rule", "both"], "");
+    assert!(
+        code == 2 && err.contains("sequential, three-sample"),
+        "{err}"
+    );
+}
+
 #[test]
 fn a_jam_is_an_alarm() {
     let directory = recorded(&["--trip", "up:6", "--trip", "down:20:jam"]);
