@@ -1,6 +1,6 @@
 //! Regions against their definitions, cell by cell.
 
-use super::super::law::shrunk;
+use super::super::law::needs::shrunk;
 use super::*;
 use crate::detect::Statistics;
 use crate::detect::statistics::smallest_rank_sum;

@@ -115,7 +115,7 @@ impl RunLength {
 
     /// The largest number of blocks that pass without a false alarm with a probability of 1 − `p` or more, 0 < `p` < 1.
     ///
-    /// Where the mean is [`RARE`] or more it is that of an exponential law. P(run > n) is P(run > m) P(run > n − m) but
+    /// Where the mean is 10⁹ or more it is that of an exponential law. P(run > n) is P(run > m) P(run > n − m) but
     /// for climbs under way after m blocks that end in an alarm. Their probability is about (blocks in a climb that ends
     /// in an alarm)·(blocks between visits of 0)/L₁, below 1000/L₁. So `p` is off by less than 1e-6.
     pub fn quantile(&self, p: f64) -> f64 {
