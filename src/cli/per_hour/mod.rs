@@ -99,7 +99,7 @@ impl<P: TypedValueParser> TypedValueParser for Trimmed<P> {
 }
 
 /// N, if no other is given.
-const REFERENCE: usize = 60;
+const REFERENCE: usize = 300;
 
 /// The shifts of a block, in deviations, whose delays are printed.
 const SHIFTS: [f64; 9] = [0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0];
