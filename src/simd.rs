@@ -178,8 +178,9 @@ impl Vectors {
         all.filter(|vectors| vectors.is_available()).collect()
     }
 
+    /// Whether this processor has them.
     #[inline]
-    fn is_available(self) -> bool {
+    pub fn is_available(self) -> bool {
         match self {
             Self::Baseline => true,
             #[cfg(target_arch = "x86_64")]

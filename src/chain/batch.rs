@@ -6,7 +6,7 @@
 use super::family::{Branch, Family};
 use super::source::Source;
 use crate::rng::Generator;
-use crate::signal::Digitiser;
+use crate::signal::{Digitiser, fill_bytes};
 use crate::simd::{LANES, Value, Vectors, Wide};
 use crate::whiten::{Fitter, step};
 use rand::Rng;
@@ -99,7 +99,7 @@ impl<'a> Batch<'a> {
             .noise
             .fill(&mut family.noise.at(index), &mut self.raw);
         let impulses = self.impulses.as_flattened_mut();
-        family.impulses.at(index).fill_bytes(impulses);
+        fill_bytes(Vectors::widest(), &mut family.impulses.at(index), impulses);
         // Created on first use, because only footfalls draw from it.
         let mut footfalls: Option<Generator> = None;
         let footfall = || {

@@ -8,9 +8,9 @@
 //! [^1]: G. E. P. Box, M. E. Muller, "A note on the generation of random normal deviates",
 //! Ann. Math. Statist. 29, 1958.
 
+use super::bits::fill_bytes;
 use crate::rng::Generator;
 use crate::simd::{LANES, Value, Vectors};
-use rand::Rng;
 use std::f64::consts::{FRAC_PI_4, LN_2, SQRT_2};
 
 /// Normal draws made by one step of the transformation.
@@ -27,7 +27,7 @@ pub fn normals<V: Value>(vectors: Vectors, generator: &mut Generator, record: &m
     for record in record.chunks_mut(BULK / lanes) {
         let wanted = (record.len() * lanes).next_multiple_of(STEP);
         let (bytes, draws) = (&mut bytes[..8 * wanted], &mut draws[..wanted]);
-        generator.fill_bytes(bytes);
+        fill_bytes(vectors, generator, bytes);
         transform(vectors, bytes, draws);
         for (value, draws) in record.iter_mut().zip(draws.chunks_exact(lanes)) {
             value.lanes_mut().copy_from_slice(draws);

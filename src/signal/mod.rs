@@ -6,6 +6,7 @@
 //! signals", Avtometriya (in Russian), received 25 November 2013.
 
 mod autoregression;
+mod bits;
 mod digitiser;
 mod disturbance;
 mod gaussian;
@@ -16,6 +17,7 @@ mod phase;
 mod sensor;
 
 pub(crate) use autoregression::step_down;
+pub(crate) use bits::fill_bytes;
 pub use digitiser::{Digitiser, Quantum};
 pub use disturbance::{Disturbance, Jolt};
 pub use impulses::{During, ImpulseMemory, Impulses};
