@@ -140,7 +140,7 @@ fn refusals() {
         ),
         (
             vec!["--per-hour", "1", "--k", "3.975"],
-            "--k: must be smaller with a reference of 60 blocks, got 3.975",
+            "--k: must be smaller with a reference of 300 blocks, got 3.975",
         ),
         (
             vec!["--per-hour", "1", "--block", "-1"],
