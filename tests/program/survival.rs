@@ -511,7 +511,7 @@ fn impossible_rides_are_refused() {
     for (name, value, words) in [
         (
             "values",
-            json!([{ "0": 1_000_000_000_000_000_000u64 }, {}, {}]),
+            json!([{ "0": 1_000_000_000_000_000_000u64 }, {}, {}, {}]),
             "of something",
         ),
         (

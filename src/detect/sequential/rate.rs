@@ -52,14 +52,14 @@ impl ThresholdError {
         let least = brief(rounded_up(blocks / self.reachable));
         match self.remedy {
             Remedy::RaiseAllowance => OutOfRange::new(rate, format!("be at least {least}"), got)
-                .explained(" (or raise k: thresholds beyond 20 are not computed)"),
+                .explained(" (thresholds beyond 20 are not computed; a larger k lowers them)"),
             Remedy::LowerAllowance {
                 reference,
                 allowance,
             } => {
                 let rule = format!("be smaller with a reference of {reference} blocks");
                 let remedy =
-                    " (no change, however large, reaches a threshold; or lengthen the reference)";
+                    " (with this one no change, however large, reaches a threshold; a longer reference helps too)";
                 OutOfRange::new("k", rule, allowance).explained(remedy)
             }
             Remedy::LongerReference(n) if self.reachable == 0.0 => {
