@@ -58,8 +58,7 @@ impl ThresholdError {
                 allowance,
             } => {
                 let rule = format!("be smaller with a reference of {reference} blocks");
-                let remedy =
-                    " (with this one no change, however large, reaches a threshold; a longer reference helps too)";
+                let remedy = " (with this one no change, however large, reaches a threshold; a longer reference helps too)";
                 OutOfRange::new("k", rule, allowance).explained(remedy)
             }
             Remedy::LongerReference(n) if self.reachable == 0.0 => {
