@@ -27,7 +27,7 @@ use std::process::ExitCode;
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("three samples").args(["shift", "scale", "alpha", "rule", "exceedances", "alternative"]).multiple(true))]
 pub struct Threshold {
-    /// N, the size of X; with --per-hour the blocks of the reference, 60 if not given.
+    /// N, the size of X; with --per-hour the blocks of the reference, 300 if not given.
     #[arg(long, value_name = "N", value_parser = size, allow_negative_numbers = true, required_unless_present = "per_hour")]
     reference: Option<usize>,
     /// M1, the size of Y1.

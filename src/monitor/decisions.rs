@@ -7,7 +7,11 @@ use super::history::History;
 use super::ranked::Ranked;
 use super::reference::{MOST_RANKED, Reference};
 use crate::explain::Block;
+use std::collections::VecDeque;
 use std::ops::Range;
+
+/// The number of alarms kept, to find the first since a start.
+const ALARMS: usize = 64;
 
 /// The longest braking whose decision is made, s.
 const LONGEST_BRAKING: f64 = 60.0;
@@ -34,8 +38,8 @@ pub struct Observation {
 enum Rule {
     /// With the decision at the newest block, and its windows.
     ThreeSample(Decider, Option<(Windows, Verdict)>),
-    /// With time, s, and direction of the latest alarm.
-    Sequential(Ranked, Option<(f64, Direction)>),
+    /// With time, s, and direction of the latest alarms.
+    Sequential(Ranked, VecDeque<(f64, Direction)>),
 }
 
 /// All of them.
@@ -67,7 +71,7 @@ impl Decisions {
                 None => Rule::ThreeSample(Decider::new(&design), None),
                 Some(ranks) => {
                     let ranked = reference.as_ref().map_or(&[][..], |it| &it.ranked);
-                    Rule::Sequential(Ranked::new(ranks.clone(), ranked), None)
+                    Rule::Sequential(Ranked::new(ranks.clone(), ranked), VecDeque::new())
                 }
             },
             moved: f64::NEG_INFINITY,
@@ -113,13 +117,15 @@ impl Decisions {
                 });
                 latest.as_ref().map(|(_, verdict)| verdict.moves)
             }
-            Rule::Sequential(ranked, latest) => {
+            Rule::Sequential(ranked, alarms) => {
                 let (block, whitened) = history.newest();
                 if ranked.is_full() {
                     ranked.begin(&reference.ranked);
                 }
                 let alarm = ranked.step(whitened, history.end());
-                *latest = alarm.map(|side| (block.to, side)).or(*latest);
+                alarm
+                    .into_iter()
+                    .for_each(|side| keep(alarms, (block.to, side)));
                 Some(alarm.is_some())
             }
         }
@@ -135,16 +141,16 @@ impl Decisions {
         self.moved >= start
     }
 
-    /// The decision at the newest block, or the latest alarm of ranks.
-    pub fn at_start(&self) -> Option<Decided> {
+    /// The decision at the newest block, or the first alarm of ranks since the start, s.
+    pub fn at_start(&self, start: Option<f64>) -> Option<Decided> {
         match &self.rule {
             Rule::ThreeSample(_, latest) => {
                 let (windows, verdict) = latest.as_ref()?;
                 self.decision(windows, verdict).map(Decided::ThreeSample)
             }
-            Rule::Sequential(_, latest) => {
-                let reference = self.reference.as_ref()?;
-                let (alarmed, side) = (*latest)?;
+            Rule::Sequential(_, alarms) => {
+                let (reference, start) = (self.reference.as_ref()?, start?);
+                let &(alarmed, side) = alarms.iter().find(|(time, _)| *time >= start)?;
                 Some(Decided::Sequential(RankDecision {
                     alarmed,
                     side,
@@ -185,7 +191,7 @@ impl Decisions {
         self.history.clear();
         match &mut self.rule {
             Rule::ThreeSample(_, latest) => *latest = None,
-            Rule::Sequential(_, latest) => *latest = None,
+            Rule::Sequential(_, alarms) => alarms.clear(),
         }
         self.begin_again();
         self.moved = f64::NEG_INFINITY;
@@ -194,7 +200,10 @@ impl Decisions {
 
     /// Ranks begin again with the reference, since a motion was among them.
     pub fn begin_again(&mut self) {
-        if let (Rule::Sequential(ranked, _), Some(reference)) = (&mut self.rule, &self.reference) {
+        if let (Rule::Sequential(ranked, alarms), Some(reference)) =
+            (&mut self.rule, &self.reference)
+        {
+            alarms.clear();
             ranked.begin(&reference.ranked);
         }
     }
@@ -236,7 +245,7 @@ impl Decisions {
 
     /// Begins with a new reference, which was learnt from blocks before `to`.
     fn begin(&mut self, to: u64, reference: &Reference) {
-        let Rule::Sequential(ranked, latest) = &mut self.rule else {
+        let Rule::Sequential(ranked, alarms) = &mut self.rule else {
             self.learns_from = self.history.end();
             return;
         };
@@ -244,9 +253,17 @@ impl Decisions {
         for number in to..self.history.end() {
             let (block, whitened) = self.history.get(number);
             if let Some(side) = ranked.step(whitened, number + 1) {
-                *latest = Some((block.to, side));
+                keep(alarms, (block.to, side));
                 self.moved = self.moved.max(block.to);
             }
         }
     }
+}
+
+/// Adds an alarm, and drops the oldest where there are too many.
+fn keep(alarms: &mut VecDeque<(f64, Direction)>, alarm: (f64, Direction)) {
+    if alarms.len() == ALARMS {
+        alarms.pop_front();
+    }
+    alarms.push_back(alarm);
 }

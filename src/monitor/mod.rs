@@ -339,7 +339,9 @@ impl Monitor {
         if let Kind::Change { decision, .. } = &mut event.kind {
             *decision = match statement.braking {
                 Some(braking) if statement.state == State::REST => self.decisions.at_stop(braking),
-                _ if !was.state.moves() && statement.state.moves() => self.decisions.at_start(),
+                _ if !was.state.moves() && statement.state.moves() => {
+                    self.decisions.at_start(statement.start)
+                }
                 _ => None,
             };
         }

@@ -9,13 +9,15 @@ use super::event::Direction;
 use crate::detect::sequential::{Detector, Side, Step};
 use crate::rng::{Stream, unit};
 
-/// Where nothing is learnt for long, everything begins again after so many blocks, to bound the memory.
+/// Where nothing is learnt for long, everything begins again so many blocks after the reference, to bound the memory.
 const MOST: usize = 1 << 12;
 
 /// Ranks at work, with random numbers for ties.
 #[derive(Clone, Debug)]
 pub(crate) struct Ranked {
     detector: Detector,
+    /// The number of blocks that are ranked at most.
+    most: usize,
     ties: Stream,
 }
 
@@ -23,6 +25,7 @@ impl Ranked {
     pub fn new(detector: Detector, reference: &[f64]) -> Self {
         let mut ranked = Self {
             detector,
+            most: MOST,
             ties: Stream::new(0, "ties", "monitor"),
         };
         ranked.begin(reference);
@@ -31,12 +34,13 @@ impl Ranked {
 
     /// Begins again.
     pub fn begin(&mut self, reference: &[f64]) {
+        self.most = reference.len() + MOST;
         self.detector.begin(reference);
     }
 
     /// Whether it should begin again.
     pub fn is_full(&self) -> bool {
-        self.detector.seen() > MOST
+        self.detector.seen() > self.most
     }
 
     /// Takes in a whitened block; the direction of an alarm, if there is one. `number` chooses the key of ties.

@@ -126,6 +126,24 @@ fn ranks_alarm_at_rest_with_the_exact_probability() {
     assert_probability(alarmed(&design, 40_000, 60, 60), 1.0 - law.survival(60));
 }
 
+/// However long the rest is that a reference is learnt from, ranks see a start after it.
+#[test]
+fn ranks_see_a_start_after_a_long_training() {
+    for training in [24, 4080, 5000] {
+        let mut settings = Settings::default();
+        settings.whitening.training = training;
+        let knowledge = Knowledge {
+            begins_at_rest: true,
+            ..Knowledge::default()
+        };
+        let mut monitor = Monitor::new(settings.at(RATE).unwrap(), knowledge);
+        let record = Record::quiet().rest(270.0).trip(1.0).rest(7.0);
+        let told = states(&record.watch(&mut monitor));
+        let starts = told.iter().filter(|state| state.moves()).count();
+        assert!(starts > 0, "{training}: {told:?}");
+    }
+}
+
 /// A start is decided by an alarm of its side that comes after it, and there is none before.
 #[test]
 fn a_start_is_decided_by_ranks() {
@@ -188,7 +206,9 @@ fn a_saved_state_is_read_back_unchanged() {
 /// than the exact size, and W stays within its range.
 #[test]
 fn a_constant_record_is_decided_by_keys() {
-    let design = design();
+    let mut settings = Settings::default();
+    settings.detector.rule = DecisionRule::ThreeSample;
+    let design = settings.at(RATE).unwrap();
     let reference = Reference::from_rest(&[9.81; 48], (0.0, 0.0), &design);
     let mut monitor = Monitor::new(
         design,

@@ -1,7 +1,7 @@
 //! Compares a monitor's reports with the truth.
 
 use crate::lift::Journey;
-use crate::monitor::{Alarm, Direction, Event, Kind, State};
+use crate::monitor::{Alarm, Design, Direction, Event, Kind, State};
 use crate::signal::Phase;
 
 /// The true motion.
@@ -17,8 +17,10 @@ pub struct Seen {
     pub events: Vec<Event>,
     /// The end of each block at which the rule decided for motion, s.
     pub decided: Vec<f64>,
-    /// For how long a motion is in the windows of a decision, s: what lies nearer belongs together.
-    pub span: f64,
+    /// For how long a motion is in the windows Y₁ and Y₂ of a decision, s.
+    pub window: f64,
+    /// Whether decisions that lie nearer than that share blocks, and count as one.
+    pub shares: bool,
 }
 
 /// The result of a trial, or of several.
@@ -156,6 +158,17 @@ impl Journey {
 }
 
 impl Seen {
+    /// Of a monitor with this design, as yet nothing.
+    pub fn by(design: &Design) -> Self {
+        let samples = &design.samples;
+        let blocks = samples.shift() + samples.gap() + samples.scale();
+        Self {
+            window: blocks as f64 * design.block,
+            shares: design.ranks.is_none(),
+            ..Self::default()
+        }
+    }
+
     /// By events alone.
     pub fn of(events: Vec<Event>) -> Self {
         Self {
@@ -174,14 +187,13 @@ impl Seen {
         within.map_or(f64::INFINITY, |time| time - journey.start)
     }
 
-    /// The decisions for motion in a rest, those that lie near each other as one, and without those that lie near the
-    /// motion before.
+    /// The decisions for motion in a rest, those that share blocks as one, without those that may see the motion before.
     fn alarms(&self, (from, to): (f64, f64)) -> u64 {
-        let within = |time: &&f64| from + self.span < **time && **time <= to;
+        let within = |time: &&f64| from + self.window < **time && **time <= to;
         let mut last = f64::NEG_INFINITY;
         let mut alarms = 0;
         for time in self.decided.iter().filter(within) {
-            alarms += u64::from(time - last > self.span);
+            alarms += u64::from(!self.shares || time - last > self.window);
             last = *time;
         }
         alarms

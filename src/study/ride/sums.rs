@@ -296,10 +296,11 @@ mod tests {
             said.iter().for_each(|said| sums.add(&account(&point, said)));
             let checked = sums.check(&point, trials);
             prop_assert!(checked.is_ok(), "{checked:?} {sums:?}");
-            let changes: [(&str, Change); 12] = [
+            let changes: [(&str, Change); 13] = [
                 ("start_delays", |sums| sums.start_delays.push(1.0)),
                 ("stop_delays", |sums| sums.stop_delays.push(f64::INFINITY)),
                 ("alarm_delays", |sums| sums.alarm_delays.push(1.0)),
+                ("rule_delays", |sums| sums.rule_delays.push(1.0)),
                 ("found", |sums| sums.found += 5),
                 ("alarmed", |sums| sums.alarmed += 1),
                 ("disturbed", |sums| sums.disturbed = sums.false_motions + 1),

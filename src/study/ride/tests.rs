@@ -6,7 +6,7 @@ use super::measure::Measure;
 use super::sums::RideSums;
 use super::{Row, Table};
 use crate::lift::Journey;
-use crate::monitor::{Alarm, Direction, Event, Kind, State};
+use crate::monitor::{Alarm, DecisionRule, Direction, Event, Kind, Settings, State};
 use crate::signal::Phase;
 use crate::study::kind::Study;
 use crate::study::outcomes::Of;
@@ -85,6 +85,35 @@ fn said() -> Vec<Event> {
 
 fn account(events: &[Event]) -> Account {
     Account::new(&truth(), &Seen::of(events.to_vec()), 0.5)
+}
+
+/// Alarms of the rule: none while the motion before is in the windows, which are as long in seconds at any rate; ranks
+/// share no blocks.
+#[test]
+fn alarms_of_the_rule_are_counted_at_rest() {
+    for (rate, rule, expected) in [
+        (100.0, DecisionRule::ThreeSample, 2),
+        (200.0, DecisionRule::ThreeSample, 2),
+        (100.0, DecisionRule::Sequential, 3),
+    ] {
+        let mut settings = Settings::default();
+        settings.detector.rule = rule;
+        let truth = truth();
+        let stop = truth.journeys[0].stop;
+        let seen = Seen {
+            // In the motion, in its windows, behind them, near that, and far from it.
+            decided: [-1.0, 0.8, 1.3, 2.0, 4.0]
+                .map(|after| stop + after)
+                .to_vec(),
+            ..Seen::by(&settings.at(rate).unwrap())
+        };
+        assert!((seen.window - 1.2).abs() < 1e-12, "{}", seen.window);
+        let account = Account::new(&truth, &seen, 0.5);
+        assert_eq!(account.rule_alarms, expected, "{rate} Hz, {rule}");
+        let delay = stop - 1.0 - truth.journeys[0].start;
+        assert!((account.trips[0].rule_delay - delay).abs() < 1e-9);
+        assert_eq!(account.trips[1].rule_delay, f64::INFINITY);
+    }
 }
 
 #[test]

@@ -63,11 +63,7 @@ impl Watch<'_> {
     /// Watches a ride from the time `from` on, s.
     fn watch(&self, ride: &Ride, part: Part, from: f64) -> Account {
         let mut monitor = Monitor::new(self.point.design.clone(), self.knowledge());
-        let design = &self.point.design;
-        let mut seen = Seen {
-            span: design.samples.span() as f64 / design.rate,
-            ..Seen::default()
-        };
+        let mut seen = Seen::by(&self.point.design);
         for sample in self.samples(ride, part) {
             if sample.time >= from {
                 seen.events.extend_from_slice(monitor.step(sample, None));
