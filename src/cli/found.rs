@@ -78,7 +78,7 @@ fn rest(detection: &Detection) -> String {
         design.samples,
         wrong(at_rest.false_alarms, at_rest.decisions),
     );
-    if at_rest.ranked > 0 {
+    if design.ranks.is_some() {
         let wrong = wrong(at_rest.rank_alarms, at_rest.ranked);
         text += &format!("ranks: alpha {alpha} a block; {wrong}\n");
     }

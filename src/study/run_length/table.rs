@@ -123,6 +123,8 @@ impl Table {
     /// If there is none with these keys, or none that keeps the rate.
     pub fn detector(&self) -> Result<(Watch, [f64; 2]), OutOfRange> {
         let rate = Rate::new(self.per_hour, self.rate)?;
+        // Each record begins with a reference: longer ones take hours, and the law is the same.
+        Rule::Within(1.0, 1e4, "blocks").check("reference", &self.reference)?;
         let chart = Chart::new(self.score, &self.sides, self.k, self.reference)?;
         let threshold = rate.threshold(&chart)?;
         let law = chart.run_length(threshold);
