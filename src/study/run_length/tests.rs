@@ -81,6 +81,11 @@ fn refusals() {
             "blocks, got 180 (lengthen the reference",
         ),
         (
+            "reference = 1000000",
+            NORMAL,
+            "run_length.reference: must lie in [1, 10000] blocks, got 1000000",
+        ),
+        (
             "per_hour = 18000",
             NORMAL,
             "run_length.per_hour: must be less than 18000, the blocks in an hour, got 18000",
