@@ -29,7 +29,7 @@ pub struct Observation {
     pub mean: f64,
     /// The mean centred and whitened, m/s².
     pub whitened: f64,
-    /// Whether the forward decision is H₁*, once there are enough blocks.
+    /// Whether the decision at this block is for motion, once there are enough blocks.
     pub moves: Option<bool>,
 }
 
@@ -49,7 +49,7 @@ pub(super) struct Decisions {
     pub reference: Option<Reference>,
     history: History,
     rule: Rule,
-    /// The last time that the decision was H₁*, or could not be made, s.
+    /// The last time that the decision was for motion, or could not be made, s.
     moved: f64,
     /// The mean square of whitened blocks, in that of the reference.
     strength: f64,
@@ -104,7 +104,7 @@ impl Decisions {
         })
     }
 
-    /// Whether the newest block brings H₁*; `None` without a reference, or with too few blocks.
+    /// Whether the newest block brings a decision for motion; `None` without a reference, or with too few blocks.
     fn decide(&mut self) -> Option<bool> {
         let (design, history) = (&self.design, &self.history);
         let reference = self.reference.as_ref()?;
@@ -136,7 +136,7 @@ impl Decisions {
         self.strength < CALM.0
     }
 
-    /// Whether a decision was H₁* since a time, or none could be made.
+    /// Whether a decision was for motion since a time, or none could be made.
     pub fn agree_since(&self, start: f64) -> bool {
         self.moved >= start
     }
@@ -189,16 +189,15 @@ impl Decisions {
     /// Forgets the blocks, not the reference.
     pub fn forget(&mut self) {
         self.history.clear();
-        match &mut self.rule {
-            Rule::ThreeSample(_, latest) => *latest = None,
-            Rule::Sequential(_, alarms) => alarms.clear(),
+        if let Rule::ThreeSample(_, latest) = &mut self.rule {
+            *latest = None;
         }
         self.begin_again();
         self.moved = f64::NEG_INFINITY;
         (self.learns_from, self.due) = (0, 0);
     }
 
-    /// Ranks begin again with the reference, since a motion was among them.
+    /// Ranks begin again with the reference, without the alarms so far: a motion or a hole was among their blocks.
     pub fn begin_again(&mut self) {
         if let (Rule::Sequential(ranked, alarms), Some(reference)) =
             (&mut self.rule, &self.reference)

@@ -68,23 +68,23 @@ pub fn check(
     samples: &Samples,
     needs: impl Fn(&Samples) -> Needs,
 ) -> Result<(), NullLawError> {
-    let Needs { bytes, seconds } = needs(samples);
-    if needs(samples).are_met() {
+    let needed = needs(samples);
+    if needed.are_met() {
         return Ok(());
     }
     let share = largest_below_one(|share| needs(&shrunk(samples, share)).are_met());
     let samples = *samples;
-    Err(if bytes > MEMORY_LIMIT {
+    Err(if needed.bytes > MEMORY_LIMIT {
         NullLawError::TooLarge {
             of,
             samples,
-            megabytes: bytes / 1e6,
+            megabytes: needed.bytes / 1e6,
             share,
         }
     } else {
         NullLawError::TooLong {
             samples,
-            seconds,
+            seconds: needed.seconds,
             share,
         }
     })
