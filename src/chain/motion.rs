@@ -13,8 +13,8 @@ use std::ops::Range;
 pub(super) struct Motion {
     /// λ/θ for each raw observation.
     pub pattern: Vec<f64>,
-    /// Block means of the pattern.
-    pub observed: Vec<f64>,
+    /// Block means of the pattern; unused where a block is one observation.
+    means: Vec<f64>,
     /// Whitened step and impulses; noise and impulses; all three.
     step: Vec<f64>,
     impulse: Vec<f64>,
@@ -27,7 +27,7 @@ impl Motion {
     pub fn new(raw: usize, observed: usize) -> Self {
         Self {
             pattern: vec![0.0; raw],
-            observed: vec![0.0; observed],
+            means: vec![0.0; observed],
             step: vec![0.0; observed],
             impulse: vec![0.0; observed],
             without_step: vec![0.0; observed],
@@ -41,10 +41,13 @@ impl Motion {
         let (silent, acting) = self.pattern.split_at_mut(first);
         silent.fill(0.0);
         if course.impulses.are_absent() {
-            acting.fill(0.0)
-        } else {
-            course.impulses.pattern(&draws[first..], acting)
+            acting.fill(0.0);
+            return;
         }
+        Vectors::widest().run(
+            #[inline(always)]
+            || course.impulses.pattern(&draws[first..], acting),
+        );
     }
 
     /// Whitened responses to a unit step and to the impulses, and the whitened record without step. The
@@ -62,8 +65,11 @@ impl Motion {
                 if !course.repeats_shape {
                     whiten(coefficients, &course.observed_shape, 0, &mut self.step);
                 }
-                self.observe(source.samples.decimation());
-                whiten(coefficients, &self.observed, 0, &mut self.impulse);
+                if source.samples.decimation() > 1 {
+                    self.average(source.samples.decimation());
+                }
+                let observed = observed(source, &self.pattern, &self.means);
+                whiten(coefficients, observed, 0, &mut self.impulse);
                 let theta = course.impulses.theta.get();
                 let noise = &rest[source.samples.reference()..];
                 let sums = self.without_step.iter_mut().zip(noise);
@@ -76,13 +82,14 @@ impl Motion {
 
     /// Takes block means of the pattern.
     #[inline(always)]
-    fn observe(&mut self, decimation: usize) {
-        if decimation == 1 {
-            self.observed.copy_from_slice(&self.pattern);
-        } else {
-            let transparent = Digitiser::default();
-            observe(&transparent, decimation, &self.pattern, &mut self.observed);
-        }
+    fn average(&mut self, decimation: usize) {
+        let transparent = Digitiser::default();
+        observe(&transparent, decimation, &self.pattern, &mut self.means);
+    }
+
+    /// The observed pattern, after a response.
+    pub fn observed(&self, source: &Source) -> &[f64] {
+        observed(source, &self.pattern, &self.means)
     }
 
     /// Adds Δ times the step response.
@@ -112,6 +119,16 @@ impl Motion {
             lines(base.shift, slope.shift),
             lines(base.scale, slope.scale),
         )
+    }
+}
+
+/// The pattern as it is observed: itself, or its block means.
+#[inline(always)]
+fn observed<'a>(source: &Source, pattern: &'a [f64], means: &'a [f64]) -> &'a [f64] {
+    if source.samples.decimation() == 1 {
+        pattern
+    } else {
+        means
     }
 }
 

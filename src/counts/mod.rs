@@ -19,12 +19,15 @@ use std::fmt;
 use std::ops::Range;
 
 /// The identity of a counter: a hash of everything its sums depend on except the trials.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(try_from = "String")]
-pub struct Key(String);
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
+pub struct Key([u8; BYTES]);
+
+/// Bytes of a key. With 96 bits, a billion counters collide with a probability of 1e-11.
+const BYTES: usize = 12;
 
 /// Hexadecimal digits of a key.
-const DIGITS: usize = 24;
+const DIGITS: usize = 2 * BYTES;
 
 /// A text that is no key.
 #[derive(Debug, thiserror::Error)]
@@ -36,17 +39,23 @@ impl TryFrom<String> for Key {
 
     fn try_from(text: String) -> Result<Self, NoKey> {
         let is_key = text.len() == DIGITS && text.bytes().all(|byte| byte.is_ascii_hexdigit());
-        if is_key { Ok(Self(text)) } else { Err(NoKey) }
+        let number = is_key.then(|| u128::from_str_radix(&text, 16).ok()).flatten();
+        let bytes = number.ok_or(NoKey)?.to_be_bytes();
+        Ok(Self(*bytes.last_chunk().expect("more bytes than a key")))
+    }
+}
+
+impl From<Key> for String {
+    fn from(key: Key) -> Self {
+        key.to_string()
     }
 }
 
 impl Key {
     /// The key of a counter that `text` identifies.
     pub fn of(text: &str) -> Self {
-        // 96 bits: a billion counters collide with a probability of 1e-11.
-        let hash = Sha256::digest(text.as_bytes());
-        let digits = hash[..DIGITS / 2].iter().map(|byte| format!("{byte:02x}"));
-        Self(digits.collect())
+        let hash: [u8; 32] = Sha256::digest(text.as_bytes()).into();
+        Self(*hash.first_chunk().expect("more bytes than a key"))
     }
 
     /// The key of a trial-by-trial comparison of two counters.
@@ -57,7 +66,7 @@ impl Key {
 
 impl fmt::Display for Key {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
+        self.0.iter().try_for_each(|byte| write!(f, "{byte:02x}"))
     }
 }
 
@@ -132,8 +141,7 @@ impl Counts {
 
     /// Adds an empty counter unless it exists.
     pub fn expect(&mut self, key: &Key, shape: &Shape) {
-        let counter = self.counters.entry(key.clone());
-        counter.or_insert_with(|| shape.empty());
+        (self.counters.entry(*key)).or_insert_with(|| shape.empty());
     }
 
     /// Adds the sums of further trials.
@@ -141,15 +149,13 @@ impl Counts {
     /// # Errors
     /// If some of them were counted before, or the shapes of the sums differ.
     pub fn add(&mut self, key: &Key, trials: Range<u64>, sums: &Sums) -> Result<(), CountsError> {
-        let counter = self.counters.entry(key.clone());
+        let key = *key;
+        let counter = self.counters.entry(key);
         let counter = counter.or_insert_with(|| sums.shape().empty());
-        if counter.sums.shape() != sums.shape() {
-            return Err(CountsError::Shape(key.clone()));
+        if counter.sums.lengths() != sums.lengths() {
+            return Err(CountsError::Shape(key));
         }
-        (counter.trials.add(trials)).map_err(|overlap| CountsError::Overlap {
-            key: key.clone(),
-            overlap,
-        })?;
+        (counter.trials.add(trials)).map_err(|overlap| CountsError::Overlap { key, overlap })?;
         counter.sums.add(sums);
         Ok(())
     }
@@ -169,9 +175,9 @@ impl Counts {
             }
         }
         for (key, there) in &other.decisions {
-            let here = self.decisions.entry(key.clone()).or_insert(*there);
+            let key = *key;
+            let here = self.decisions.entry(key).or_insert(*there);
             if let Some(difference) = here.difference(there) {
-                let key = key.clone();
                 return Err(CountsError::Decision { key, difference });
             }
         }
@@ -216,20 +222,19 @@ impl Counts {
         let Some(Counter { trials, sums }) = self.get(key) else {
             return Ok(());
         };
-        let key = || key.clone();
+        let key = *key;
         if !shape.fits(sums) {
-            return Err(CountsError::Shape(key()));
+            return Err(CountsError::Shape(key));
         }
         if let Some(trial) = trials.end().filter(|end| *end > wanted) {
             let trial = trial - 1;
             return Err(CountsError::Beyond {
-                key: key(),
+                key,
                 trial,
                 wanted,
             });
         }
         if let Some(trials) = trials.without(&share.into()).iter().next() {
-            let key = key();
             return Err(CountsError::Elsewhere { key, trials });
         }
         let trials = trials.len();
@@ -239,11 +244,11 @@ impl Counts {
                 .iter()
                 .any(|length| *length != Fixed::default())
         {
-            return Err(CountsError::NoTrials(key()));
+            return Err(CountsError::NoTrials(key));
         }
         match shape.excess(sums, trials) {
             Some([count, most]) => Err(CountsError::TooMany {
-                key: key(),
+                key,
                 count,
                 most,
                 trials,
@@ -290,7 +295,7 @@ mod tests {
         let key = Key::of("a");
         let part = |size, threshold| Counts {
             decisions: BTreeMap::from([(
-                key.clone(),
+                key,
                 DecisionSummary {
                     size,
                     threshold,
@@ -331,7 +336,6 @@ mod tests {
         ));
         let shape = Shape::events(2);
         for (share, trials) in [(0..8, 8..10), (2..20, 0..2), (0..0, 0..10), (4..6, 0..4)] {
-            let key = key.clone();
             let checked = counts.check(&key, &shape, share, 20);
             assert_eq!(checked, Err(CountsError::Elsewhere { key, trials }));
         }

@@ -56,16 +56,21 @@ impl Ranges {
         if range.is_empty() {
             return Ok(());
         }
+        // Mostly the next trials are added to a single range.
+        if let Some(mut last) = self.ends.last_entry()
+            && *last.get() == range.start
+        {
+            last.insert(range.end);
+            return Ok(());
+        }
         if let Some(both) = self.overlap(&range) {
             return Err(Overlap(both));
         }
-        let before = self.ends.range(..range.start).next_back();
-        let start = match before {
-            Some((&start, &end)) if end == range.start => start,
-            _ => range.start,
-        };
         let end = self.ends.remove(&range.end).unwrap_or(range.end);
-        self.ends.insert(start, end);
+        match self.ends.range_mut(..range.start).next_back() {
+            Some((_, before)) if *before == range.start => *before = end,
+            _ => drop(self.ends.insert(range.start, end)),
+        }
         Ok(())
     }
 

@@ -65,6 +65,11 @@ impl Sums {
         values.for_each(|(sum, more)| sum.add(more));
     }
 
+    /// The number of counts, of sums of real numbers and of collections.
+    pub(super) fn lengths(&self) -> [usize; 3] {
+        [self.counts.len(), self.lengths.len(), self.values.len()]
+    }
+
     /// The number of sums of each kind.
     pub fn shape(&self) -> Shape {
         Shape {
@@ -97,8 +102,7 @@ impl Shape {
     }
 
     pub(super) fn fits(&self, sums: &Sums) -> bool {
-        [self.most.len(), self.lengths, self.values.len()]
-            == [sums.counts.len(), sums.lengths.len(), sums.values.len()]
+        [self.most.len(), self.lengths, self.values.len()] == sums.lengths()
     }
 
     /// A count, or a number of values, that is too large for so many trials, and the largest possible.

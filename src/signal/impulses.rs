@@ -68,6 +68,7 @@ impl Impulses {
 
     /// λ/θ for each 64-bit draw, from S = 0. Draws may serve impulses of any ν: a sample that
     /// carries an impulse at some ν carries one at every larger ν.
+    #[inline(always)]
     pub fn pattern(&self, draws: &[[u8; 8]], pattern: &mut [f64]) {
         let mut memory = ImpulseMemory::default();
         let chance = chance(self.nu.get());

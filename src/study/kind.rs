@@ -181,12 +181,9 @@ impl Counters {
         let mut known = BTreeSet::new();
         for (point, identity) in study.identities().iter().enumerate() {
             let key = identity.key(S::NAME, seed, true);
-            if known.insert(key.clone()) {
+            if known.insert(key) {
                 let shape = shape.clone();
-                counters.targets.push(Target {
-                    key: key.clone(),
-                    shape,
-                });
+                counters.targets.push(Target { key, shape });
                 counters.points.push(point);
             }
             counters.keys.push(key);

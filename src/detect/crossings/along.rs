@@ -25,21 +25,22 @@ impl Along {
         }
     }
 
-    /// The stretches within `range`: the values of Δ, and the statistics there but for W.
+    /// Shows the stretches within `range`: the values of Δ, and the statistics there but for W.
     #[inline(always)]
-    pub fn stretches(
+    pub fn for_each_stretch(
         &self,
         range: Range<usize>,
-    ) -> impl Iterator<Item = (Range<usize>, Statistics)> {
-        let ends = self.stretches.iter().skip(1).map(|next| next.0);
-        let each = self.stretches.iter().zip(ends.chain([usize::MAX]));
-        each.map(
-            #[inline(always)]
-            move |(&(first, statistics), next)| {
-                (first.max(range.start)..next.min(range.end), statistics)
-            },
-        )
-        .filter(|(numbers, _)| !numbers.is_empty())
+        mut show: impl FnMut(Range<usize>, Statistics),
+    ) {
+        let mut rest = &self.stretches[..];
+        while let [(first, statistics), following @ ..] = rest {
+            let next = following.first().map_or(usize::MAX, |next| next.0);
+            let numbers = range.start.max(*first)..range.end.min(next);
+            if !numbers.is_empty() {
+                show(numbers, *statistics);
+            }
+            rest = following;
+        }
     }
 
     /// W at these values of Δ.

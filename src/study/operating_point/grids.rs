@@ -49,7 +49,7 @@ impl OperatingPoint {
             for delta in sized.deltas() {
                 let key = sized.identity(delta).key(NAME, context.seed, true);
                 let next = study.targets.len();
-                let place = *known.entry(key.clone()).or_insert(next);
+                let place = *known.entry(key).or_insert(next);
                 if place == next {
                     let shape = Shape::events(1);
                     study.targets.push(Target { key, shape });

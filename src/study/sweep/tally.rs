@@ -47,8 +47,8 @@ pub(super) struct Tallies<'a> {
     decided: Vec<u64>,
     /// How many trials have been gathered.
     gathered: u32,
-    /// The sums of each subject.
-    pub sums: Vec<Sums>,
+    /// For each subject, how often the point decided for H₁, or each of a pair alone.
+    counts: Vec<[u64; 2]>,
 }
 
 /// The number of trials in a word, one bit each.
@@ -57,35 +57,36 @@ const WORD: u32 = u64::BITS;
 impl<'a> Tallies<'a> {
     /// Tallies for subjects that include all points of the family.
     pub fn new(decisions: &'a Decisions, subjects: &'a [Subject]) -> Self {
-        let sums = subjects.iter().map(|subject| subject.shape().empty().sums);
         Self {
             decisions,
             subjects,
             decided: vec![0; decisions.of.len()],
             gathered: 0,
-            sums: sums.collect(),
+            counts: vec![[0; 2]; subjects.len()],
         }
+    }
+
+    /// The sums of each subject.
+    pub fn sums(&self) -> Vec<Sums> {
+        let each = self.subjects.iter().zip(&self.counts);
+        each.map(|(subject, counts)| Sums::of(&counts[..subject.points().len()]))
+            .collect()
     }
 
     /// Counts the gathered decisions.
     fn count(&mut self) {
         let decided = |place: usize| self.decided[place];
-        for (subject, sums) in self.subjects.iter().zip(&mut self.sums) {
-            let mut add = |at: usize, decided: u64| {
-                sums.counts[at] += u64::from(decided.count_ones());
-            };
+        for (subject, [one, other]) in self.subjects.iter().zip(&mut self.counts) {
             match *subject {
-                Subject::Point(place) => add(0, decided(place)),
+                Subject::Point(place) => *one += u64::from(decided(place).count_ones()),
                 Subject::Pair(pair) => {
                     let [first, second] = pair.map(decided);
-                    add(0, first & !second);
-                    add(1, second & !first);
+                    *one += u64::from((first & !second).count_ones());
+                    *other += u64::from((second & !first).count_ones());
                 }
             }
         }
-        for &place in self.subjects.iter().flat_map(Subject::points) {
-            self.decided[place] = 0;
-        }
+        self.decided.fill(0);
         self.gathered = 0;
     }
 }
@@ -121,13 +122,18 @@ fn decide(region: &Region, along: &Along, number: usize, trial: u32, decided: &m
     Vectors::widest().run(
         #[inline(always)]
         || {
-            for (numbers, statistics) in along.stretches(number..number + decided.len()) {
-                let bounds = region.bounds(statistics);
-                let decided = &mut decided[numbers.start - number..numbers.end - number];
-                for (decided, &rank_sum) in decided.iter_mut().zip(along.rank_sums(numbers)) {
-                    *decided |= u64::from(bounds.decide(rank_sum)) << trial;
-                }
-            }
+            let numbers = number..number + decided.len();
+            along.for_each_stretch(
+                numbers,
+                #[inline(always)]
+                |numbers, statistics| {
+                    let bounds = region.bounds(statistics);
+                    let decided = &mut decided[numbers.start - number..numbers.end - number];
+                    for (decided, &rank_sum) in decided.iter_mut().zip(along.rank_sums(numbers)) {
+                        *decided |= u64::from(bounds.decide(rank_sum)) << trial;
+                    }
+                },
+            );
         },
     );
 }

@@ -94,14 +94,14 @@ impl Sweep {
             .iter()
             .map(|pair| Compared::new([pair.first, pair.second], &keys, &family_of))
             .collect();
-        let points = keys.iter().cloned().zip((0..).map(Subject::Point));
+        let points = keys.iter().copied().zip((0..).map(Subject::Point));
         let of_pairs = compared.iter().filter_map(|compared| match compared {
-            Compared::Paired(key, places) => Some((key.clone(), Subject::Pair(*places))),
+            Compared::Paired(key, places) => Some((*key, Subject::Pair(*places))),
             Compared::Itself | Compared::Apart => None,
         });
         let each: BTreeMap<Key, Subject> = points.chain(of_pairs).collect();
         let target = |(key, subject): (&Key, &Subject)| Target {
-            key: key.clone(),
+            key: *key,
             shape: subject.shape(),
         };
         Self {

@@ -89,7 +89,7 @@ impl Trials for Sampling<'_> {
         progress.end();
         let mut summaries = BTreeMap::new();
         for (at, decision) in places.into_iter().zip(decisions?) {
-            summaries.insert(self.sweep.keys[at].clone(), decision.summary());
+            summaries.insert(self.sweep.keys[at], decision.summary());
             self.decisions[at] = Some(decision);
         }
         Ok(summaries)
@@ -193,7 +193,7 @@ impl Job {
         let decisions = self.decisions.as_ref().expect("the pilots have run");
         let mut tallies = Tallies::new(decisions, &self.subjects[group]);
         self.schedule.run_block(group, trials, &mut tallies);
-        tallies.sums
+        tallies.sums()
     }
 }
 
