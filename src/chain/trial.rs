@@ -117,7 +117,13 @@ impl<'a> Trial<'a> {
                     let mut observation = Observation::new(&source.samples, keys, scratch);
                     observation.pooled = pool(&source.samples, rest, &motion.whitened);
                     if course.needs_record {
-                        record.keep(is_linear, course, stage.delta, source, motion.observed(source));
+                        record.keep(
+                            is_linear,
+                            course,
+                            stage.delta,
+                            source,
+                            motion.observed(source),
+                        );
                         observation.rest = &record.observed[..source.rest()];
                         observation.motion = &record.motion;
                     }

@@ -39,7 +39,9 @@ impl TryFrom<String> for Key {
 
     fn try_from(text: String) -> Result<Self, NoKey> {
         let is_key = text.len() == DIGITS && text.bytes().all(|byte| byte.is_ascii_hexdigit());
-        let number = is_key.then(|| u128::from_str_radix(&text, 16).ok()).flatten();
+        let number = is_key
+            .then(|| u128::from_str_radix(&text, 16).ok())
+            .flatten();
         let bytes = number.ok_or(NoKey)?.to_be_bytes();
         Ok(Self(*bytes.last_chunk().expect("more bytes than a key")))
     }
@@ -228,11 +230,7 @@ impl Counts {
         }
         if let Some(trial) = trials.end().filter(|end| *end > wanted) {
             let trial = trial - 1;
-            return Err(CountsError::Beyond {
-                key,
-                trial,
-                wanted,
-            });
+            return Err(CountsError::Beyond { key, trial, wanted });
         }
         if let Some(trials) = trials.without(&share.into()).iter().next() {
             return Err(CountsError::Elsewhere { key, trials });

@@ -1,6 +1,6 @@
 //! Samples as lines in Δ, and the crossings of those of Y₁ with another line.
 
-use super::changes::Changes;
+use super::changes::{Changes, SPREAD};
 use super::grid::Grid;
 use crate::simd::{Wide, greatest, least};
 
@@ -38,8 +38,8 @@ pub(super) struct Field {
     length: usize,
     bases: Vec<f64>,
     slopes: Vec<f64>,
-    /// The index of the first Δ after each crossing with the other line.
-    behind: Vec<[u32; SEVERAL]>,
+    /// Where each crosses the other line, as slots of [`Changes`].
+    slots: Vec<[u32; SEVERAL]>,
     /// The smallest distance between two lines at any Δ so far.
     nearest: Wide<SEVERAL>,
 }
@@ -60,7 +60,7 @@ impl Field {
             to.extend_from_slice(values);
             to.resize(arrays * SEVERAL, values[0]);
         }
-        self.behind.resize(arrays, [0; SEVERAL]);
+        self.slots.resize(arrays, [0; SEVERAL]);
         self.nearest = Wide::all(f64::INFINITY);
     }
 
@@ -69,26 +69,26 @@ impl Field {
     pub fn count(&mut self, grid: &Grid, base: f64, slope: f64, changes: &mut Changes) {
         let mut nearest = self.nearest;
         let (bases, slopes) = (self.bases.as_chunks().0, self.slopes.as_chunks().0);
-        for ((bases, slopes), behind) in bases.iter().zip(slopes).zip(&mut self.behind) {
+        for ((bases, slopes), slots) in bases.iter().zip(slopes).zip(&mut self.slots) {
             let (ahead, closing) = (
                 Wide::all(base) - Wide(*bases),
                 Wide(*slopes) - Wide::all(slope),
             );
-            let (first, gap) = grid.cross(ahead, closing);
-            *behind = first;
+            let (places, gap) = grid.cross(ahead, closing);
+            *slots = places.map(|place| place + SPREAD as u32);
             nearest = gap.least(nearest);
         }
         self.nearest = nearest;
-        let behind = &self.behind.as_flattened()[..self.length];
+        let slots = &self.slots.as_flattened()[..self.length];
         let slopes = &self.slopes[..self.length];
-        for (places, slopes) in behind.chunks(SEVERAL).zip(slopes.chunks(SEVERAL)) {
+        for (slots, slopes) in slots.chunks(SEVERAL).zip(slopes.chunks(SEVERAL)) {
             if slopes.iter().all(|steep| *steep >= slope) {
-                changes.add(places, 1.0);
+                changes.add(slots, 1.0);
                 continue;
             }
-            for (place, other) in places.iter().zip(slopes) {
+            for (slot, other) in slots.iter().zip(slopes) {
                 // A steeper line is above from the crossing on, a flatter one up to there.
-                changes.add(std::slice::from_ref(place), other - slope);
+                changes.add(std::slice::from_ref(slot), other - slope);
             }
         }
     }

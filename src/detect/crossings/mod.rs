@@ -142,24 +142,27 @@ impl Crossings {
     #[inline(always)]
     fn meet_levels(&mut self, even: Even, ends: [f64; 2], shift: Lines) -> f64 {
         let mut nearest = f64::INFINITY;
-        let mut pencil = Pencil::new(even, f64::NAN);
-        for (&base, &slope) in shift.base.iter().zip(shift.slope) {
-            if slope == 0.0 {
-                nearest = least(nearest, self.stay(ends, base));
+        let mut bases = shift.base;
+        for slopes in shift.slope.chunk_by(|a, b| a == b) {
+            let (alike, others) = bases.split_at(slopes.len());
+            bases = others;
+            if slopes[0] == 0.0 {
+                for &base in alike {
+                    nearest = least(nearest, self.stay(ends, base));
+                }
                 continue;
             }
-            if slope != pencil.slope() {
-                pencil = Pencil::new(even, slope);
-                self.levels.scale(&pencil);
-            }
-            let (places, gap) = self.levels.meet(&pencil, base);
-            nearest = least(nearest, gap);
-            self.rank_sums.add(places, slope);
+            let pencil = Pencil::new(even, slopes[0]);
+            nearest = least(nearest, self.levels.meet(&pencil, alike));
             if self.of_shift {
-                let (places, _) = pencil.cross(pencil.scale(Wide(ends)), base);
-                self.outside.pass(Sample::Shift, slope, places);
+                let ends = pencil.scale(Wide(ends));
+                for &base in alike {
+                    let (places, _) = pencil.cross(ends, base);
+                    self.outside.pass(Sample::Shift, slopes[0], places);
+                }
             }
         }
+        self.levels.count(&mut self.rank_sums);
         nearest
     }
 
