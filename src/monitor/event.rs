@@ -146,7 +146,7 @@ pub enum Alarm {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fault {
-    /// It repeats one value, where it used to scatter.
+    /// It repeats one value, where it used to scatter or has hardly done so: then it may be too coarse.
     Stuck,
     /// It is at the end of its range.
     Saturated,

@@ -234,7 +234,7 @@ impl Monitor {
             self.take_health(health, now);
         }
         if let Some(block) = self.blocks.step(sample) {
-            self.block(block, health.fault.is_some());
+            self.block(block, &health);
         }
         if drum_turns.is_some() {
             self.watch_drum(now, drum_turns == Some(true));
@@ -286,9 +286,9 @@ impl Monitor {
         }
     }
 
-    fn block(&mut self, block: Block, is_faulty: bool) {
+    fn block(&mut self, block: Block, health: &Health) {
         self.newest = self.decisions.step(block);
-        if is_faulty {
+        if health.fault.is_some() && !health.may_be_coarse {
             return;
         }
         self.live.step(block);
@@ -298,7 +298,7 @@ impl Monitor {
         let was_blind = self.is_blind();
         self.judge_noise(&belief, now);
         self.judge_hand(now);
-        let statement = if was_blind || self.is_blind() {
+        let statement = if was_blind || self.is_blind() || health.may_be_coarse {
             Statement::unknown(now, Doubt::Sensor)
         } else {
             self.confirmed(Statement::of(&belief, now), now)

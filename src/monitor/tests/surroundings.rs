@@ -43,6 +43,56 @@ fn faults_of_the_sensor_are_told() {
     assert_eq!(told(rest().with(30.0, 0.0, 200.0)).0, [Fault::Noisy]);
 }
 
+/// A sensor that has never scattered may be stuck: nothing is known while it does not change, nor what the cage did
+/// meanwhile if it then scatters at once.
+#[test]
+fn a_sensor_stuck_from_its_first_sample_tells_nothing() {
+    for level in [0.0, 0.4, 9.81] {
+        for seconds in [1.5, 20.0, 90.0] {
+            let stuck = Record::quiet()
+                .with(0.0, level, 0.0)
+                .with(seconds, level, 0.0);
+            for begin in [|_: &mut Monitor| (), Monitor::begin_in_motion] {
+                let mut monitor = standing();
+                begin(&mut monitor);
+                let events = stuck.watch_with(&mut monitor, |time| Some(time > 1.0));
+                assert_eq!(faults(&events), [Fault::Stuck], "{level} {seconds}");
+                assert_eq!(known(&events), [], "{level} {seconds}");
+                let certain =
+                    |event: &Event| matches!(event.kind, Kind::Alarm { certain: true, .. });
+                assert!(!events.iter().any(certain), "{level} {seconds}: {events:?}");
+            }
+            let cruise = Record::quiet()
+                .with(0.0, level, 0.0)
+                .with(seconds, level, 0.0)
+                .with(20.0, level, 2.0);
+            let mut monitor = standing();
+            let events = cruise.watch(&mut monitor);
+            assert_eq!(known(&events), [], "{level} {seconds}");
+        }
+    }
+}
+
+/// A sensor whose steps hide its noise does not scatter at rest either, but it changes step by step.
+#[test]
+fn a_coarse_sensor_shows_the_trips() {
+    for step in [0.05, 0.1, 0.2, 0.3] {
+        let mut record = Record::quiet().rest(15.0).trip(1.0).rest(15.0).trip(-1.0);
+        record = record.rest(10.0);
+        for acceleration in &mut record.samples {
+            *acceleration = (*acceleration / step).round() * step;
+        }
+        let mut monitor = standing();
+        let events = record.watch(&mut monitor);
+        let known = known(&events);
+        let stops = known
+            .windows(2)
+            .filter(|two| two[0].moves() && two[1] == REST);
+        assert_eq!(stops.count(), 2, "{step}: {known:?}");
+        assert_eq!(monitor.state(), REST, "{step}");
+    }
+}
+
 /// A phone whose screen goes off sends a tenth of its samples: what is read at another rate than it was is not believed.
 #[test]
 fn rare_samples_are_not_read_as_before() {
