@@ -52,6 +52,13 @@ struct Limits {
     noise: f64,
 }
 
+impl Limits {
+    /// The deviation of a change of speed in so much time, s, by noise and an error of the level, m/s².
+    fn deviation(&self, seconds: f64, level_error: f64) -> f64 {
+        (self.walk.powi(2) * seconds + (level_error * seconds).powi(2)).sqrt()
+    }
+}
+
 impl Record {
     /// A record with its level, pulled to its mean so much (see [`Level::of`]); `violent` is the acceleration beyond
     /// which a pulse is a shock, m/s².
@@ -162,7 +169,10 @@ impl Record {
                     let blocks = self.with_feet(core, &smoothed, taken..to, least);
                     taken = blocks.end;
                     let pulse = self.pulse(blocks, limits);
-                    let least = LEAST_CHANGE.max(LEAST_DEVIATIONS * pulse.deviation);
+                    // However coarse its steps, what is off the level like a lift that starts is no level error.
+                    let error = self.level_error().min(WEAK / LEAST_DEVIATIONS);
+                    let deviation = limits.deviation(pulse.seconds(), error);
+                    let least = LEAST_CHANGE.max(LEAST_DEVIATIONS * deviation);
                     if pulse.change.abs() > least || pulse.is_violent {
                         pulses.push(pulse);
                     }
@@ -244,7 +254,6 @@ impl Record {
             self.cut.blocks[blocks.end - 1].to,
         );
         let seconds = to - from;
-        let level_error = LEVEL_ERROR.max(STEP_ERROR * self.cut.step);
         let peak = blocks
             .clone()
             .map(|block| self.off(block).abs())
@@ -253,7 +262,7 @@ impl Record {
         Pulse {
             change,
             is_level: self.is_level(&blocks, change / seconds, limits.noise),
-            deviation: (limits.walk.powi(2) * seconds + (level_error * seconds).powi(2)).sqrt(),
+            deviation: limits.deviation(seconds, self.level_error()),
             blocks,
             from,
             to,
@@ -261,6 +270,11 @@ impl Record {
             is_swing: false,
             shift: 0.0,
         }
+    }
+
+    /// Uncertainty of the level, m/s².
+    fn level_error(&self) -> f64 {
+        LEVEL_ERROR.max(STEP_ERROR * self.cut.step)
     }
 
     /// Whether blocks of this mean, m/s², that reach from an end of a stretch, or to it, may be at another level: a

@@ -57,6 +57,29 @@ fn within(time: f64, from: f64, to: f64) -> f64 {
     f64::from(u8::from((from..to).contains(&time)))
 }
 
+/// However coarse a sensor's steps are, and wherever its level lies between two of them, a ride is not the level.
+#[test]
+fn steps_hide_no_ride() {
+    for step in [0.1, 0.2, 0.3] {
+        for offset in [0.1, 0.3, 0.5, 0.7, 0.9] {
+            let mut samples = record(60.0, |_| 0.0);
+            for sample in &mut samples {
+                let steps = (sample.acceleration - 9.81) / step + offset;
+                sample.acceleration = 9.81 + step * steps.round();
+            }
+            let prior = Prior {
+                begins_at_rest: Some(true),
+                ..Prior::default()
+            };
+            let explanation = Explanation::of(&Cut::new(&samples, 2, 0.04), &prior);
+            let trips = &explanation.reading.trips;
+            let is_found = trips.iter().any(|trip| trip.is_up);
+            let is_doubted = !explanation.doubts.is_empty();
+            assert!(is_found || is_doubted, "{step} {offset}: {trips:?}");
+        }
+    }
+}
+
 /// A phone is turned a little, for a while or for good, while the cage rests, starts, cruises or brakes. Where it is
 /// turned back as the cage starts or stops, when it was is not known, so that the ride may be undecided.
 #[test]

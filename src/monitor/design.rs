@@ -3,7 +3,7 @@
 use super::settings::{DecisionRule, LONGEST_BLOCK, Settings, SettingsError, WHY_SHORT};
 use crate::detect::sequential::{Chart, Detector, Score, Side};
 use crate::detect::{Alternative, Exceedances, NullLaws, Region, Rule, Samples};
-use crate::rule::{self, OutOfRange};
+use crate::rule::{Explained, OutOfRange, Rule as Bounds};
 
 /// k of the sequential ranks.
 const ALLOWANCE: f64 = 0.8;
@@ -48,14 +48,15 @@ impl Settings {
             let rule = format_args!("exceed least_acceleration = {least}");
             return Err(OutOfRange::new("monitor.most_acceleration", rule, most).into());
         }
-        rule::Rule::Within(1.0, 1e6, "Hz").check("rate", &rate)?;
+        let least = 1.0 / LONGEST_BLOCK;
+        // A measured rate is hardly ever exact.
+        if !(0.99 * least..least).contains(&rate) {
+            let rule = Explained(Bounds::Within(least, 1e6, "Hz"), WHY_SHORT);
+            rule.check("rate", &rate)?;
+        }
         // Fractions below three quarters are rounded down, so that 10, 30 and 50 Hz are not on the edge between
         // two lengths.
         let decimation = (self.monitor.block * rate + 0.25).floor().max(1.0) as usize;
-        if decimation as f64 / rate > LONGEST_BLOCK {
-            let error = OutOfRange::new("rate", "be at least 2 Hz", rate);
-            return Err(error.explained(WHY_SHORT).into());
-        }
         let sizes = &self.samples;
         let samples = Samples::new(
             sizes.reference,

@@ -220,7 +220,7 @@ mod tests {
                 "settings.monitor.block: must lie in [0.001, 0.5] s, got 0.000001",
                 &|saved, _| saved.settings.monitor.block = 1e-6,
             ),
-            ("rate: must lie in [1, 1000000] Hz, got 0", &|saved, _| {
+            ("rate: must lie in [2, 1000000] Hz, got 0", &|saved, _| {
                 saved.rate = 0.0;
             }),
             ("X must have 24 finite blocks", &|_, reference| {
