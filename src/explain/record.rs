@@ -30,6 +30,9 @@ const MOST_COLOUR: f64 = 5.0;
 const LEVEL_ERROR: f64 = 0.004;
 const STEP_ERROR: f64 = 0.3;
 
+/// So many steps are more than one.
+const MORE_THAN_ONE: f64 = 1.5;
+
 /// A record, its level, and the pulses in which it leaves it.
 #[derive(Clone, Debug)]
 pub struct Record {
@@ -169,8 +172,13 @@ impl Record {
                     let blocks = self.with_feet(core, &smoothed, taken..to, least);
                     taken = blocks.end;
                     let pulse = self.pulse(blocks, limits);
-                    // However coarse its steps, what is off the level like a lift that starts is no level error.
-                    let error = self.level_error().min(WEAK / LEAST_DEVIATIONS);
+                    // A level between two steps is off by one of them at times, never by more.
+                    let is_level_error = self.peak(&pulse.blocks) < MORE_THAN_ONE * self.cut.step;
+                    let error = if is_level_error {
+                        self.level_error()
+                    } else {
+                        LEVEL_ERROR
+                    };
                     let deviation = limits.deviation(pulse.seconds(), error);
                     let least = LEAST_CHANGE.max(LEAST_DEVIATIONS * deviation);
                     if pulse.change.abs() > least || pulse.is_violent {
@@ -254,10 +262,7 @@ impl Record {
             self.cut.blocks[blocks.end - 1].to,
         );
         let seconds = to - from;
-        let peak = blocks
-            .clone()
-            .map(|block| self.off(block).abs())
-            .fold(0.0, f64::max);
+        let peak = self.peak(&blocks);
         let change = self.change(blocks.clone());
         Pulse {
             change,
@@ -270,6 +275,12 @@ impl Record {
             is_swing: false,
             shift: 0.0,
         }
+    }
+
+    /// How far a block is off the level at most, m/s².
+    fn peak(&self, blocks: &Range<usize>) -> f64 {
+        let off = blocks.clone().map(|block| self.off(block).abs());
+        off.fold(0.0, f64::max)
     }
 
     /// Uncertainty of the level, m/s².

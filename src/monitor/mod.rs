@@ -288,7 +288,7 @@ impl Monitor {
 
     fn block(&mut self, block: Block, health: &Health) {
         self.newest = self.decisions.step(block);
-        if health.fault.is_some() && !health.may_be_coarse {
+        if health.fault.is_some() {
             return;
         }
         self.live.step(block);
@@ -298,13 +298,20 @@ impl Monitor {
         let was_blind = self.is_blind();
         self.judge_noise(&belief, now);
         self.judge_hand(now);
-        let statement = if was_blind || self.is_blind() || health.may_be_coarse {
+        let statement = if was_blind || self.is_blind() {
             Statement::unknown(now, Doubt::Sensor)
         } else {
             self.confirmed(Statement::of(&belief, now), now)
         };
         self.alarm_of_jam(&statement, now);
-        self.say(statement, now);
+        self.say(
+            if health.is_proven {
+                statement
+            } else {
+                Statement::unknown(now, Doubt::Beginning)
+            },
+            now,
+        );
         self.judge_level(&belief, now);
         if belief.in_pulse {
             self.decisions.learn_no_earlier();

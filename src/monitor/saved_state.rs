@@ -52,11 +52,18 @@ enum Problem {
     Filter(Vec<f64>),
     #[error("X must have {expected} finite blocks as settings.samples.reference says, got {got}")]
     Sample { expected: usize, got: usize },
-    #[error("ranked must have {} to {} blocks under this rule, got {got}", .needed.start(), .needed.end())]
+    #[error(
+        "ranked must have {} to {} blocks under settings.detector.rule = \"{rule}\", got {got} (`liftsim detect RECORDING \
+         --rule {rule} --save-state FILE` writes a state of this rule)",
+        .needed.start(), .needed.end()
+    )]
     Ranked {
+        rule: DecisionRule,
         needed: RangeInclusive<usize>,
         got: usize,
     },
+    #[error("longer than {} MiB, which no state is that `liftsim detect --save-state` writes", LONGEST >> 20)]
+    TooLong,
 }
 
 impl SavedState {
@@ -65,16 +72,18 @@ impl SavedState {
     /// # Errors
     /// If it cannot be read, or its parts cannot be used together.
     pub fn load(path: &Path) -> Result<Self, SavedStateError> {
-        let name = path.display().to_string();
-        let mut text = String::new();
-        let read = File::open(path).and_then(|file| file.take(LONGEST).read_to_string(&mut text));
-        match read {
-            Ok(_) => Self::from_json(&name, &text),
-            Err(error) => Err(SavedStateError {
-                path: name,
-                problem: error.into(),
-            }),
-        }
+        let read = || {
+            let (file, mut text) = (File::open(path)?, String::new());
+            let length = file.take(LONGEST + 1).read_to_string(&mut text)?;
+            if length as u64 > LONGEST {
+                return Err(Problem::TooLong);
+            }
+            Self::checked(&text)
+        };
+        read().map_err(|problem| SavedStateError {
+            path: path.display().to_string(),
+            problem,
+        })
     }
 
     /// Reads and checks a file's text; messages call the file `name`.
@@ -102,7 +111,8 @@ impl SavedState {
             }
             let (needed, got) = (saved.ranked(), reference.ranked.len());
             if !needed.contains(&got) {
-                return Err(Problem::Ranked { needed, got });
+                let rule = saved.settings.detector.rule;
+                return Err(Problem::Ranked { rule, needed, got });
             }
             if reference.level.abs() > STRONGEST {
                 return Err(Problem::Level(reference.level));

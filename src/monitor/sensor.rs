@@ -7,11 +7,8 @@ use crate::recording::Sample;
 const STUCK: f64 = 1.0;
 const LONGER: f64 = 4.0;
 
-/// How a sensor scatters is known after so many changes of its value.
+/// How a sensor repeats itself is known after so many changes of its value.
 const PROVEN: u32 = 10;
-
-/// One that repeats itself more often than this is too coarse to scatter at rest.
-const COARSE: f64 = 0.5;
 
 /// A value far from the median that comes so often in a row is the end of the range, m/s².
 const SATURATED: (u32, f64) = (3, 12.0);
@@ -36,8 +33,6 @@ pub(super) struct Sensor {
     /// The longest run before, s, and how many changes there were.
     longest: f64,
     changes: u32,
-    /// The samples since the first change.
-    changed: u32,
     /// A slow mean, m/s².
     middle: f64,
     fault: Option<Fault>,
@@ -48,12 +43,12 @@ pub(super) struct Sensor {
 pub(super) struct Health {
     /// What is wrong now.
     pub fault: Option<Fault>,
-    /// Whether it may be too coarse to scatter, rather than stuck.
-    pub may_be_coarse: bool,
     /// What has begun to be wrong, and since when, s.
     pub begins: Option<(Fault, f64)>,
-    /// Whether something wrong has just ended: what was read meanwhile tells nothing.
+    /// Whether something wrong has just ended that had begun at a time, s.
     pub ends: bool,
+    /// Whether it has changed often enough to be told from one that is stuck from its first sample.
+    pub is_proven: bool,
 }
 
 impl Sensor {
@@ -67,7 +62,6 @@ impl Sensor {
             repeats: 0,
             longest: 0.0,
             changes: 0,
-            changed: 0,
             middle: 0.0,
             fault: None,
         }
@@ -90,7 +84,8 @@ impl Sensor {
         }
         if !is_repeated {
             if let Some(last) = self.last {
-                if self.fault.is_none() || self.is_unproven() {
+                // Until then a long run may as well be that of a coarse sensor at rest.
+                if self.fault.is_none() || !self.is_proven() {
                     self.longest = self.longest.max(last.time - self.since);
                 }
                 self.changes = self.changes.saturating_add(1);
@@ -101,21 +96,11 @@ impl Sensor {
             self.repeats = 0;
         }
         self.repeats += 1;
-        if self.changes > 0 {
-            self.changed = self.changed.saturating_add(1);
-        }
         self.last = Some(sample);
         let was = self.fault;
         self.fault = self.judge(sample);
-        let has_ended = was.is_some() && self.fault.is_none();
-        let was_doubtful = has_ended && !is_repeated && self.changes == PROVEN;
-        let is_coarse = f64::from(PROVEN) < (1.0 - COARSE) * f64::from(self.changed);
-        if was_doubtful && !is_coarse {
-            self.longest = 0.0;
-        }
         Health {
             fault: self.fault,
-            may_be_coarse: self.fault == Some(Fault::Stuck) && self.is_unproven(),
             begins: self
                 .fault
                 .filter(|_| self.fault != was)
@@ -123,7 +108,8 @@ impl Sensor {
                     Fault::Slow => (fault, sample.time),
                     _ => (fault, self.since),
                 }),
-            ends: has_ended && !(was_doubtful && is_coarse),
+            ends: was.is_some() && self.fault.is_none(),
+            is_proven: self.is_proven(),
         }
     }
 
@@ -133,9 +119,7 @@ impl Sensor {
         if self.repeats >= SATURATED.0 && far > SATURATED.1 && self.changes > 0 {
             return Some(Fault::Saturated);
         }
-        let is_stuck = self.repeats >= 8 && lasts > STUCK.max(LONGER * self.longest);
-        let was_stuck = self.fault == Some(Fault::Stuck);
-        if is_stuck || was_stuck && self.is_unproven() {
+        if self.repeats >= 8 && lasts > STUCK.max(LONGER * self.longest) {
             return Some(Fault::Stuck);
         }
         let most = if self.fault == Some(Fault::Slow) {
@@ -146,9 +130,8 @@ impl Sensor {
         (self.slowness > most).then_some(Fault::Slow)
     }
 
-    /// Whether it has hardly changed so far.
-    fn is_unproven(&self) -> bool {
-        self.changes < PROVEN
+    fn is_proven(&self) -> bool {
+        self.changes >= PROVEN
     }
 
     /// Forgets the time, not the scatter.

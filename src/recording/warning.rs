@@ -74,7 +74,8 @@ pub enum Warning {
         greatest: f64,
     },
     #[error(
-        "the sensor's step of {quantum:.3} m/s^2 is coarse: {:.0} % of the samples equal the one before",
+        "the sensor's step of {quantum:.3} m/s^2 is coarse: {:.0} % of the samples equal the one before (an acceleration of one \
+         step may be taken for the level)",
         100.0 * .repeats
     )]
     CoarseStep { quantum: f64, repeats: f64 },

@@ -87,7 +87,9 @@ enum Problem {
         key: String,
         measure: String,
     },
-    #[error("{prefix}axis.{key}: must be numbers (a picture has them on its axis)")]
+    #[error(
+        "{prefix}axis.{key}: must be numbers, which a picture has on its axis (words go into [[{prefix}curve]])"
+    )]
     NoNumber { prefix: &'static str, key: String },
 }
 

@@ -43,8 +43,7 @@ fn faults_of_the_sensor_are_told() {
     assert_eq!(told(rest().with(30.0, 0.0, 200.0)).0, [Fault::Noisy]);
 }
 
-/// A sensor that has never scattered may be stuck: nothing is known while it does not change, nor what the cage did
-/// meanwhile if it then scatters at once.
+/// A sensor that has hardly changed may be stuck: nothing is known while it does not, nor what the cage did meanwhile.
 #[test]
 fn a_sensor_stuck_from_its_first_sample_tells_nothing() {
     for level in [0.0, 0.4, 9.81] {
@@ -62,23 +61,38 @@ fn a_sensor_stuck_from_its_first_sample_tells_nothing() {
                     |event: &Event| matches!(event.kind, Kind::Alarm { certain: true, .. });
                 assert!(!events.iter().any(certain), "{level} {seconds}: {events:?}");
             }
-            let cruise = Record::quiet()
-                .with(0.0, level, 0.0)
-                .with(seconds, level, 0.0)
-                .with(20.0, level, 2.0);
-            let mut monitor = standing();
-            let events = cruise.watch(&mut monitor);
-            assert_eq!(known(&events), [], "{level} {seconds}");
+            // Some samples may have come before, and the sensor may come to life in any steps.
+            for (before, step) in [
+                (0.0, 0.0),
+                (0.01, 0.0),
+                (0.09, 0.0),
+                (0.0, 0.01),
+                (0.01, 0.02),
+                (0.0, 0.05),
+            ] {
+                let mut record = Record::quiet()
+                    .with(0.0, level, 0.0)
+                    .with(before, level, 1.0)
+                    .with(seconds, level, 0.0)
+                    .with(20.0, level, 2.0);
+                for acceleration in record.samples.iter_mut().filter(|_| step > 0.0) {
+                    *acceleration = (*acceleration / step).round() * step;
+                }
+                let events = record.watch(&mut standing());
+                assert_eq!(known(&events), [], "{level} {seconds} {before} {step}");
+            }
         }
     }
 }
 
-/// A sensor whose steps hide its noise does not scatter at rest either, but it changes step by step.
+/// A sensor whose steps hide its noise does not scatter at rest either. Its first trip shows that it is not stuck.
 #[test]
 fn a_coarse_sensor_shows_the_trips() {
     for step in [0.05, 0.1, 0.2, 0.3] {
-        let mut record = Record::quiet().rest(15.0).trip(1.0).rest(15.0).trip(-1.0);
-        record = record.rest(10.0);
+        let mut record = Record::quiet().rest(15.0);
+        for sign in [1.0, -1.0, 1.0] {
+            record = record.trip(sign).rest(15.0);
+        }
         for acceleration in &mut record.samples {
             *acceleration = (*acceleration / step).round() * step;
         }
@@ -88,7 +102,7 @@ fn a_coarse_sensor_shows_the_trips() {
         let stops = known
             .windows(2)
             .filter(|two| two[0].moves() && two[1] == REST);
-        assert_eq!(stops.count(), 2, "{step}: {known:?}");
+        assert!(stops.count() >= 2, "{step}: {known:?}");
         assert_eq!(monitor.state(), REST, "{step}");
     }
 }
