@@ -142,16 +142,15 @@ impl Counts {
     }
 
     /// Adds an empty counter unless it exists.
-    pub fn expect(&mut self, key: &Key, shape: &Shape) {
-        (self.counters.entry(*key)).or_insert_with(|| shape.empty());
+    pub fn expect(&mut self, &key: &Key, shape: &Shape) {
+        self.counters.entry(key).or_insert_with(|| shape.empty());
     }
 
     /// Adds the sums of further trials.
     ///
     /// # Errors
     /// If some of them were counted before, or the shapes of the sums differ.
-    pub fn add(&mut self, key: &Key, trials: Range<u64>, sums: &Sums) -> Result<(), CountsError> {
-        let key = *key;
+    pub fn add(&mut self, &key: &Key, trials: Range<u64>, sums: &Sums) -> Result<(), CountsError> {
         let counter = self.counters.entry(key);
         let counter = counter.or_insert_with(|| sums.shape().empty());
         if counter.sums.lengths() != sums.lengths() {
@@ -176,8 +175,7 @@ impl Counts {
                 self.add(key, range, sums)?;
             }
         }
-        for (key, there) in &other.decisions {
-            let key = *key;
+        for (&key, there) in &other.decisions {
             let here = self.decisions.entry(key).or_insert(*there);
             if let Some(difference) = here.difference(there) {
                 return Err(CountsError::Decision { key, difference });
