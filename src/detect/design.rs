@@ -2,7 +2,7 @@
 
 use super::joint;
 use super::law::{Needs, NullLaw, NullLawError, check, ratio};
-use super::region::{NEVER, Region, RegionError};
+use super::region::{Bounds, NEVER, Region, RegionError};
 use super::rule::{Alternative, Exceedances, Rule};
 use super::samples::Samples;
 use crate::stats::bisect::first;
@@ -163,10 +163,10 @@ impl NullLaws {
     pub(super) fn with_critical(&self, critical: Vec<u64>) -> Region {
         let reachable = |c| if c > self.score.last() { NEVER } else { c };
         let critical: Vec<u64> = critical.into_iter().map(reachable).collect();
+        let bounds = |&c: &u64| Bounds::new(self.alternative, self.twice_mean(), c);
         Region {
             exceedances: self.of,
-            alternative: self.alternative,
-            twice_mean: self.twice_mean(),
+            bounds: critical.iter().map(bounds).collect(),
             size: self.size(&critical),
             reachable: None,
             critical,

@@ -29,11 +29,10 @@ use crate::format::brief;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
     pub(super) exceedances: Exceedances,
-    pub(super) alternative: Alternative,
-    /// M₁(N+M₁+M₂+1) = 2 E W.
-    pub(super) twice_mean: u64,
     /// The smallest score that decides H₁, for each T; `u64::MAX` where none does.
     pub(super) critical: Vec<u64>,
+    /// The rank sums with such a score, for each T.
+    pub(super) bounds: Vec<Bounds>,
     pub(super) size: f64,
     pub(super) reachable: Option<f64>,
 }
@@ -51,32 +50,7 @@ impl Region {
     /// The rank sums that decide H₁ beside these exceedances.
     #[inline(always)]
     pub fn bounds(&self, statistics: Statistics) -> Bounds {
-        self.bounds_at(self.critical[self.exceedances.of(statistics)])
-    }
-
-    /// The rank sums whose score is `critical` or more.
-    #[inline(always)]
-    fn bounds_at(&self, critical: u64) -> Bounds {
-        let below = |score: u64| self.twice_mean.checked_sub(score);
-        match self.alternative {
-            Alternative::Greater => Bounds {
-                below: 0,
-                from: critical,
-            },
-            Alternative::Less => Bounds {
-                below: below(critical).map_or(0, |w| w + 1),
-                from: NEVER,
-            },
-            // |2W − 2E W| of the critical score or more.
-            Alternative::TwoSided if critical == NEVER => Bounds {
-                below: 0,
-                from: NEVER,
-            },
-            Alternative::TwoSided => Bounds {
-                below: below(critical).map_or(0, |twice| twice / 2 + 1),
-                from: (self.twice_mean + critical).div_ceil(2),
-            },
-        }
+        self.bounds[self.exceedances.of(statistics)]
     }
 
     /// The number of exceedances that it looks at.
@@ -96,23 +70,45 @@ impl Region {
 
     /// C_W(T) for T = 0, 1, …: (lower, upper) such that W ≤ lower or W ≥ upper decides H₁.
     pub fn critical_values(&self) -> Vec<(Option<u64>, Option<u64>)> {
-        (self.critical.iter())
-            .map(|&critical| self.bounds_at(critical))
-            .map(|Bounds { below, from }| {
-                (below.checked_sub(1), Some(from).filter(|&w| w != NEVER))
-            })
-            .collect()
+        let values = |&Bounds { below, from }: &Bounds| {
+            (below.checked_sub(1), Some(from).filter(|&w| w != NEVER))
+        };
+        self.bounds.iter().map(values).collect()
     }
 }
 
 /// Rank sums that decide H₁: those smaller than `below` and those from `from` on.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bounds {
     below: u64,
     from: u64,
 }
 
 impl Bounds {
+    /// The rank sums whose score is `critical` or more, where `twice_mean` is M₁(N+M₁+M₂+1) = 2 E W.
+    pub(super) fn new(alternative: Alternative, twice_mean: u64, critical: u64) -> Self {
+        let below = |score: u64| twice_mean.checked_sub(score);
+        match alternative {
+            Alternative::Greater => Self {
+                below: 0,
+                from: critical,
+            },
+            Alternative::Less => Self {
+                below: below(critical).map_or(0, |w| w + 1),
+                from: NEVER,
+            },
+            // |2W − 2E W| of the critical score or more.
+            Alternative::TwoSided if critical == NEVER => Self {
+                below: 0,
+                from: NEVER,
+            },
+            Alternative::TwoSided => Self {
+                below: below(critical).map_or(0, |twice| twice / 2 + 1),
+                from: (twice_mean + critical).div_ceil(2),
+            },
+        }
+    }
+
     /// Whether this rank sum decides H₁.
     #[inline(always)]
     pub fn decide(self, rank_sum: u64) -> bool {

@@ -9,8 +9,10 @@ pub(super) struct Outside {
     start: [i32; 2],
     /// How they change at each Δ.
     changes: Vec<[i32; 2]>,
-    /// One bit for each Δ: whether they may change there.
-    touched: Vec<u64>,
+    /// One bit for every 2^`shared` values of Δ: whether they may change there. A single word is kept in a
+    /// register while lines pass, where an array of words would wait for each store.
+    touched: u64,
+    shared: u32,
 }
 
 /// The sample that a line belongs to.
@@ -26,7 +28,8 @@ impl Outside {
         Self {
             start: [0; 2],
             changes: vec![[0; 2]; points + 1],
-            touched: vec![0; points / 64 + 1],
+            touched: 0,
+            shared: (points / 64 + 1).next_power_of_two().ilog2(),
         }
     }
 
@@ -47,7 +50,7 @@ impl Outside {
         self.start[sample as usize] += 1;
         for (place, change) in [(enters, -1), (leaves, 1)] {
             self.changes[place as usize][sample as usize] += change;
-            self.touched[place as usize / 64] |= 1 << (place % 64);
+            self.touched |= 1 << (place >> self.shared);
         }
     }
 
@@ -62,14 +65,18 @@ impl Outside {
         };
         stretches.clear();
         stretches.push((0, of(counts)));
-        for (word, touched) in self.touched.iter_mut().enumerate() {
-            while *touched != 0 {
-                let place = 64 * word + touched.trailing_zeros() as usize;
+        let mut touched = std::mem::take(&mut self.touched);
+        while touched != 0 {
+            let first = (touched.trailing_zeros() as usize) << self.shared;
+            let last = (first + (1 << self.shared)).min(self.changes.len());
+            for place in first..last {
                 let changes = std::mem::take(&mut self.changes[place]);
-                counts = [counts[0] + changes[0], counts[1] + changes[1]];
-                stretches.push((place, of(counts)));
-                *touched &= *touched - 1;
+                if changes != [0; 2] {
+                    counts = [counts[0] + changes[0], counts[1] + changes[1]];
+                    stretches.push((place, of(counts)));
+                }
             }
+            touched &= touched - 1;
         }
     }
 }
