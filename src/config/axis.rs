@@ -5,6 +5,7 @@ use super::source::Conflict;
 use super::tree::{Node, Value};
 use crate::suggest::among;
 use serde::Deserialize;
+use std::collections::HashSet;
 use std::fmt;
 use std::ops::Range;
 
@@ -51,6 +52,18 @@ enum AxisError {
         "axis.{name}: step = {step} is lost in the twelve digits of from = {from} (raise step)"
     )]
     Lost { name: String, step: f64, from: f64 },
+    #[error(
+        "axis.{name}: steps of {step} from {from} end at {last}, not at to = {to} (set to = {last}, or change step)"
+    )]
+    Missed {
+        name: String,
+        from: f64,
+        to: f64,
+        step: f64,
+        last: f64,
+    },
+    #[error("axis.{name}: {value} is there twice (take one out)")]
+    Repeated { name: String, value: String },
     #[error("axis.{name}: {points:.0} points, more than {MOST_POINTS} (raise step)")]
     TooMany { name: String, points: f64 },
     #[error("axis.{name}: {refusal}")]
@@ -82,10 +95,11 @@ impl Axis {
             return Err(Conflict::at(key_span, error));
         }
         let values = values(name, node).map_err(|error| Conflict::at(&node.span, error))?;
+        check_distinct(name, &values)?;
         Ok(Self {
             name: (*name).clone(),
             key_span: key_span.clone(),
-            values: values.into_iter().map(AxisValue).collect(),
+            values,
             span: node.span.clone(),
         })
     }
@@ -123,7 +137,7 @@ impl fmt::Display for AxisValue {
 }
 
 /// The values of a list, or of a range.
-fn values(name: &str, node: &Node) -> Result<Vec<Node>, AxisError> {
+fn values(name: &str, node: &Node) -> Result<Vec<AxisValue>, AxisError> {
     let values = match &node.value {
         Value::List(list) if list.len() > MOST_POINTS => {
             let (name, points) = (name.to_owned(), list.len() as f64);
@@ -146,7 +160,27 @@ fn values(name: &str, node: &Node) -> Result<Vec<Node>, AxisError> {
     if values.is_empty() {
         return Err(AxisError::Empty(name.to_owned()));
     }
-    Ok(values)
+    Ok(values.into_iter().map(AxisValue).collect())
+}
+
+/// Refuses a value that is the same as an earlier one.
+fn check_distinct(name: &str, values: &[AxisValue]) -> Result<(), Conflict> {
+    let mut seen = HashSet::new();
+    for AxisValue(node) in values {
+        let is_new = match &node.value {
+            Value::Text(text) => seen.insert(text.clone()),
+            // 1 and 1.0 are one number, and so are 0 and -0.
+            _ => (node.number()).is_none_or(|number| seen.insert((number + 0.0).to_string())),
+        };
+        if !is_new {
+            let (name, value) = (name.to_owned(), AxisValue(node.clone()).to_string());
+            return Err(Conflict::at(
+                &node.span,
+                AxisError::Repeated { name, value },
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// from, from + step, …, to; whole numbers stay whole.
@@ -162,6 +196,16 @@ fn range(name: &str, &Steps { from, to, step }: &Steps) -> Result<Vec<Value>, Ax
     let points = ((to - from) / step + 1e-9).floor() + 1.0;
     if points > MOST_POINTS as f64 {
         return Err(AxisError::TooMany { name, points });
+    }
+    let last = twelve_digits(from + (points - 1.0) * step);
+    if (to - last).abs() > 1e-9 * step.max(to.abs()) {
+        return Err(AxisError::Missed {
+            name,
+            from,
+            to,
+            step,
+            last,
+        });
     }
     let is_whole = from.fract() == 0.0 && step.fract() == 0.0;
     let value = |i: usize| {
@@ -209,9 +253,28 @@ mod tests {
         assert_eq!(range.len(), 31);
         assert_eq!((range[3], range[30]), (0.3, 3.0));
         assert_eq!(numbers("{ from = -0.7, to = 0.7, step = 0.1 }")[7], 0.0);
-        assert_eq!(numbers("{ from = 2, to = 9, step = 3 }"), [2.0, 5.0, 8.0]);
+        assert_eq!(numbers("{ from = 2, to = 8, step = 3 }"), [2.0, 5.0, 8.0]);
         assert_eq!(numbers("{ from = 1.0, to = 1.0, step = 0.5 }"), [1.0]);
         assert_eq!(numbers("[1, 2.5]"), [1.0, 2.5]);
+    }
+
+    #[test]
+    fn what_is_not_meant_is_refused() {
+        let refusal = |value: &str| {
+            let root = Node::parse(&format!("x = {value}")).unwrap();
+            let Err(conflict) = Axis::read(&root, ["x"]) else {
+                panic!("{value} is accepted")
+            };
+            conflict.error.to_string()
+        };
+        let missed =
+            "axis.x: steps of 3 from 2 end at 8, not at to = 9 (set to = 8, or change step)";
+        assert_eq!(refusal("{ from = 2, to = 9, step = 3 }"), missed);
+        assert!(refusal("{ from = 0.0, to = 1.0, step = 0.3 }").contains("end at 0.9"));
+        assert!(refusal("{ from = 0.0, to = 1.0, step = 2.0 }").contains("end at 0,"));
+        for repeated in ["[1, 2, 1.0]", "[0.0, -0.0]", "[\"auto\", 2, \"auto\"]"] {
+            assert!(refusal(repeated).contains("is there twice"), "{repeated}");
+        }
     }
 
     /// A step that twelve digits cannot resolve is refused; any larger step gives all points.

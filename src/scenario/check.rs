@@ -2,6 +2,7 @@
 
 use super::{Calibration, Scenario};
 use crate::detect::{Baseline, Exceedances, Method, RegionError, Rule};
+use crate::format::brief;
 use crate::signal::MotionError;
 use crate::whiten::{Fit, WhiteningError};
 
@@ -13,6 +14,11 @@ pub enum ScenarioError {
     Motion(#[from] MotionError),
     #[error("whitening.{0}")]
     Whitening(#[from] WhiteningError),
+    #[error(
+        "noise.range: ±{} is less than a step of {}, so that every sample would read 0 (raise range or lower \
+         noise.quantum)", brief(*.range), brief(*.quantum)
+    )]
+    RangeBelowQuantum { range: f64, quantum: f64 },
     #[error("detector: {0}")]
     Region(#[from] RegionError),
     #[error(
@@ -75,6 +81,7 @@ impl ScenarioError {
             Self::Motion(MotionError::Duration { .. }) => &["motion.duration", "motion.offset"],
             Self::Motion(MotionError::Rise { .. }) => &["motion.profile", "motion.duration"],
             Self::Whitening(error) => error.keys(),
+            Self::RangeBelowQuantum { .. } => &["noise.range", "noise.quantum"],
             Self::Region(error) => blamed(error),
             Self::KnownFilterDecimated(_) => &["whitening.fit", DECIMATION],
             Self::WhitenedDeltaDecimated(_) => &["motion.delta_at", DECIMATION],
@@ -110,6 +117,7 @@ pub const RECORD_KEYS: &[&str] = &[
 impl Scenario {
     /// Checks the sections against each other.
     pub(super) fn check(&self) -> Result<(), ScenarioError> {
+        self.check_digitiser()?;
         self.check_decimation()?;
         let detector = &self.detector;
         let is_calibrated = detector.calibration != Calibration::None;
@@ -124,6 +132,15 @@ impl Scenario {
                 Err(ScenarioError::NothingExceeds(name))
             }
             Method::Baseline(baseline) => self.check_baseline(*baseline),
+            _ => Ok(()),
+        }
+    }
+
+    fn check_digitiser(&self) -> Result<(), ScenarioError> {
+        match (self.digitiser.range(), self.digitiser.quantum()) {
+            (Some(range), Some(quantum)) if range < quantum => {
+                Err(ScenarioError::RangeBelowQuantum { range, quantum })
+            }
             _ => Ok(()),
         }
     }

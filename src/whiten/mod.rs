@@ -67,10 +67,13 @@ pub struct Whitening {
     pub includes_reference: bool,
 }
 
+/// The order of the paper's filter.
+const DEFAULT_ORDER: usize = 2;
+
 impl Default for Whitening {
     fn default() -> Self {
         Self {
-            order: Order::Fixed(2),
+            order: Order::Fixed(DEFAULT_ORDER),
             fit: Fit::LeastSquares,
             training: 256,
             includes_reference: false,
@@ -116,6 +119,16 @@ pub enum WhiteningError {
          (give order a number or fit the filter)"
     )]
     NothingToChoose(Fit),
+    /// A number for the order of what is not fitted.
+    #[error(
+        "order: means nothing to fit = \"{fit}\", got {order} (leave it out, or fit the filter)"
+    )]
+    NotFitted {
+        /// The fit asked for.
+        fit: Fit,
+        /// The order asked for.
+        order: usize,
+    },
     /// A known filter with too few coefficients for the sensor.
     #[error(
         "order: the known filter of this sensor has order {sensor}, got {order} \
@@ -134,7 +147,9 @@ impl WhiteningError {
     pub fn keys(&self) -> &'static [&'static str] {
         match self {
             Self::NoOrder => &["whitening.order"],
-            Self::NothingToChoose(_) => &["whitening.order", "whitening.fit"],
+            Self::NothingToChoose(_) | Self::NotFitted { .. } => {
+                &["whitening.order", "whitening.fit"]
+            }
             Self::TrainingTooShort { .. } | Self::TooShortToChoose { .. } => {
                 &["whitening.training", "whitening.order", "whitening.fit"]
             }
@@ -207,6 +222,11 @@ impl Whitening {
         }
         if fit == Fit::Known && order < sensor {
             return Err(WhiteningError::BelowSensor { sensor, order });
+        }
+        // The default, or what is written to give a known filter all its coefficients.
+        let is_sensible = order == DEFAULT_ORDER || fit == Fit::Known && order == sensor;
+        if matches!(fit, Fit::Known | Fit::None) && !is_sensible {
+            return Err(WhiteningError::NotFitted { fit, order });
         }
         Ok(())
     }
