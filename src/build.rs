@@ -1,10 +1,11 @@
-//! Tells the program which revision it was built from.
+//! Tells the program which revision it was built from, and gives it the configs to carry.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::{env, fs};
 
 /// What the program is made of.
-const SOURCES: [&str; 3] = ["src", "Cargo.toml", "Cargo.lock"];
+const SOURCES: [&str; 4] = ["src", "configs", "Cargo.toml", "Cargo.lock"];
 
 fn main() {
     // A path that is not there would rebuild the program every time.
@@ -18,6 +19,29 @@ fn main() {
     let is_clean = changes.is_none_or(|changes| changes.is_empty());
     let note = if is_clean { "" } else { ", modified" };
     println!("cargo::rustc-env=LIFTSIM_REVISION={revision}{note}");
+    let out = env::var_os("OUT_DIR").expect("cargo sets it");
+    fs::write(Path::new(&out).join("shipped.rs"), shipped()).expect("it can be written");
+}
+
+/// The configs of both folders as an array, by name.
+fn shipped() -> String {
+    let of_command = |command, folder: &str| {
+        let root = env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it");
+        let entries = fs::read_dir(Path::new(&root).join(folder)).expect("the folder is there");
+        let paths = entries.map(|entry| entry.expect("it can be listed").path());
+        let configs = paths.filter(|path| path.extension().is_some_and(|end| end == "toml"));
+        let entry = |path: PathBuf| {
+            let name = path.file_stem().expect("it has a name").to_owned();
+            format!(
+                "Shipped {{ name: {name:?}, command: {command:?}, text: include_str!({path:?}) }},\n"
+            )
+        };
+        configs.map(entry).collect::<Vec<_>>()
+    };
+    let mut all = of_command("sweep", "configs");
+    all.extend(of_command("simulate", "configs/simulate"));
+    all.sort();
+    format!("&[{}]", all.concat())
 }
 
 /// The files that change when another revision is checked out or committed: HEAD, and the branch that it names, or

@@ -31,7 +31,7 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | 0 | [`rng`]: coordinates → generator · [`stats`]: exact tails, intervals, tests · [`kalman`]: a mean and its covariance · [`counts`]: sums by what they count, and of which trials · [`mod@format`], [`suggest`], [`fields`], [`files`]: text and files · [`simd`]: trials side by side |
+//! | 0 | [`rng`]: coordinates → generator · [`stats`]: exact tails, intervals, tests · [`kalman`]: a mean and its covariance · [`counts`]: sums by what they count, and of which trials · [`mod@format`], [`suggest`], [`fields`], [`files`], [`npz`]: text and files · [`simd`]: trials side by side |
 //! | 1, 2 | [`rule`], [`values`]: what a value must be · [`outbox`]: lines to a listener over a network |
 //! | 3 | [`signal`]: sensor, noise, impulses, motion · [`recording`]: what real lifts recorded · [`whiten`]: filters · [`detect`]: W, T, their laws, regions · [`config`]: what a file says, with its places · [`claim`]: verdicts · [`plot`]: what a picture says |
 //! | 4 | [`explain`]: what a record may hold |
@@ -115,6 +115,7 @@ pub mod gate;
 pub mod kalman;
 pub mod lift;
 pub mod monitor;
+pub mod npz;
 pub mod outbox;
 pub mod page;
 pub mod pilot;

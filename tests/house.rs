@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const FLOORS: &[&[&str]] = &[
     // Numbers, text and files without a domain.
     &[
-        "rng", "simd", "stats", "kalman", "fields", "format", "files", "suggest", "counts",
+        "rng", "simd", "stats", "kalman", "fields", "format", "files", "suggest", "counts", "npz",
         "vector",
     ],
     // What a value must be; lines to a listener.

@@ -37,6 +37,7 @@ mod comparison;
 mod contrast;
 mod evidence;
 mod false_alarm;
+mod further;
 mod gain;
 mod growth;
 mod narrative;
@@ -52,6 +53,7 @@ pub mod words;
 
 pub use comparison::{Comparison, Place};
 pub use evidence::{Evidence, Outcome};
+pub use further::trials_to_decide;
 pub use gain::gains;
 pub use narrative::{Claim, Contrasts, Narrative, Test, Words};
 pub use pairs::{Pair, comparisons, confidence, number_of_pairs, pairs};

@@ -2,8 +2,8 @@
 
 use super::CommandResult;
 use super::{
-    check, completions, detect, figures, keys, man, merge, monitor, plan, plot, replay, simulate,
-    status, sweep, threshold, track,
+    check, completions, detect, figures, keys, man, merge, monitor, new, plan, plot, replay,
+    simulate, status, sweep, threshold, track,
 };
 use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, Parser, Subcommand};
@@ -15,7 +15,7 @@ use liftsim::format::shorten;
 /// false-alarm rate is known exactly, and measures how often it detects a motion.
 #[derive(Debug, Parser)]
 #[command(version, propagate_version = true, arg_required_else_help = true)]
-#[command(after_help = "Start with: liftsim sweep configs/fig6.toml\n\n\
+#[command(after_help = "Start with: liftsim sweep fig6\n\n\
     Exit codes: 0 done; 1 a run failed, or a gate did not hold; 2 bad usage, config or input; \
     3 a gate was inconclusive; 130 stopped by Ctrl-C, 143 by SIGTERM.")]
 pub struct Arguments {
@@ -42,6 +42,7 @@ enum Command {
     Detect(Box<detect::Detect>),
     Track(Box<track::TrackCommand>),
     Monitor(Box<monitor::MonitorCommand>),
+    New(new::New),
     Keys(keys::Keys),
     Completions(completions::Completions),
     Man(man::Man),
@@ -64,7 +65,8 @@ impl Arguments {
             Command::Figures(command) => command.run(self.quiet),
             Command::Threshold(command) => command.run(),
             Command::Plan(command) => command.run(),
-            Command::Replay(command) => command.run(),
+            Command::Replay(command) => command.run(self.quiet),
+            Command::New(command) => command.run(),
             Command::Keys(command) => command.run(),
             Command::Simulate(command) => command.run(),
             Command::Detect(command) => command.run(),

@@ -1,8 +1,10 @@
 //! `liftsim keys`: the reference of every table and key of a config.
 
-use super::{CommandResult, print, simulate};
+use super::{CommandResult, Failure, print, simulate};
+use anyhow::anyhow;
 use clap::Args;
-use liftsim::study::reference;
+use liftsim::study::reference::{self, Chapter};
+use liftsim::suggest::nearest;
 use std::process::ExitCode;
 
 /// Print the reference of every table and key of a config.
@@ -10,6 +12,9 @@ use std::process::ExitCode;
 /// `configs/README.md` and `configs/schema.json` are what it prints.
 #[derive(Debug, Args)]
 pub struct Keys {
+    /// Only this table, such as whitening, or else the keys of this name in all tables.
+    #[arg(conflicts_with = "schema")]
+    name: Option<String>,
     /// As a JSON Schema, for editors: `#:schema ./schema.json` in a config's first line.
     #[arg(long)]
     schema: bool,
@@ -19,9 +24,30 @@ impl Keys {
     pub fn run(self) -> CommandResult {
         if self.schema {
             print(&format!("{:#}\n", reference::schema()))?;
-        } else {
-            print(&(reference::markdown() + &simulate::reference()))?;
+            return Ok(ExitCode::SUCCESS);
         }
+        let mut chapters = vec![
+            reference::config(),
+            reference::monitor_options(),
+            simulate::reference(),
+        ];
+        if let Some(name) = &self.name {
+            let known = chapters.clone();
+            chapters = reference::matching(chapters, name);
+            if chapters.is_empty() {
+                return Err(unknown(name, &known));
+            }
+        }
+        let chapters: Vec<String> = chapters.iter().map(Chapter::to_string).collect();
+        print(&chapters.concat())?;
         Ok(ExitCode::SUCCESS)
     }
+}
+
+fn unknown(name: &str, known: &[Chapter]) -> Failure {
+    let near = nearest(name, known.iter().flat_map(Chapter::names));
+    let hint = near.map_or(String::new(), |near| format!(", did you mean {near}?"));
+    Failure::Input(anyhow!(
+        "no table or key is called {name}{hint} (`liftsim keys` lists all)"
+    ))
 }

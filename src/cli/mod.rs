@@ -6,15 +6,18 @@ mod arguments;
 mod check;
 mod completions;
 mod detect;
+mod each;
 mod figures;
 mod floors;
 mod found;
+mod heartbeat;
 mod keys;
 mod man;
 mod merge;
 mod monitor;
 mod monitor_options;
 mod network;
+mod new;
 mod output;
 mod per_hour;
 mod plan;
@@ -83,11 +86,8 @@ impl Failure {
 /// The config of a command that simulates, and the flags that go over it.
 #[derive(Debug, Args)]
 struct Simulation {
-    /// The experiment, a TOML file.
+    /// The experiment: a TOML file, or the name of a shipped one (see `liftsim new`).
     config: PathBuf,
-    /// Trials per point, instead of the config's.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_TRIALS))]
-    trials: Option<u64>,
     /// Trials of each pilot run, instead of the config's.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_PILOT_TRIALS))]
     pilot: Option<u64>,
@@ -99,21 +99,39 @@ struct Simulation {
     threads: Option<usize>,
 }
 
-impl Simulation {
+/// A simulation whose trials are counted.
+#[derive(Debug, Args)]
+struct Counted {
+    #[command(flatten)]
+    simulation: Simulation,
+    /// Trials per point, instead of the config's.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_TRIALS))]
+    trials: Option<u64>,
+}
+
+impl Counted {
     /// Reads the config, lays the command line over it, and plans it.
     fn study(&self) -> Result<Loaded, Failure> {
         let experiment = self.config()?;
         // Before the plan: large joint laws are counted on all threads.
-        self.start_threads()?;
+        self.simulation.start_threads()?;
         Loaded::new(experiment).map_err(Failure::study)
     }
 
     /// The config with the command line in its place.
     fn config(&self) -> Result<Experiment, Failure> {
-        let mut config = study::load(&self.config).map_err(Failure::input)?;
+        let mut config = self.simulation.config()?;
         let header = &mut config.header;
         header.set_trials(self.trials.unwrap_or(header.trials()));
-        header.seed = self.seed.unwrap_or(header.seed);
+        Ok(config)
+    }
+}
+
+impl Simulation {
+    /// The config with the command line in its place.
+    fn config(&self) -> Result<Experiment, Failure> {
+        let mut config = study::load(&self.config).map_err(Failure::input)?;
+        config.header.seed = self.seed.unwrap_or(config.header.seed);
         match self.pilot {
             Some(pilot) if config.study() == SWEEP => config.header.pilot = pilot,
             Some(_) => {

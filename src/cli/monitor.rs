@@ -1,6 +1,7 @@
 //! `liftsim monitor`: watches a lift, sample by sample, from standard input.
 
 use super::floors::{Building, FloorArguments};
+use super::heartbeat::{self, Pulse};
 use super::monitor_options::{Beginning, MonitorArguments, Setup};
 use super::network::{Network, NetworkArguments};
 use super::output;
@@ -17,6 +18,9 @@ use serde::Serialize;
 use std::io::{self, BufReader};
 use std::iter;
 use std::process::ExitCode;
+use std::sync::{Mutex, mpsc};
+use std::thread;
+use std::time::Duration;
 
 /// Watch a lift: read samples from standard input, print changes of its state as they happen.
 ///
@@ -63,6 +67,10 @@ pub struct MonitorCommand {
     /// back.
     #[arg(long)]
     keep_going: bool,
+    /// Print a line every so many seconds of this machine's clock, with the state, the number of readings, and for
+    /// how long none has come: {"event":"heartbeat","time":…,"state":"rest","readings":6000,"silent":0.0}.
+    #[arg(long, value_name = "SECONDS", value_parser = heartbeat::period)]
+    heartbeat: Option<Duration>,
     #[command(flatten)]
     options: MonitorArguments,
     #[command(flatten)]
@@ -87,13 +95,24 @@ impl MonitorCommand {
             output::apart(spool, self.floors.map.iter())?;
         }
         let network = self.network.open()?;
-        let mut out = io::stdout().lock();
-        let watched = self.watch(config, saved, &reading, |line| {
+        // Two threads tell, one line at a time.
+        let out = Mutex::new(());
+        let report = |line: String| {
+            let _alone = out.lock();
             // First into the spool, so that whatever was printed is delivered too.
             if let Some(network) = &network {
                 network.send(&line);
             }
-            Ok(print_to(&mut out, &line)? || network.is_some())
+            Ok(print_to(&mut io::stdout().lock(), &line)? || network.is_some())
+        };
+        let pulse = Pulse::new();
+        let watched = thread::scope(|scope| {
+            let (_ends, end) = mpsc::channel();
+            if let Some(period) = self.heartbeat {
+                let (pulse, report) = (&pulse, &report);
+                scope.spawn(move || pulse.beat(period, &end, |line| drop(report(line))));
+            }
+            self.watch(config, saved, &reading, &pulse, report)
         });
         let delivered = network.map_or(0, Network::close);
         match (watched?, delivered) {
@@ -112,6 +131,7 @@ impl MonitorCommand {
         config: MonitorOptions,
         saved: Option<SavedState>,
         reading: &recording::Reading,
+        pulse: &Pulse,
         report: impl FnMut(String) -> Result<bool, Failure>,
     ) -> Result<bool, Failure> {
         let input = BufReader::with_capacity(1 << 16, io::stdin().lock());
@@ -134,7 +154,8 @@ impl MonitorCommand {
         let saved = SavedState { rate, ..saved };
         let mut lift = self.lift(&saved, known.is_none(), &first[0].0, report)?;
         let rest = iter::from_fn(|| readings.next().transpose());
-        let read = lift.take(first.into_iter().map(Ok).chain(rest));
+        let pulse = self.heartbeat.is_some().then_some(pulse);
+        let read = lift.take(first.into_iter().map(Ok).chain(rest), pulse);
         // What was read is told, also before a line that cannot be.
         let ended = lift.end();
         readings.say_counts();
@@ -201,11 +222,16 @@ impl<R: FnMut(String) -> Result<bool, Failure>> Lift<R> {
     fn take(
         &mut self,
         mut readings: impl Iterator<Item = Result<Reading, Failure>>,
+        pulse: Option<&Pulse>,
     ) -> Result<(), Failure> {
         while self.is_read
             && let Some(reading) = readings.next()
         {
-            self.step(reading?)?;
+            let reading = reading?;
+            self.step(reading)?;
+            if let Some(pulse) = pulse {
+                pulse.take(reading.0.time, self.monitor.state());
+            }
         }
         Ok(())
     }
@@ -252,6 +278,7 @@ impl<R: FnMut(String) -> Result<bool, Failure>> Lift<R> {
     }
 }
 
-fn line(event: &impl Serialize) -> String {
+/// An event as a line.
+pub fn line(event: &impl Serialize) -> String {
     serde_json::to_string(event).expect("an event can be written") + "\n"
 }

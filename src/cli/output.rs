@@ -84,6 +84,11 @@ impl Output {
         Self::named(path, replaces, "--report", &["html", "htm"])
     }
 
+    /// The same for a file with this end.
+    pub fn with_end(flag: &str, path: &Path, replaces: bool, end: &str) -> Result<Self, Failure> {
+        Self::named(path, replaces, flag, &[end])
+    }
+
     fn named(path: &Path, replaces: bool, flag: &str, ends: &[&str]) -> Result<Self, Failure> {
         let end = path.extension();
         if end.is_some_and(|end| ends.iter().any(|it| end == *it)) {

@@ -1,6 +1,6 @@
 //! `liftsim plan CONFIG`: what a sweep would do.
 
-use super::{CommandResult, Failure, Simulation, print};
+use super::{CommandResult, Counted, Failure, print};
 use clap::Args;
 use liftsim::run::Estimate;
 use liftsim::stats::tally::Tally;
@@ -13,7 +13,7 @@ use std::time::Duration;
 #[derive(Debug, Args)]
 pub struct PlanCommand {
     #[command(flatten)]
-    simulation: Simulation,
+    counted: Counted,
     /// Print JSON instead of text; the time is in seconds.
     #[arg(long)]
     json: bool,
@@ -22,7 +22,7 @@ pub struct PlanCommand {
 impl PlanCommand {
     /// Runs the command.
     pub fn run(self) -> CommandResult {
-        let loaded = self.simulation.study()?;
+        let loaded = self.counted.study()?;
         loaded.check().map_err(Failure::study)?;
         let trials = loaded.origin.trials;
         let text = match loaded.study.trials() {

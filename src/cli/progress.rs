@@ -7,9 +7,10 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use liftsim::counts::Counts;
 use liftsim::run::{self, Progress as _, Session};
-use liftsim::study::{Loaded, Sweep};
+use liftsim::study::{EachTrial, Loaded, Sweep};
 use serde_json::json;
 use std::fmt::Write;
+use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, RwLock};
 use std::time::{Duration, Instant};
@@ -210,6 +211,17 @@ pub fn count(sweep: &Sweep, reporter: &Reporter) -> Result<Counts, Failure> {
     let counts = counts.map_err(Failure::study)?;
     reporter.say(&json!({ "event": "finished", "total": work }));
     Ok(counts)
+}
+
+/// The outcomes of every trial of some points.
+pub fn each(
+    sweep: &Sweep,
+    points: &[usize],
+    trials: &Range<u64>,
+    reporter: &Reporter,
+) -> Result<Vec<EachTrial>, Failure> {
+    let outcomes = sweep.each(points, trials, &Follower::new(reporter, None));
+    outcomes.map_err(Failure::study)
 }
 
 /// Counts all trials of a study in memory.

@@ -1,5 +1,7 @@
 //! `liftsim replay CONFIG --point P --trial T`: every stage of one trial.
 
+use super::each;
+use super::progress::{Progress, Reporter};
 use super::{CommandResult, Failure, Simulation, print};
 use anyhow::anyhow;
 use clap::Args;
@@ -8,7 +10,9 @@ use liftsim::detect::Samples;
 use liftsim::experiment::SweepConfig;
 use liftsim::pilot::Pilots;
 use liftsim::plan::Plan;
+use liftsim::stats::tally::MOST_TRIALS;
 use std::fmt::Write;
+use std::ops::Range;
 use std::process::ExitCode;
 
 /// Print every stage of one trial as CSV: what was drawn, recorded, fitted, ranked and decided.
@@ -27,31 +31,47 @@ pub struct ReplayCommand {
     #[arg(long, value_name = "P", value_parser = clap::value_parser!(u64).range(1..))]
     point: u64,
     /// Which trial, from 0.
-    #[arg(long, value_name = "T")]
-    trial: u64,
+    #[arg(
+        long,
+        value_name = "T",
+        required_unless_present = "trials",
+        conflicts_with = "trials"
+    )]
+    trial: Option<u64>,
+    /// Only W, T and the decision of each of these trials, the last not included, as a table.
+    #[arg(long, value_name = "A..B", value_parser = each::range)]
+    trials: Option<Range<u64>>,
+    #[command(flatten)]
+    progress: Progress,
 }
 
 impl ReplayCommand {
     /// Runs the command.
-    pub fn run(self) -> CommandResult {
+    pub fn run(self, quiet: bool) -> CommandResult {
         let config = SweepConfig::new(self.simulation.config()?).map_err(Failure::input)?;
         self.simulation.start_threads()?;
-        let plan = Plan::new(&config).map_err(Failure::input)?;
-        let (points, trials) = (plan.points.len(), plan.schedule.trials);
+        let points = Plan::new(&config).map_err(Failure::input)?.points.len();
         if self.point > points as u64 {
             return Err(Failure::Input(anyhow!(
                 "--point must lie in 1 to {points}, the rows of points.csv, got {}",
                 self.point
             )));
         }
-        if self.trial >= trials {
+        let point = self.point as usize - 1;
+        if let Some(trials) = &self.trials {
+            let reporter = Reporter::new(quiet, &self.progress, "");
+            print(&each::table(config, point, trials, &reporter)?)?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        let trial = self.trial.expect("one of both is given");
+        if trial >= MOST_TRIALS {
             return Err(Failure::Input(anyhow!(
-                "--trial must lie in 0 to {}, got {} (raise --trials to look further)",
-                trials - 1,
-                self.trial
+                "--trial must lie in 0 to {}, got {trial}",
+                MOST_TRIALS - 1
             )));
         }
-        let alone = &plan.points[self.point as usize - 1..][..1];
+        let plan = Plan::new(&config).map_err(Failure::input)?;
+        let alone = &plan.points[point..][..1];
         let pilots = Pilots::new(alone, plan.pilot, plan.seed);
         let decisions = pilots.and_then(|pilots| pilots.decide(|_| {}));
         let decision = &decisions.map_err(Failure::input)?[0];
@@ -60,7 +80,7 @@ impl ReplayCommand {
             decision,
             plan.seed,
             plan.common_random_numbers,
-            self.trial,
+            trial,
         );
         print(&csv(&replay.map_err(Failure::input)?, decision))?;
         Ok(ExitCode::SUCCESS)

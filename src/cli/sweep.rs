@@ -1,8 +1,9 @@
 //! `liftsim sweep CONFIG`: counts or computes what a config describes, and writes results and figure.
 
+use super::each::SavedTrials;
 use super::progress::{self, Progress, Reporter};
 use super::store::{Written, line, manifest, store};
-use super::{CommandResult, Failure, Simulation, print, table};
+use super::{CommandResult, Counted, Failure, print, table};
 use clap::Args;
 use liftsim::results::{Directory, Manifest, Shard};
 use liftsim::run::{Output, Overwrite, Session};
@@ -25,7 +26,7 @@ use std::time::Instant;
 #[derive(Debug, Args)]
 pub struct Sweep {
     #[command(flatten)]
-    simulation: Simulation,
+    counted: Counted,
     /// Where to write; results/<name of the config>/ by default.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -36,6 +37,13 @@ pub struct Sweep {
     /// them.
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
+    /// Write W, T and the decision of every trial for NumPy, simulated again: arrays rank_sum, exceedances and h1
+    /// with a row for each of points.csv and a column for each trial.
+    #[arg(long, value_name = "FILE.npz", conflicts_with = "shard")]
+    save_trials: Option<PathBuf>,
+    /// Replace the file of --save-trials if it exists.
+    #[arg(long)]
+    force: bool,
     #[command(flatten)]
     progress: Progress,
 }
@@ -43,12 +51,16 @@ pub struct Sweep {
 impl Sweep {
     /// Runs the command.
     pub fn run(self, quiet: bool) -> CommandResult {
-        let loaded = self.simulation.study()?;
+        let loaded = self.counted.study()?;
+        let saved = match &self.save_trials {
+            Some(path) => Some(SavedTrials::new(path, self.force, self.counted.config()?)?),
+            None => None,
+        };
         let study = &*loaded.study;
         if self.shard.is_some() && study.trials().is_none() {
             return Err(Failure::Input(anyhow::anyhow!(
                 "{}: --shard: [{}] counts no trials that could be shared (run it whole)",
-                self.simulation.config.display(),
+                self.counted.simulation.config.display(),
                 study.name()
             )));
         }
@@ -64,13 +76,17 @@ impl Sweep {
             .map_err(Failure::input)?;
         let reporter = Reporter::new(quiet, &self.progress, "");
         progress::work_off(&mut session, &reporter)?;
-        print(&finish(&loaded, session, self.shard)?)?;
+        let mut done = finish(&loaded, session, self.shard)?;
+        if let Some(saved) = saved {
+            done += &format!("{}  written\n", saved.write(&reporter)?);
+        }
+        print(&done)?;
         Ok(ExitCode::SUCCESS)
     }
 
     /// The directory results/<file stem>, with a subdirectory for each shard.
     fn default_directory(&self) -> PathBuf {
-        let directory = default_directory(&self.simulation.config);
+        let directory = default_directory(&self.counted.simulation.config);
         match self.shard {
             Some(Shard { number, count }) => directory.join(format!("shards/{number}-of-{count}")),
             None => directory,
@@ -101,19 +117,25 @@ pub(super) fn finish(
         let counts = line(&directory, "counts.json", is_new);
         return Ok(format!("shard {shard}: {what}\n{counts}"));
     }
-    if session.is_complete() {
+    let done = if session.is_complete() {
         let place = directory.path().display();
-        return Ok(format!(
-            "{what} are complete in {place}: nothing to simulate\n"
-        ));
-    }
-    let (output, written) = write(loaded, session)?;
-    let findings = match output.findings {
-        Some((header, lines)) => table(header, &lines) + "\n",
-        None => String::new(),
+        format!("{what} are complete in {place}: nothing to simulate\n")
+    } else {
+        let (output, written) = write(loaded, session)?;
+        let findings = match output.findings {
+            Some((header, lines)) => table(header, &lines) + "\n",
+            None => String::new(),
+        };
+        let Written { seconds, files, .. } = written;
+        format!("{findings}{what} in {seconds:.1} s\n{files}")
     };
-    let Written { seconds, files, .. } = written;
-    Ok(format!("{findings}{what} in {seconds:.1} s\n{files}"))
+    let section = loaded.report("", &directory).map_err(Failure::run)?;
+    let verdicts = section.verdicts().map_err(Failure::run)?;
+    Ok(if verdicts.is_empty() {
+        done
+    } else {
+        format!("{done}\n{verdicts}")
+    })
 }
 
 /// Writes the counts, then the figures, then the manifest with the hashes of both.

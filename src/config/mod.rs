@@ -4,10 +4,12 @@
 mod axis;
 mod read;
 mod refusal;
+mod shipped;
 mod source;
 mod tree;
 
 pub use axis::{Axis, AxisValue};
 pub use refusal::Refusal;
+pub use shipped::{SHIPPED, Shipped};
 pub use source::{ConfigError, Conflict, Source};
 pub use tree::{Node, Table, Value};

@@ -1,14 +1,19 @@
 //! A config's text, and errors that point into it: file, line and column, the problem and the remedy.
 
 use super::refusal::Refusal;
+use super::shipped::{SHIPPED, Shipped};
 use super::tree::Node;
 use crate::rule::OutOfRange;
+use crate::suggest::nearest;
+use encoding_rs_io::DecodeReaderBytesBuilder;
 use serde::de::DeserializeOwned;
 use std::error::Error;
 use std::fmt;
+use std::fs::File;
 use std::io::{self, Read};
 use std::ops::Range;
 use std::path::Path;
+use unicode_width::UnicodeWidthStr;
 
 /// Why a config was refused, and where.
 #[derive(Debug, thiserror::Error)]
@@ -66,8 +71,12 @@ impl Conflict {
 #[derive(Clone, Debug)]
 struct Place {
     line: usize,
+    /// In characters, as editors count.
     column: usize,
-    text: String,
+    /// The text of the line before the place and from it on, shortened.
+    before: String,
+    from: String,
+    /// What of the latter is underlined, in columns of a terminal.
     width: usize,
 }
 
@@ -76,6 +85,14 @@ struct Place {
 enum Unreadable {
     #[error("cannot be read: {0} (check the path)")]
     Io(#[from] io::Error),
+    #[error(
+        "no such file, nor with .toml, nor a shipped config{hint} (check the path, or see `liftsim new`)"
+    )]
+    Unknown { hint: String },
+    #[error("no such file (check the path; `{0}` alone is the shipped config)")]
+    Shipped(&'static str),
+    #[error("is not text in UTF-8 or UTF-16 (save it as UTF-8)")]
+    NotText,
     #[error("is larger than {} kB, which no config is (check the path)", MOST_BYTES / 1000)]
     TooLarge,
 }
@@ -99,15 +116,26 @@ impl Source {
         }
     }
 
-    /// A file's text.
+    /// A file's text. A name without `.toml` that is no file is that of a file with it, or else of a shipped
+    /// config.
     ///
     /// # Errors
-    /// If the file cannot be read, is not UTF-8 or is too large.
+    /// If there is no such file, or it cannot be read, is not text or is too large.
     pub fn load(path: &Path) -> Result<Self, ConfigError> {
-        let name = path.display().to_string();
-        match read(path) {
+        // A folder may have the name too, as one of results has; a pipe is no file, but can be read.
+        let is_there = |path: &Path| path.exists() && !path.is_dir();
+        let with_end = path.with_extension("toml");
+        let is_short = path.extension().is_none() && !is_there(path);
+        let mut file = path;
+        if is_short && is_there(&with_end) {
+            file = &with_end;
+        } else if is_short && let Some(shipped) = path.to_str().and_then(Shipped::find) {
+            return Ok(Self::new(&format!("{}.toml", shipped.name), shipped.text));
+        }
+        let name = file.display().to_string();
+        match read(file) {
             Ok(text) => Ok(Self { name, text }),
-            Err(error) => Err(Self::new(&name, "").at(None, error)),
+            Err(error) => Err(Self::new(&name, "").at(None, error.explained(path))),
         }
     }
 
@@ -166,31 +194,64 @@ impl Source {
     }
 
     fn place(&self, span: Range<usize>) -> Place {
-        let before = &self.text[..span.start.min(self.text.len())];
-        let start = before.rfind('\n').map_or(0, |newline| newline + 1);
-        let text = self.text[start..].lines().next().unwrap_or_default();
-        let column = before[start..].chars().count() + 1;
-        let marked = self.text[span.start.min(self.text.len())..span.end.min(self.text.len())]
-            .lines()
-            .next();
+        let (start, end) = (
+            span.start.min(self.text.len()),
+            span.end.min(self.text.len()),
+        );
+        let (before, rest) = self.text.split_at(start);
+        let before = before.rsplit('\n').next().unwrap_or_default();
+        let marked = self.text[start..end].lines().next().unwrap_or_default();
+        let from = rest.lines().next().unwrap_or_default();
+        let length = before.chars().count();
+        let skipped = length.saturating_sub(BEFORE);
+        let first = |text: &str| text.chars().take(FROM).map(visible).collect::<String>();
         Place {
-            line: before.matches('\n').count() + 1,
-            column,
-            text: text.to_owned(),
-            width: marked.map_or(1, |marked| marked.chars().count().max(1)),
+            line: self.text[..start].matches('\n').count() + 1,
+            column: length + 1,
+            before: before.chars().skip(skipped).map(visible).collect(),
+            width: first(marked).width().max(1),
+            from: first(from),
         }
     }
 }
 
-fn read(path: &Path) -> Result<String, Unreadable> {
-    let mut text = String::new();
-    let file = std::fs::File::open(path)?;
-    file.take(MOST_BYTES + 1).read_to_string(&mut text)?;
-    if text.len() as u64 > MOST_BYTES {
-        Err(Unreadable::TooLarge)
-    } else {
-        Ok(text)
+impl Unreadable {
+    /// The same, where nothing is found at a path that may be meant for the name of a shipped config.
+    fn explained(self, path: &Path) -> Self {
+        let is_missing =
+            matches!(&self, Self::Io(error) if error.kind() == io::ErrorKind::NotFound);
+        let name = path.file_stem().and_then(|stem| stem.to_str());
+        let Some(name) = name.filter(|_| is_missing) else {
+            return self;
+        };
+        if let Some(shipped) = Shipped::find(name) {
+            return Self::Shipped(shipped.name);
+        }
+        if path.extension().is_some() {
+            return self;
+        }
+        let near = nearest(name, SHIPPED.iter().map(|shipped| shipped.name));
+        let hint = near.map_or(String::new(), |near| format!(", did you mean `{near}`?"));
+        Self::Unknown { hint }
     }
+}
+
+/// A file's text, in UTF-8 or, as its first bytes say, UTF-16.
+fn read(path: &Path) -> Result<String, Unreadable> {
+    let file = File::open(path)?;
+    let mut bytes = Vec::new();
+    file.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err(Unreadable::TooLarge);
+    }
+    let mut text = String::new();
+    let mut decoder = DecodeReaderBytesBuilder::new()
+        .strip_bom(true)
+        .build(&bytes[..]);
+    decoder
+        .read_to_string(&mut text)
+        .map_err(|_| Unreadable::NotText)?;
+    Ok(text)
 }
 
 fn first_line(message: &str) -> String {
@@ -202,24 +263,33 @@ impl fmt::Display for Report {
         let Some(place) = &self.place else {
             return write!(f, "{}: {}", self.file, self.error);
         };
-        let Place { line, column, .. } = place;
+        let Place {
+            line,
+            column,
+            before,
+            from,
+            width,
+        } = place;
         writeln!(f, "{}:{line}:{column}: {}", self.file, self.error)?;
         let number = line.to_string();
         let blank = " ".repeat(number.len());
         writeln!(f, " {blank} |")?;
-        writeln!(f, " {number} | {}", window(&place.text, *column))?;
-        let indent = " ".repeat((column - 1).min(BEFORE));
-        let width = place.width.min(MOST_SHOWN);
-        write!(f, " {blank} | {indent}{}", "^".repeat(width))
+        writeln!(f, " {number} | {before}{from}")?;
+        let indent = " ".repeat(before.width());
+        write!(f, " {blank} | {indent}{}", "^".repeat(*width))
     }
 }
 
-/// The most characters of a line that a message shows.
-const MOST_SHOWN: usize = 200;
+/// The most characters of a line that a message shows before the place, and from it on.
 const BEFORE: usize = 120;
+const FROM: usize = 80;
 
-/// The part of a long line around a column.
-fn window(text: &str, column: usize) -> String {
-    let skipped = (column - 1).saturating_sub(BEFORE);
-    text.chars().skip(skipped).take(MOST_SHOWN).collect()
+/// A character as a message shows it. A tab would be as wide as the terminal likes, and a control character might do
+/// anything.
+fn visible(character: char) -> char {
+    match character {
+        '\t' => ' ',
+        it if it.is_control() => char::REPLACEMENT_CHARACTER,
+        it => it,
+    }
 }

@@ -7,8 +7,11 @@ mod text;
 
 pub use text::{PlaceholderError, fill};
 
-use crate::claim::{self, Claim, ClaimError, Evidence, Judgement, Narrative, Verdict};
+use crate::claim::{
+    self, Claim, ClaimError, Evidence, Judgement, Narrative, Verdict, trials_to_decide,
+};
 use crate::format::thousands;
+use crate::stats::tally::MOST_TRIALS;
 use std::fmt::Write;
 
 /// One experiment and its results.
@@ -54,12 +57,8 @@ impl Section {
     /// If a claim or the text refers to something that is not in the results.
     pub fn judge(&self) -> Result<(Vec<Judgement>, String), ReportError> {
         let judgements = (1..).zip(&self.narrative.claims).map(|(number, claim)| {
-            claim::judge(claim, number, &self.evidence).map_err(|error| ReportError::Claim {
-                config: self.config.clone(),
-                number,
-                claim: claim.claim.to_string(),
-                error,
-            })
+            claim::judge(claim, number, &self.evidence)
+                .map_err(|error| self.refused(claim, number, error))
         });
         let judgements = judgements.collect::<Result<_, _>>()?;
         let text = self.narrative.text.as_deref().unwrap_or_default();
@@ -68,6 +67,45 @@ impl Section {
             error,
         })?;
         Ok((judgements, text))
+    }
+
+    /// The verdict on each claim as plain text, and for an undecided one how many trials would decide it.
+    ///
+    /// # Errors
+    /// As [`Section::judge`].
+    pub fn verdicts(&self) -> Result<String, ReportError> {
+        let (judgements, _) = self.judge()?;
+        let mut text = String::new();
+        for (number, (claim, judgement)) in (1..).zip(self.narrative.claims.iter().zip(judgements))
+        {
+            let verdict = verdict(&judgement.verdict).replace('*', "");
+            let Judgement { evidence, .. } = judgement;
+            text += &format!("{}: {verdict}\n    {evidence}\n", &*claim.claim);
+            if judgement.verdict != Verdict::Undecided {
+                continue;
+            }
+            let (evidence, trials) = (&self.evidence, self.trials);
+            let enough = trials_to_decide(claim, number, evidence, trials, MOST_TRIALS);
+            text += &match enough.map_err(|error| self.refused(claim, number, error))? {
+                Some(trials) => format!(
+                    "    about --trials {trials} would decide it, if the rates stay as they are\n"
+                ),
+                None => {
+                    "    no number of trials would decide it, if the numbers stay as they are\n"
+                        .to_owned()
+                }
+            };
+        }
+        Ok(text)
+    }
+
+    fn refused(&self, claim: &Claim, number: usize, error: ClaimError) -> ReportError {
+        ReportError::Claim {
+            config: self.config.clone(),
+            number,
+            claim: claim.claim.to_string(),
+            error,
+        }
     }
 
     fn title(&self) -> &str {

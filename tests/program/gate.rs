@@ -60,3 +60,56 @@ fn floors_are_gated() {
     assert_eq!(code, 1, "{out}");
     assert!(out.contains("FAIL"), "{out}");
 }
+
+/// The same findings for machines: each format names every scenario that does not pass, and the exit code stays.
+#[test]
+fn findings_are_told_to_machines() {
+    let failing = config("reference_in_training.toml");
+    let failing = failing.to_str().unwrap();
+    let (code, out) = check(&[failing, "--format", "json"]);
+    let found: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((code, found["verdict"].as_str()), (1, Some("fail")));
+    let scenarios = found["scenarios"].as_array().unwrap();
+    let failed = scenarios.iter().filter(|one| one["verdict"] == "fail");
+    let failed: Vec<&str> = failed
+        .map(|one| one["scenario"].as_str().unwrap())
+        .collect();
+    assert!(!failed.is_empty());
+    for one in scenarios {
+        let [low, rate, high] = ["low", "rate", "high"].map(|key| one[key].as_f64().unwrap());
+        assert!(low <= rate && rate <= high);
+        let share = one["false_alarms"].as_f64().unwrap() / one["cases"].as_f64().unwrap();
+        assert_eq!(rate, share);
+    }
+
+    let (code, out) = check(&[failing, "--format", "github"]);
+    let errors = out
+        .lines()
+        .filter(|line| line.starts_with("::error title=liftsim check::"));
+    assert_eq!((code, errors.count()), (1, failed.len()));
+
+    let (code, out) = check(&[failing, "--format", "junit"]);
+    assert_eq!(code, 1);
+    assert_eq!(out.matches("<testcase ").count(), scenarios.len());
+    assert_eq!(out.matches("<failure ").count(), failed.len());
+    let (code, out) = check(&[
+        "configs/floors_alarm.toml",
+        "--trials",
+        "20",
+        "--format",
+        "junit",
+    ]);
+    assert_eq!(code, 3);
+    let mut reader = quick_xml::Reader::from_str(&out);
+    let mut skipped = 0;
+    loop {
+        match reader.read_event().expect("it is XML") {
+            quick_xml::events::Event::Empty(tag) if tag.name().as_ref() == "skipped" => {
+                skipped += 1
+            }
+            quick_xml::events::Event::Eof => break,
+            _ => {}
+        }
+    }
+    assert_eq!(skipped, out.matches("<testcase ").count());
+}

@@ -3,6 +3,9 @@
 use super::{liftsim, outcome};
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::Read;
+use std::path::Path;
+use zip::ZipArchive;
 
 const CONFIG: &str = r#"
 question = "?"
@@ -70,6 +73,92 @@ fn replays_are_the_trials_of_the_sweep() {
     }
 }
 
+/// The table of some trials and the arrays of all of them say what the stages of each trial and the counts say.
+#[test]
+fn trials_leave_for_other_tools() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = |name: &str| directory.path().join(name).to_str().unwrap().to_owned();
+    let config = path("config.toml");
+    fs::write(&config, CONFIG).unwrap();
+    let (out, file) = (path("out"), path("trials.npz"));
+    let sweep = [
+        "--quiet",
+        "sweep",
+        &config,
+        "--out",
+        &out,
+        "--save-trials",
+        &file,
+    ];
+    assert_eq!(outcome(liftsim().args(sweep)).0, 0);
+    let (code, _, again) = outcome(liftsim().args(sweep));
+    assert_eq!(code, 2);
+    assert!(again.contains("--force"), "{again}");
+
+    let points = fs::read_to_string(Path::new(&out).join("points.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = points
+        .lines()
+        .map(|line| line.split(',').collect())
+        .collect();
+    let detections = rows[0]
+        .iter()
+        .position(|cell| *cell == "detections")
+        .unwrap();
+    let detections = rows[1..].iter().map(|row| row[detections].parse().unwrap());
+    let detections: Vec<usize> = detections.collect();
+    let mut archive = ZipArchive::new(fs::File::open(&file).unwrap()).unwrap();
+    let mut array = |name: &str, width: usize| {
+        let mut bytes = Vec::new();
+        archive
+            .by_name(name)
+            .unwrap()
+            .read_to_end(&mut bytes)
+            .unwrap();
+        let numbers = bytes.split_off(128);
+        let number = |bytes: &[u8]| {
+            bytes
+                .iter()
+                .rfold(0, |sum, byte| 256 * sum + u64::from(*byte))
+        };
+        let numbers: Vec<u64> = numbers.chunks(width).map(number).collect();
+        assert_eq!(numbers.len(), 24 * detections.len());
+        numbers
+    };
+    let [rank_sums, exceedances, h1] = [
+        array("rank_sum.npy", 8),
+        array("exceedances.npy", 4),
+        array("h1.npy", 1),
+    ];
+    let of_rows = h1.chunks(24).map(|row| row.iter().sum::<u64>() as usize);
+    assert_eq!(of_rows.collect::<Vec<_>>(), detections);
+
+    for point in [1, 8, 12, 18] {
+        let number = point.to_string();
+        let arguments = [
+            "--quiet", "replay", &config, "--point", &number, "--trials", "3..7",
+        ];
+        let (code, table, err) = outcome(liftsim().args(arguments));
+        assert_eq!((code, err.as_str()), (0, ""));
+        let mut expected = "trial,rank_sum,exceedances,h1\n".to_owned();
+        for trial in 3..7 {
+            let stages = replay(&config, point, trial);
+            let at = 24 * (point - 1) + trial;
+            let row = [rank_sums[at], exceedances[at], h1[at]];
+            let of_scale = stages["exceedances"]
+                .iter()
+                .find(|(sample, _)| sample == "scale");
+            let alone = [
+                stages["rank_sum"][0].1,
+                of_scale.unwrap().1,
+                stages["h1"][0].1,
+            ];
+            assert_eq!(row.map(|value| value as f64), alone, "{point} {trial}");
+            expected += &format!("{trial},{},{},{}\n", row[0], row[1], row[2]);
+        }
+        assert_eq!(table, expected);
+    }
+}
+
 fn check(stages: &Stages, decimation: usize) {
     let values = |stage: &str| -> Vec<f64> { stages[stage].iter().map(|v| v.1).collect() };
     let (noise, step) = (values("noise"), values("acceleration"));
@@ -121,5 +210,5 @@ fn what_is_not_there_cannot_be_replayed() {
         err
     };
     assert!(refused("157", "0").contains("--point must lie in 1 to 156"));
-    assert!(refused("1", "200000").contains("--trial must lie in 0 to 199999"));
+    assert!(refused("1", "100000000000").contains("--trial must lie in 0 to 99999999999"));
 }

@@ -1,12 +1,15 @@
 //! `liftsim check CONFIG`: the false-alarm gate.
 
+mod findings;
+
 use super::progress::{self, Progress, Reporter};
-use super::{CommandResult, Failure, Simulation, print, table};
+use super::{CommandResult, Counted, Failure, print};
 use anyhow::anyhow;
 use clap::Args;
+use findings::{Format, Report};
 use liftsim::experiment::{Experiment, SWEEP, SweepConfig};
-use liftsim::format::{brief, eight_digits};
-use liftsim::gate::{self, EXCESS, FAMILY_LEVEL, Finding, Scenario, Verdict};
+use liftsim::format::brief;
+use liftsim::gate::{self, Finding, Scenario, Verdict};
 use liftsim::results::Row;
 use liftsim::rule::OutOfRange;
 use liftsim::study::{Loaded, Study, Sweep};
@@ -24,10 +27,13 @@ use std::process::ExitCode;
 #[derive(Debug, Args)]
 pub struct Check {
     #[command(flatten)]
-    simulation: Simulation,
+    counted: Counted,
     /// Test against this rate, while the regions keep the config's alpha.
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     nominal: Option<f64>,
+    /// How the findings are printed.
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
     #[command(flatten)]
     progress: Progress,
 }
@@ -43,8 +49,8 @@ impl Check {
                 brief(nominal)
             )));
         }
-        let experiment = self.simulation.config()?;
-        self.simulation.start_threads()?;
+        let experiment = self.counted.config()?;
+        self.counted.simulation.start_threads()?;
         let reporter = Reporter::new(quiet, &self.progress, "");
         if experiment.study() != SWEEP {
             let loaded = Loaded::new(experiment.clone()).map_err(Failure::study)?;
@@ -58,7 +64,16 @@ impl Check {
         let nominal = |row: &Row| self.nominal.unwrap_or(row.alpha());
         let scenarios = rows.iter().map(|row| (nominal(row), row.tally));
         let findings = gate::judge(&scenarios.collect::<Vec<_>>());
-        print(&report(&sweep.config, &rows, &findings))?;
+        let config = &sweep.config;
+        let report = Report {
+            names: rows.iter().map(|row| scenario(config, row)).collect(),
+            regions: Some(rows.iter().map(region).collect()),
+            findings: &findings,
+            cases: "trials per point",
+            seed: config.header().seed,
+            confidence: config.header().confidence.get(),
+        };
+        print(&report.show(self.format))?;
         Ok(code(&findings))
     }
 
@@ -70,7 +85,6 @@ impl Check {
         nothing: OutOfRange,
         reporter: &Reporter,
     ) -> CommandResult {
-        let (seed, confidence) = (experiment.header.seed, experiment.header.confidence.get());
         let counts = progress::count_all(loaded, reporter)?;
         let output = loaded.study.output(&counts).map_err(Failure::study)?;
         let scenarios = loaded.study.false_alarms(&output.points);
@@ -81,25 +95,15 @@ impl Check {
         let nominal = |scenario: &Scenario| self.nominal.unwrap_or(scenario.nominal);
         let tallies = scenarios.iter().map(|of| (nominal(of), of.tally));
         let findings = gate::judge(&tallies.collect::<Vec<_>>());
-        let header = [
-            "scenario",
-            "nominal",
+        let report = Report {
+            names: scenarios.iter().map(|of| of.name.clone()).collect(),
+            regions: None,
+            findings: &findings,
             cases,
-            "false alarms",
-            "rate",
-            "interval",
-            "p",
-            "verdict",
-        ];
-        let rows = scenarios.iter().zip(&findings).map(|(scenario, finding)| {
-            let nominal = eight_digits(finding.nominal).to_string();
-            let mut cells = vec![scenario.name.clone(), nominal];
-            cells.extend(counted(finding, finding.tally.interval(confidence)));
-            cells
-        });
-        let rows: Vec<_> = rows.collect();
-        let summary = summary(&findings, cases, seed, confidence);
-        print(&(table(&header, &rows) + &summary))?;
+            seed: experiment.header.seed,
+            confidence: experiment.header.confidence.get(),
+        };
+        print(&report.show(self.format))?;
         Ok(code(&findings))
     }
 }
@@ -120,92 +124,9 @@ fn code(findings: &[Finding]) -> ExitCode {
     })
 }
 
-fn report(config: &SweepConfig, rows: &[Row], findings: &[Finding]) -> String {
-    let header = [
-        "scenario",
-        "rule",
-        "nominal",
-        "exact size",
-        "trials",
-        "false alarms",
-        "rate",
-        "interval",
-        "p",
-        "verdict",
-    ];
-    let each = rows.iter().zip(findings);
-    let cells: Vec<Vec<String>> = each
-        .map(|(row, finding)| cells(config, row, finding))
-        .collect();
-    let (seed, confidence) = (config.header().seed, config.header().confidence.get());
-    table(&header, &cells) + &summary(findings, "trials per point", seed, confidence)
-}
-
-/// The verdicts in all, and how many `cases` would be enough.
-fn summary(findings: &[Finding], cases: &str, seed: u64, confidence: f64) -> String {
-    let count = |verdict| findings.iter().filter(|f| f.verdict == verdict).count();
-    let power = findings.iter().map(|f| f.power).fold(1.0, f64::min);
-    let advice = match gate::trials_for_power(findings) {
-        Some(trials) if power < gate::POWER => {
-            format!("{trials} {cases} would be enough\n")
-        }
-        _ => String::new(),
-    };
-    format!(
-        "\n{} scenarios at seed {seed}: {} pass, {} inconclusive, {} fail\n\
-         family-wise level {FAMILY_LEVEL}; power against {EXCESS} times nominal at least {power:.4}; \
-         {} % intervals\n{advice}",
-        findings.len(),
-        count(Verdict::Pass),
-        count(Verdict::Inconclusive),
-        count(Verdict::Fail),
-        confidence * 100.0,
-    )
-}
-
-fn cells(config: &SweepConfig, row: &Row, finding: &Finding) -> Vec<String> {
-    let size = row.size.map(|size| digits(finding, size));
-    let mut cells = vec![
-        scenario(config, row),
-        row.values.rule_name(),
-        finding.nominal.to_string(),
-        size.unwrap_or_default(),
-    ];
-    cells.extend(counted(finding, row.tally.interval(row.confidence)));
-    cells
-}
-
-/// Four digits of the nominal rate, and six decimals at least.
-fn digits(finding: &Finding, rate: f64) -> String {
-    let decimals = (3.0 - finding.nominal.log10().floor()).max(6.0) as usize;
-    format!("{rate:.decimals$}")
-}
-
-/// What was counted, and the verdict.
-fn counted(finding: &Finding, (low, high): (f64, f64)) -> [String; 6] {
-    let digits = |rate| digits(finding, rate);
-    [
-        finding.tally.trials.to_string(),
-        finding.tally.hits.to_string(),
-        digits(finding.tally.rate()),
-        format!("[{}, {}]", digits(low), digits(high)),
-        p_value(finding.p_value),
-        match finding.verdict {
-            Verdict::Pass => "pass",
-            Verdict::Inconclusive => "inconclusive",
-            Verdict::Fail => "FAIL",
-        }
-        .to_owned(),
-    ]
-}
-
-/// Four decimals where they say something, a power of ten where they do not.
-fn p_value(p: f64) -> String {
-    match p {
-        0.0 => "<1e-300".to_owned(),
-        _ if p < 1e-3 => format!("{p:.2e}"),
-        _ => format!("{p:.4}"),
-    }
+/// The rule of a point, and the exact size of its region.
+fn region(row: &Row) -> (String, Option<f64>) {
+    (row.values.rule_name(), row.size)
 }
 
 /// The curve's label, and what the axis changes unless another column says it, or it is a motion.

@@ -13,7 +13,7 @@ use liftsim::lift::{
     Accelerometer, Building, Drive, ExportLayout, Fault, Pickup, Ride, Stop, write_phyphox,
     write_truth,
 };
-use liftsim::study::reference;
+use liftsim::study::reference::{self, Chapter};
 use request::Request;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -33,12 +33,13 @@ use std::process::ExitCode;
     up:30:jam    sets out for 30 m and jams half way through the uniform motion\n  \
     up:30:jam@9  jams 9 s after the start\n\n\
     Examples:\n  \
-    liftsim simulate configs/simulate/ride.toml --out ride.csv\n  \
-    liftsim simulate configs/simulate/building.toml --out building.csv\n  \
+    liftsim simulate ride --out ride.csv\n  \
+    liftsim simulate building --out building.csv\n  \
     liftsim simulate --out jam.csv --trip up:6 --trip down:20:jam --speed 1.6\n  \
     liftsim simulate --out rest.csv --still --rest 600 --step 0.01")]
 pub struct Simulate {
-    /// Settings, a TOML file with keys named as the flags below; flags take precedence.
+    /// Settings, a TOML file with keys named as the flags below, or the name of a shipped one; flags take
+    /// precedence.
     config: Option<PathBuf>,
     /// The file of the record; the truth is written to FILE.truth.csv.
     #[arg(long, value_name = "FILE.csv")]
@@ -118,19 +119,18 @@ struct Simulation {
 }
 
 /// The keys of the config, in words.
-pub fn reference() -> String {
+pub fn reference() -> Chapter {
     let building = "A lift among floors, instead of trips; of the keys above it takes the seed, the rate and the drive's \
         three limits.";
     let sensor =
         "What a building's ride is recorded with; what is left out is as in its data sheet.";
-    [
-        "# Keys of `simulate`\n\n",
-        &reference::table::<Settings>("a ride", "Flags of the same names go over them."),
-        &reference::table::<Building>("[building]", building),
-        &reference::table::<Fault>("[[building.faults]]", "What goes wrong on a journey."),
-        &reference::table::<Accelerometer>("[sensor]", sensor),
-    ]
-    .concat()
+    let tables = vec![
+        reference::table::<Settings>("a ride", "Flags of the same names go over them."),
+        reference::table::<Building>("[building]", building),
+        reference::table::<Fault>("[[building.faults]]", "What goes wrong on a journey."),
+        reference::table::<Accelerometer>("[sensor]", sensor),
+    ];
+    Chapter::new("Keys of `simulate`", "", tables)
 }
 
 impl Simulate {

@@ -1,5 +1,6 @@
 //! `[axis]`: how often each point of each curve decides for H₁, along an axis.
 
+mod each;
 mod labels;
 pub(super) mod picture;
 mod tally;
@@ -18,6 +19,7 @@ use crate::run::{Identity, StudyError, Trials};
 use crate::scenario::{PARAMETERS, Sections};
 use crate::stats::tally::Tally;
 use crate::study::kind::{Context, Study, counted};
+pub use each::Trials as EachTrial;
 use schemars::SchemaGenerator;
 use serde_json::Value;
 pub use targets::Sweep;

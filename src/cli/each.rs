@@ -1,0 +1,98 @@
+//! What every single trial gave, for other tools: a table of one point, or arrays of all.
+
+use super::Failure;
+use super::output::Output;
+use super::progress::{Reporter, each};
+use anyhow::anyhow;
+use liftsim::experiment::{Experiment, SWEEP, SweepConfig};
+use liftsim::npz::Archive;
+use liftsim::stats::tally::MOST_TRIALS;
+use liftsim::study::Sweep;
+use std::ops::Range;
+use std::path::Path;
+
+/// The most trials of points that are kept in memory at once, 13 bytes each.
+const MOST: u64 = 200_000_000;
+
+/// The trials `A..B` of a flag.
+pub fn range(text: &str) -> Result<Range<u64>, String> {
+    let (first, end) = text.split_once("..").ok_or("must be A..B, as 0..1000")?;
+    let number = |text: &str| text.parse().ok();
+    match (number(first), number(end)) {
+        (Some(first), Some(end)) if first < end && end <= MOST_TRIALS => Ok(first..end),
+        _ => Err(format!(
+            "must be A..B with A < B <= {MOST_TRIALS}, as 0..1000"
+        )),
+    }
+}
+
+/// The outcomes of one point as CSV.
+pub fn table(
+    config: SweepConfig,
+    point: usize,
+    trials: &Range<u64>,
+    reporter: &Reporter,
+) -> Result<String, Failure> {
+    check("--trials", trials.end - trials.start)?;
+    let sweep = Sweep::new(config).map_err(Failure::input)?;
+    let outcomes = each(&sweep, &[point], trials, reporter)?.remove(0);
+    let mut text = "trial,rank_sum,exceedances,h1\n".to_owned();
+    let rows = outcomes.rank_sums.iter().zip(&outcomes.exceedances);
+    for (trial, ((rank_sum, exceedances), h1)) in trials.clone().zip(rows.zip(&outcomes.h1)) {
+        text += &format!("{trial},{rank_sum},{exceedances},{}\n", u8::from(*h1));
+    }
+    Ok(text)
+}
+
+/// The file of `--save-trials`, and what it is of.
+pub struct SavedTrials {
+    file: Output,
+    sweep: Sweep,
+}
+
+impl SavedTrials {
+    /// Refuses what cannot be saved.
+    pub fn new(path: &Path, replaces: bool, experiment: Experiment) -> Result<Self, Failure> {
+        let file = Output::with_end("--save-trials", path, replaces, "npz")?;
+        if experiment.study() != SWEEP {
+            return Err(Failure::Input(anyhow!(
+                "--save-trials: [{}] has no W and T (leave it out)",
+                experiment.study()
+            )));
+        }
+        let config = SweepConfig::new(experiment).map_err(Failure::input)?;
+        let sweep = Sweep::new(config).map_err(Failure::input)?;
+        let points = sweep.plan.points.len() as u64;
+        check(
+            "--save-trials",
+            sweep.plan.schedule.trials.saturating_mul(points),
+        )?;
+        Ok(Self { file, sweep })
+    }
+
+    /// Simulates all trials and writes the file; returns its name.
+    pub fn write(self, reporter: &Reporter) -> Result<String, Failure> {
+        let plan = &self.sweep.plan;
+        let all: Vec<usize> = (0..plan.points.len()).collect();
+        let outcomes = each(&self.sweep, &all, &(0..plan.schedule.trials), reporter)?;
+        let name = self.file.path().display().to_string();
+        let written = self.file.write_with(|out| {
+            let mut archive = Archive::new(out);
+            archive.add("rank_sum", outcomes.iter().map(|of| &of.rank_sums[..]))?;
+            archive.add("exceedances", outcomes.iter().map(|of| &of.exceedances[..]))?;
+            archive.add("h1", outcomes.iter().map(|of| &of.h1[..]))?;
+            archive.close()
+        });
+        written?.publish()?;
+        Ok(name)
+    }
+}
+
+fn check(flag: &str, outcomes: u64) -> Result<(), Failure> {
+    if outcomes > MOST {
+        return Err(Failure::Input(anyhow!(
+            "{flag}: {outcomes} outcomes are more than the {MOST} that are kept at once (ask for fewer trials)"
+        )));
+    }
+    Ok(())
+}

@@ -1,0 +1,85 @@
+//! A monitor that is left alone: its heartbeat, and the unit of the README.
+
+use super::{liftsim, outcome, project};
+use std::fs;
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Command, Stdio};
+
+/// The heart beats before the first reading, counts the readings, and goes on while none comes.
+#[test]
+fn the_heart_beats_while_the_sensor_is_silent() {
+    let mut monitor = Command::new(env!("CARGO_BIN_EXE_liftsim"))
+        .args([
+            "monitor",
+            "--rate",
+            "100",
+            "--begins",
+            "rest",
+            "--heartbeat",
+            "0.1",
+        ])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut sensor = monitor.stdin.take().unwrap();
+    let lines = BufReader::new(monitor.stdout.take().unwrap()).lines();
+    let mut beats = lines.map_while(Result::ok).filter_map(|line| {
+        let event: serde_json::Value = serde_json::from_str(&line).unwrap();
+        (event["event"] == "heartbeat").then_some(event)
+    });
+    let first = beats.next().unwrap();
+    assert!(first["time"].is_null() && first["readings"] == 0 && first["state"] == "unknown");
+    for number in 0..500u32 {
+        writeln!(
+            sensor,
+            "{}",
+            f64::from(number.wrapping_mul(7919) % 101) * 1e-4
+        )
+        .unwrap();
+    }
+    sensor.flush().unwrap();
+    let all = beats.find(|beat| beat["readings"] == 500).unwrap();
+    assert_eq!(all["state"], "rest");
+    let silent = |beat: &serde_json::Value| beat["silent"].as_f64().unwrap();
+    assert!(beats.any(|beat| beat["readings"] == 500 && silent(&beat) > silent(&all)));
+    drop(sensor);
+    assert!(beats.last().is_none_or(|beat| beat["readings"] == 500));
+    assert!(monitor.wait().unwrap().success());
+}
+
+/// What systemd would start runs, with a sensor at a real pipe.
+#[cfg(unix)]
+#[test]
+fn the_unit_of_the_readme_runs() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let readme = fs::read_to_string(project().join("README.md")).unwrap();
+    let start = readme
+        .lines()
+        .find_map(|line| line.strip_prefix("ExecStart=/bin/sh -c '"));
+    let script = start.unwrap().strip_suffix('\'').unwrap();
+
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    for arguments in [
+        &["simulate", "ride", "--out", "ride.csv"][..],
+        &["detect", "ride.csv", "--save-state", "lift.json"],
+    ] {
+        let (code, _, error) = outcome(liftsim().current_dir(folder.path()).args(arguments));
+        assert_eq!(code, 0, "{error}");
+    }
+    symlink(env!("CARGO_BIN_EXE_liftsim"), path("liftsim")).unwrap();
+    fs::write(path("sensor"), "#!/bin/sh\nexec cut -d, -f1,4 ride.csv\n").unwrap();
+    fs::set_permissions(path("sensor"), fs::Permissions::from_mode(0o755)).unwrap();
+    let tools = std::env::var("PATH").unwrap();
+    let status = Command::new("/bin/sh")
+        .args(["-c", script])
+        .current_dir(folder.path())
+        .env("PATH", format!("{}:{tools}", folder.path().display()))
+        .status();
+    assert!(status.unwrap().success());
+    let events = fs::read_to_string(path("events.jsonl")).unwrap();
+    for state in ["\"rest\"", "\"acceleration\"", "\"inertial\""] {
+        assert!(events.contains(&format!("\"state\":{state}")), "{events}");
+    }
+}
