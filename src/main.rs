@@ -2,22 +2,12 @@
 
 mod cli;
 
-use cli::{Arguments, Failure, brief};
+use cli::Arguments;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     match Arguments::read().run() {
         Ok(code) => code,
-        Err(Failure::Input(error)) => report(&error, 2),
-        Err(Failure::Run(error)) => report(&error, 1),
-        Err(Failure::Stopped { code, message }) => {
-            cli::say(message);
-            ExitCode::from(code)
-        }
+        Err(failure) => ExitCode::from(failure.report()),
     }
-}
-
-fn report(error: &anyhow::Error, code: u8) -> ExitCode {
-    cli::say(format_args!("error: {}", brief(format!("{error:#}"))));
-    ExitCode::from(code)
 }

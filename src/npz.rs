@@ -4,7 +4,7 @@
 
 use std::io::{self, Seek, Write};
 use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, ZipWriter};
+use zip::{CompressionMethod, DateTime, ZipWriter};
 
 /// Writes arrays to an archive.
 pub struct Archive<W: Write + Seek>(ZipWriter<W>);
@@ -47,7 +47,10 @@ impl<W: Write + Seek> Archive<W> {
         Self(ZipWriter::new(out))
     }
 
-    /// Adds a table, row by row; all rows are of one length.
+    /// Adds a table, row by row.
+    ///
+    /// # Panics
+    /// If the rows differ in length.
     ///
     /// # Errors
     /// If the writer refuses.
@@ -58,9 +61,15 @@ impl<W: Write + Seek> Archive<W> {
     ) -> io::Result<()> {
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Deflated)
-            .large_file(true);
+            .large_file(true)
+            .last_modified_time(DateTime::default());
         self.0.start_file(format!("{name}.npy"), options)?;
-        let shape = (rows.len(), rows.clone().next().map_or(0, <[T]>::len));
+        let columns = rows.clone().next().map_or(0, <[T]>::len);
+        assert!(
+            rows.clone().all(|row| row.len() == columns),
+            "rows of one length"
+        );
+        let shape = (rows.len(), columns);
         self.0.write_all(&header(T::TYPE, shape))?;
         let mut bytes = Vec::new();
         for row in rows {

@@ -53,7 +53,7 @@ pub mod words;
 
 pub use comparison::{Comparison, Place};
 pub use evidence::{Evidence, Outcome};
-pub use further::trials_to_decide;
+pub use further::{Enough, trials_to_decide};
 pub use gain::gains;
 pub use narrative::{Claim, Contrasts, Narrative, Test, Words};
 pub use pairs::{Pair, comparisons, confidence, number_of_pairs, pairs};

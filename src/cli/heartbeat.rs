@@ -6,23 +6,22 @@ use std::sync::Mutex;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-/// What a monitor has come to, for another thread.
-pub struct Pulse(Mutex<Latest>);
+/// What is known of the sensor and the cage, for the thread that tells it.
+pub struct Heartbeat(Mutex<Latest>);
 
-#[derive(Clone, Copy)]
 struct Latest {
     readings: u64,
     /// The time of the last reading, s, and when it came.
     time: Option<f64>,
     came: Instant,
+    /// The last that was told.
     state: State,
 }
 
-/// A line of the heart.
+/// What a heartbeat says.
 #[derive(Serialize)]
 struct Beat {
     event: &'static str,
-    /// The time of the last reading, s.
     time: Option<f64>,
     state: State,
     readings: u64,
@@ -30,7 +29,7 @@ struct Beat {
     silent: f64,
 }
 
-impl Pulse {
+impl Heartbeat {
     pub fn new() -> Self {
         Self(Mutex::new(Latest {
             readings: 0,
@@ -40,33 +39,37 @@ impl Pulse {
         }))
     }
 
-    /// Takes note of a reading, and of the state after it.
-    pub fn take(&self, time: f64, state: State) {
-        let mut latest = self.0.lock().expect("nobody panics with it");
-        *latest = Latest {
-            readings: latest.readings + 1,
-            time: Some(time),
-            came: Instant::now(),
-            state,
-        };
+    /// Takes note of a reading as it comes.
+    pub fn read(&self, time: f64) {
+        let mut latest = self.0.lock().expect("no thread panics");
+        latest.readings += 1;
+        (latest.time, latest.came) = (Some(time), Instant::now());
     }
 
-    /// Tells a line after each period, until the other end of the channel is dropped.
-    pub fn beat(&self, period: Duration, end: &Receiver<()>, tell: impl Fn(String)) {
-        while end.recv_timeout(period) == Err(RecvTimeoutError::Timeout) {
-            let latest = *self.0.lock().expect("nobody panics with it");
-            tell(super::monitor::line(&Beat {
-                event: "heartbeat",
-                time: latest.time,
-                state: latest.state,
-                readings: latest.readings,
-                silent: (latest.came.elapsed().as_secs_f64() * 10.0).round() / 10.0,
-            }));
-        }
+    /// Takes note of a state that is told.
+    pub fn told(&self, state: State) {
+        self.0.lock().expect("no thread panics").state = state;
+    }
+
+    /// The line for now.
+    pub fn line(&self) -> String {
+        let latest = self.0.lock().expect("no thread panics");
+        super::monitor::line(&Beat {
+            event: "heartbeat",
+            time: latest.time,
+            state: latest.state,
+            readings: latest.readings,
+            silent: (latest.came.elapsed().as_secs_f64() * 10.0).round() / 10.0,
+        })
     }
 }
 
-/// A period of a flag.
+/// Beats after each period, as long as `beat` says to go on and the other end of the channel is there.
+pub fn beat(period: Duration, end: &Receiver<()>, beat: impl Fn() -> bool) {
+    while end.recv_timeout(period) == Err(RecvTimeoutError::Timeout) && beat() {}
+}
+
+/// The period of a flag.
 pub fn period(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok();
     let seconds = seconds.filter(|seconds: &f64| (0.1..=86400.0).contains(seconds));

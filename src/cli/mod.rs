@@ -6,7 +6,6 @@ mod arguments;
 mod check;
 mod completions;
 mod detect;
-mod each;
 mod figures;
 mod floors;
 mod found;
@@ -18,6 +17,7 @@ mod monitor;
 mod monitor_options;
 mod network;
 mod new;
+mod outcomes;
 mod output;
 mod per_hour;
 mod plan;
@@ -38,7 +38,9 @@ mod threshold;
 mod track;
 mod vibration;
 
-pub use arguments::{Arguments, brief};
+pub use arguments::Arguments;
+
+use arguments::brief;
 
 use anyhow::Context;
 use clap::Args;
@@ -81,6 +83,20 @@ impl Failure {
     fn run(error: impl Into<anyhow::Error>) -> Self {
         Self::Run(error.into())
     }
+
+    /// Says what went wrong; returns the exit code.
+    pub fn report(self) -> u8 {
+        let (error, code) = match self {
+            Self::Input(error) => (error, 2),
+            Self::Run(error) => (error, 1),
+            Self::Stopped { code, message } => {
+                say(message);
+                return code;
+            }
+        };
+        say(format_args!("error: {}", brief(format!("{error:#}"))));
+        code
+    }
 }
 
 /// The config of a command that simulates, and the flags that go over it.
@@ -112,10 +128,7 @@ struct Counted {
 impl Counted {
     /// Reads the config, lays the command line over it, and plans it.
     fn study(&self) -> Result<Loaded, Failure> {
-        let experiment = self.config()?;
-        // Before the plan: large joint laws are counted on all threads.
-        self.simulation.start_threads()?;
-        Loaded::new(experiment).map_err(Failure::study)
+        self.simulation.plan(self.config()?)
     }
 
     /// The config with the command line in its place.
@@ -143,6 +156,13 @@ impl Simulation {
             None => {}
         }
         Ok(config)
+    }
+
+    /// The study of a config, planned.
+    fn plan(&self, experiment: Experiment) -> Result<Loaded, Failure> {
+        // Before the plan: large joint laws are counted on all threads.
+        self.start_threads()?;
+        Loaded::new(experiment).map_err(Failure::study)
     }
 
     fn start_threads(&self) -> Result<(), Failure> {
@@ -182,7 +202,10 @@ fn print_to(out: &mut StdoutLock, text: &str) -> Result<bool, Failure> {
 }
 
 /// Writes a line to standard error. Where that fails the work goes on.
-pub fn say(line: impl Display) {
+fn say(line: impl Display) {
+    // What a file or an argument holds does not steer the terminal.
+    let line = line.to_string();
+    let line = line.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}");
     let _ = writeln!(io::stderr().lock(), "{line}");
 }
 

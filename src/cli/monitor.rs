@@ -1,7 +1,7 @@
 //! `liftsim monitor`: watches a lift, sample by sample, from standard input.
 
 use super::floors::{Building, FloorArguments};
-use super::heartbeat::{self, Pulse};
+use super::heartbeat::{self, Heartbeat};
 use super::monitor_options::{Beginning, MonitorArguments, Setup};
 use super::network::{Network, NetworkArguments};
 use super::output;
@@ -11,13 +11,13 @@ use super::{CommandResult, Failure, print_to, warn};
 use anyhow::{Context, anyhow};
 use clap::Args;
 use liftsim::detection::MonitorOptions;
-use liftsim::monitor::{Knowledge, Monitor, SavedState};
+use liftsim::monitor::{Kind, Knowledge, Monitor, SavedState};
 use liftsim::recording::{self, LineReader, Sample};
 use liftsim::track::{Happened, Watch};
 use serde::Serialize;
 use std::io::{self, BufReader};
 use std::iter;
-use std::process::ExitCode;
+use std::process::{self, ExitCode};
 use std::sync::{Mutex, mpsc};
 use std::thread;
 use std::time::Duration;
@@ -67,8 +67,8 @@ pub struct MonitorCommand {
     /// back.
     #[arg(long)]
     keep_going: bool,
-    /// Print a line every so many seconds of this machine's clock, with the state, the number of readings, and for
-    /// how long none has come: {"event":"heartbeat","time":…,"state":"rest","readings":6000,"silent":0.0}.
+    /// Print a line every so many seconds of this machine's clock, with the state that was last told, the number of
+    /// readings, and for how long none has come; not over --tcp: {"event":"heartbeat","time":…,"state":"rest","readings":6000,"silent":0.0}.
     #[arg(long, value_name = "SECONDS", value_parser = heartbeat::period)]
     heartbeat: Option<Duration>,
     #[command(flatten)]
@@ -95,7 +95,7 @@ impl MonitorCommand {
             output::apart(spool, self.floors.map.iter())?;
         }
         let network = self.network.open()?;
-        // Two threads tell, one line at a time.
+        // Heartbeats and events come from two threads, and each line is written whole.
         let out = Mutex::new(());
         let report = |line: String| {
             let _alone = out.lock();
@@ -105,14 +105,25 @@ impl MonitorCommand {
             }
             Ok(print_to(&mut io::stdout().lock(), &line)? || network.is_some())
         };
-        let pulse = Pulse::new();
+        let heartbeat = Heartbeat::new();
+        let beat = || {
+            let _alone = out.lock();
+            match print_to(&mut io::stdout().lock(), &heartbeat.line()) {
+                Ok(true) => true,
+                // The listener of the network still reads the events.
+                Ok(false) if network.is_some() => false,
+                // Nobody reads: the other thread would see it no sooner than at its next event.
+                Ok(false) => process::exit(0),
+                Err(failure) => process::exit(failure.report().into()),
+            }
+        };
         let watched = thread::scope(|scope| {
             let (_ends, end) = mpsc::channel();
             if let Some(period) = self.heartbeat {
-                let (pulse, report) = (&pulse, &report);
-                scope.spawn(move || pulse.beat(period, &end, |line| drop(report(line))));
+                let beat = &beat;
+                scope.spawn(move || heartbeat::beat(period, &end, beat));
             }
-            self.watch(config, saved, &reading, &pulse, report)
+            self.watch(config, saved, &reading, &heartbeat, report)
         });
         let delivered = network.map_or(0, Network::close);
         match (watched?, delivered) {
@@ -131,7 +142,7 @@ impl MonitorCommand {
         config: MonitorOptions,
         saved: Option<SavedState>,
         reading: &recording::Reading,
-        pulse: &Pulse,
+        heartbeat: &Heartbeat,
         report: impl FnMut(String) -> Result<bool, Failure>,
     ) -> Result<bool, Failure> {
         let input = BufReader::with_capacity(1 << 16, io::stdin().lock());
@@ -140,7 +151,8 @@ impl MonitorCommand {
         } else {
             LineReader::new(input, reading)
         };
-        let mut readings = Readings::new(lines, self.keep_going);
+        let heartbeat = self.heartbeat.is_some().then_some(heartbeat);
+        let mut readings = Readings::new(lines, self.keep_going, heartbeat);
         let known = self.rate.or(saved.as_ref().map(|saved| saved.rate));
         let Some((first, rate)) = readings.begin(known)? else {
             return Ok(false);
@@ -152,10 +164,9 @@ impl MonitorCommand {
             knowledge: Knowledge::default(),
         });
         let saved = SavedState { rate, ..saved };
-        let mut lift = self.lift(&saved, known.is_none(), &first[0].0, report)?;
+        let mut lift = self.lift(&saved, known.is_none(), &first[0].0, heartbeat, report)?;
         let rest = iter::from_fn(|| readings.next().transpose());
-        let pulse = self.heartbeat.is_some().then_some(pulse);
-        let read = lift.take(first.into_iter().map(Ok).chain(rest), pulse);
+        let read = lift.take(first.into_iter().map(Ok).chain(rest));
         // What was read is told, also before a line that cannot be.
         let ended = lift.end();
         readings.say_counts();
@@ -164,13 +175,14 @@ impl MonitorCommand {
     }
 
     /// The lift, at a rate that was perhaps measured, as the samples begin.
-    fn lift<R: FnMut(String) -> Result<bool, Failure>>(
+    fn lift<'a, R: FnMut(String) -> Result<bool, Failure>>(
         &self,
         saved: &SavedState,
         is_measured: bool,
         beginning: &Sample,
+        heartbeat: Option<&'a Heartbeat>,
         report: R,
-    ) -> Result<Lift<R>, Failure> {
+    ) -> Result<Lift<'a, R>, Failure> {
         let mut knowledge = saved.knowledge_of(beginning);
         if let Some(begins) = self.begins {
             knowledge.begins_at_rest = begins == Beginning::Rest;
@@ -192,6 +204,7 @@ impl MonitorCommand {
             trips: measures.then(|| Watch::new(design.clone(), begins_at_rest)),
             monitor: Monitor::new(design, knowledge),
             building,
+            heartbeat,
             report,
             is_warned: false,
             is_read: true,
@@ -206,10 +219,11 @@ impl MonitorCommand {
 }
 
 /// A lift, and where its events are reported.
-struct Lift<R> {
+struct Lift<'a, R> {
     monitor: Monitor,
     trips: Option<Watch>,
     building: Option<Building>,
+    heartbeat: Option<&'a Heartbeat>,
     report: R,
     /// Whether the warning of [`Watch::warning`] was given.
     is_warned: bool,
@@ -217,21 +231,16 @@ struct Lift<R> {
     is_read: bool,
 }
 
-impl<R: FnMut(String) -> Result<bool, Failure>> Lift<R> {
+impl<R: FnMut(String) -> Result<bool, Failure>> Lift<'_, R> {
     /// Takes readings, as long as anybody reads what they show.
     fn take(
         &mut self,
         mut readings: impl Iterator<Item = Result<Reading, Failure>>,
-        pulse: Option<&Pulse>,
     ) -> Result<(), Failure> {
         while self.is_read
             && let Some(reading) = readings.next()
         {
-            let reading = reading?;
-            self.step(reading)?;
-            if let Some(pulse) = pulse {
-                pulse.take(reading.0.time, self.monitor.state());
-            }
+            self.step(reading?)?;
         }
         Ok(())
     }
@@ -239,6 +248,9 @@ impl<R: FnMut(String) -> Result<bool, Failure>> Lift<R> {
     /// Takes a reading, and reports what it shows.
     fn step(&mut self, (sample, drum_turns): Reading) -> Result<(), Failure> {
         for event in self.monitor.step(sample, drum_turns) {
+            if let (Some(heartbeat), Kind::Change { state, .. }) = (self.heartbeat, event.kind) {
+                heartbeat.told(state);
+            }
             self.is_read = self.is_read && (self.report)(line(event))?;
         }
         let Some(trips) = &mut self.trips else {

@@ -43,10 +43,16 @@ impl New {
             Some(_) => {
                 let name = name.display();
                 return Err(Failure::Input(anyhow!(
-                    "must end in .toml or have no end, got {name}"
+                    "NAME must end in .toml or have no ending, got {name}"
                 )));
             }
         };
+        if path.symlink_metadata().is_ok() {
+            return Err(Failure::Input(anyhow!(
+                "{}: already exists (remove it, or give another name with --like)",
+                path.display()
+            )));
+        }
         let output = Output::new(&path, false)?;
         let (text, command) = match &self.like {
             Some(like) => begun(&path, like)?,
@@ -102,9 +108,21 @@ fn list() -> Result<String, Failure> {
 
 /// The text of a config at `path`, begun as a copy of another, and the command that it is for.
 fn begun(path: &Path, like: &Path) -> Result<(String, &'static str), Failure> {
-    let source = Source::load(like).map_err(Failure::input)?;
-    let is_shipped = |it: &&Shipped| it.text == source.text();
-    let command = (SHIPPED.iter().find(is_shipped)).map_or("sweep", |it| it.command);
+    let is_of_ride = |shipped: &Shipped| shipped.command == "simulate";
+    let shipped = like.to_str().and_then(Shipped::find);
+    let source = if shipped.is_some_and(is_of_ride) {
+        Source::find(like, "simulate")
+    } else {
+        Source::find(like, "sweep")
+    };
+    let source = source.map_err(Failure::input)?;
+    // Only a study asks something.
+    let tree = source.parse().map_err(Failure::input)?;
+    let command = if tree.get("question").is_some() {
+        "sweep"
+    } else {
+        "simulate"
+    };
     let (file, like) = (path.display(), like.display());
     let mut text = format!("# {file}, begun as a copy of {like}.\n");
     if command == "sweep" {

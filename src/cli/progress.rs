@@ -7,7 +7,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use liftsim::counts::Counts;
 use liftsim::run::{self, Progress as _, Session};
-use liftsim::study::{EachTrial, Loaded, Sweep};
+use liftsim::study::{Loaded, Sweep, TrialOutcomes};
 use serde_json::json;
 use std::fmt::Write;
 use std::ops::Range;
@@ -214,13 +214,13 @@ pub fn count(sweep: &Sweep, reporter: &Reporter) -> Result<Counts, Failure> {
 }
 
 /// The outcomes of every trial of some points.
-pub fn each(
+pub fn trial_outcomes(
     sweep: &Sweep,
     points: &[usize],
     trials: &Range<u64>,
     reporter: &Reporter,
-) -> Result<Vec<EachTrial>, Failure> {
-    let outcomes = sweep.each(points, trials, &Follower::new(reporter, None));
+) -> Result<Vec<TrialOutcomes>, Failure> {
+    let outcomes = sweep.trial_outcomes(points, trials, &Follower::new(reporter, None));
     outcomes.map_err(Failure::study)
 }
 

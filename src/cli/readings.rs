@@ -1,5 +1,6 @@
 //! Samples from standard input, for `monitor`: at the times of their lines, or one after the other at a rate.
 
+use super::heartbeat::Heartbeat;
 use super::monitor_options::check_strength;
 use super::{Failure, warn};
 use anyhow::{Context, anyhow};
@@ -17,8 +18,10 @@ const LATEST: f64 = 1e12;
 pub type Reading = (Sample, Option<bool>);
 
 /// Samples from standard input.
-pub struct Readings<R> {
+pub struct Readings<'a, R> {
     lines: LineReader<R>,
+    /// What is to know of every reading.
+    heartbeat: Option<&'a Heartbeat>,
     /// Hz, where it is known.
     rate: Option<f64>,
     /// When the last sample with a time was taken, s.
@@ -32,10 +35,11 @@ pub struct Readings<R> {
     set_back: u64,
 }
 
-impl<R: io::BufRead> Readings<R> {
-    pub fn new(lines: LineReader<R>, keeps_going: bool) -> Self {
+impl<'a, R: io::BufRead> Readings<'a, R> {
+    pub fn new(lines: LineReader<R>, keeps_going: bool, heartbeat: Option<&'a Heartbeat>) -> Self {
         Self {
             lines,
+            heartbeat,
             rate: None,
             last: None,
             intervals: Vec::new(),
@@ -113,7 +117,12 @@ impl<R: io::BufRead> Readings<R> {
             let refusal = match self.lines.next() {
                 Ok(None) => return Ok(None),
                 Ok(Some(reading)) => match self.timed(&reading)? {
-                    Ok(sample) => return Ok(Some((sample, reading.drum_turns))),
+                    Ok(sample) => {
+                        if let Some(heartbeat) = self.heartbeat {
+                            heartbeat.read(sample.time);
+                        }
+                        return Ok(Some((sample, reading.drum_turns)));
+                    }
                     Err(refusal) => refusal,
                 },
                 Err(error) if error.is_io() => return Err(Failure::run(error)),

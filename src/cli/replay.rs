@@ -1,6 +1,6 @@
 //! `liftsim replay CONFIG --point P --trial T`: every stage of one trial.
 
-use super::each;
+use super::outcomes;
 use super::progress::{Progress, Reporter};
 use super::{CommandResult, Failure, Simulation, print};
 use anyhow::anyhow;
@@ -39,7 +39,7 @@ pub struct ReplayCommand {
     )]
     trial: Option<u64>,
     /// Only W, T and the decision of each of these trials, the last not included, as a table.
-    #[arg(long, value_name = "A..B", value_parser = each::range)]
+    #[arg(long, value_name = "A..B", value_parser = outcomes::range)]
     trials: Option<Range<u64>>,
     #[command(flatten)]
     progress: Progress,
@@ -50,7 +50,8 @@ impl ReplayCommand {
     pub fn run(self, quiet: bool) -> CommandResult {
         let config = SweepConfig::new(self.simulation.config()?).map_err(Failure::input)?;
         self.simulation.start_threads()?;
-        let points = Plan::new(&config).map_err(Failure::input)?.points.len();
+        let plan = Plan::new(&config).map_err(Failure::input)?;
+        let points = plan.points.len();
         if self.point > points as u64 {
             return Err(Failure::Input(anyhow!(
                 "--point must lie in 1 to {points}, the rows of points.csv, got {}",
@@ -60,7 +61,7 @@ impl ReplayCommand {
         let point = self.point as usize - 1;
         if let Some(trials) = &self.trials {
             let reporter = Reporter::new(quiet, &self.progress, "");
-            print(&each::table(config, point, trials, &reporter)?)?;
+            outcomes::print_table(config, point, trials.clone(), &reporter)?;
             return Ok(ExitCode::SUCCESS);
         }
         let trial = self.trial.expect("one of both is given");
@@ -70,7 +71,6 @@ impl ReplayCommand {
                 MOST_TRIALS - 1
             )));
         }
-        let plan = Plan::new(&config).map_err(Failure::input)?;
         let alone = &plan.points[point..][..1];
         let pilots = Pilots::new(alone, plan.pilot, plan.seed);
         let decisions = pilots.and_then(|pilots| pilots.decide(|_| {}));

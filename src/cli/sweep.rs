@@ -1,6 +1,6 @@
 //! `liftsim sweep CONFIG`: counts or computes what a config describes, and writes results and figure.
 
-use super::each::SavedTrials;
+use super::outcomes::SavedTrials;
 use super::progress::{self, Progress, Reporter};
 use super::store::{Written, line, manifest, store};
 use super::{CommandResult, Counted, Failure, print, table};
@@ -21,7 +21,7 @@ use std::time::Instant;
 ///
 /// Counts are saved in counts.json every few seconds. However a run ends, the same command continues it.
 /// Nothing that a finished sweep holds is simulated again: for more trials, another curve or another claim
-/// only what is missing is run. The rows of the other studies do not hold their counts (those of
+/// only what is missing is run, and what is left out of the config is dropped. The rows of the other studies do not hold their counts (those of
 /// [impulse_law] do): for more trials these start over.
 #[derive(Debug, Args)]
 pub struct Sweep {
@@ -42,7 +42,7 @@ pub struct Sweep {
     #[arg(long, value_name = "FILE.npz", conflicts_with = "shard")]
     save_trials: Option<PathBuf>,
     /// Replace the file of --save-trials if it exists.
-    #[arg(long)]
+    #[arg(long, requires = "save_trials")]
     force: bool,
     #[command(flatten)]
     progress: Progress,
@@ -51,9 +51,10 @@ pub struct Sweep {
 impl Sweep {
     /// Runs the command.
     pub fn run(self, quiet: bool) -> CommandResult {
-        let loaded = self.counted.study()?;
+        let experiment = self.counted.config()?;
+        let loaded = self.counted.simulation.plan(experiment.clone())?;
         let saved = match &self.save_trials {
-            Some(path) => Some(SavedTrials::new(path, self.force, self.counted.config()?)?),
+            Some(path) => Some(SavedTrials::new(path, self.force, experiment)?),
             None => None,
         };
         let study = &*loaded.study;
@@ -76,11 +77,10 @@ impl Sweep {
             .map_err(Failure::input)?;
         let reporter = Reporter::new(quiet, &self.progress, "");
         progress::work_off(&mut session, &reporter)?;
-        let mut done = finish(&loaded, session, self.shard)?;
+        print(&finish(&loaded, session, self.shard)?)?;
         if let Some(saved) = saved {
-            done += &format!("{}  written\n", saved.write(&reporter)?);
+            print(&format!("{}  written\n", saved.write(&reporter)?))?;
         }
-        print(&done)?;
         Ok(ExitCode::SUCCESS)
     }
 

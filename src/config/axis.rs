@@ -62,7 +62,7 @@ enum AxisError {
         step: f64,
         last: f64,
     },
-    #[error("axis.{name}: {value} is there twice (take one out)")]
+    #[error("axis.{name}: the value {value} is listed twice (remove one)")]
     Repeated { name: String, value: String },
     #[error("axis.{name}: {points:.0} points, more than {MOST_POINTS} (raise step)")]
     TooMany { name: String, points: f64 },
@@ -197,8 +197,18 @@ fn range(name: &str, &Steps { from, to, step }: &Steps) -> Result<Vec<Value>, Ax
     if points > MOST_POINTS as f64 {
         return Err(AxisError::TooMany { name, points });
     }
-    let last = twelve_digits(from + (points - 1.0) * step);
-    if (to - last).abs() > 1e-9 * step.max(to.abs()) {
+    let number = |i: usize| {
+        let value = from + i as f64 * step;
+        // A rounding error around zero becomes an exact zero.
+        if value.abs() < 1e-9 * step {
+            0.0
+        } else {
+            twelve_digits(value)
+        }
+    };
+    let last = number(points as usize - 1);
+    // The last value has twelve digits, and the number of steps an error of a billionth.
+    if (to - last).abs() > 1e-8 * step + 1e-11 * to.abs() {
         return Err(AxisError::Missed {
             name,
             from,
@@ -209,13 +219,7 @@ fn range(name: &str, &Steps { from, to, step }: &Steps) -> Result<Vec<Value>, Ax
     }
     let is_whole = from.fract() == 0.0 && step.fract() == 0.0;
     let value = |i: usize| {
-        let value = from + i as f64 * step;
-        // A rounding error around zero becomes an exact zero.
-        let value = if value.abs() < 1e-9 * step {
-            0.0
-        } else {
-            twelve_digits(value)
-        };
+        let value = number(i);
         if is_whole && value.fract() == 0.0 && value.abs() < 1e15 {
             Value::Integer(value as i64)
         } else {
@@ -272,8 +276,12 @@ mod tests {
         assert_eq!(refusal("{ from = 2, to = 9, step = 3 }"), missed);
         assert!(refusal("{ from = 0.0, to = 1.0, step = 0.3 }").contains("end at 0.9"));
         assert!(refusal("{ from = 0.0, to = 1.0, step = 2.0 }").contains("end at 0,"));
+        assert!(refusal("{ from = -0.3, to = 0.05, step = 0.1 }").contains("end at 0,"));
+        assert!(
+            refusal("{ from = 1e6, to = 1000000.0005, step = 0.001 }").contains("end at 1000000,")
+        );
         for repeated in ["[1, 2, 1.0]", "[0.0, -0.0]", "[\"auto\", 2, \"auto\"]"] {
-            assert!(refusal(repeated).contains("is there twice"), "{repeated}");
+            assert!(refusal(repeated).contains("is listed twice"), "{repeated}");
         }
     }
 

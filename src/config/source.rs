@@ -5,7 +5,6 @@ use super::shipped::{SHIPPED, Shipped};
 use super::tree::Node;
 use crate::rule::OutOfRange;
 use crate::suggest::nearest;
-use encoding_rs_io::DecodeReaderBytesBuilder;
 use serde::de::DeserializeOwned;
 use std::error::Error;
 use std::fmt;
@@ -91,6 +90,8 @@ enum Unreadable {
     Unknown { hint: String },
     #[error("no such file (check the path; `{0}` alone is the shipped config)")]
     Shipped(&'static str),
+    #[error("the shipped config of this name is for `liftsim {0}` (see `liftsim new`)")]
+    Elsewhere(&'static str),
     #[error("is not text in UTF-8 or UTF-16 (save it as UTF-8)")]
     NotText,
     #[error("is larger than {} kB, which no config is (check the path)", MOST_BYTES / 1000)]
@@ -116,27 +117,43 @@ impl Source {
         }
     }
 
-    /// A file's text. A name without `.toml` that is no file is that of a file with it, or else of a shipped
-    /// config.
+    /// A file's text.
     ///
     /// # Errors
-    /// If there is no such file, or it cannot be read, is not text or is too large.
+    /// If it cannot be read, is not text or is too large.
     pub fn load(path: &Path) -> Result<Self, ConfigError> {
+        let name = path.display().to_string();
+        match read(path) {
+            Ok(text) => Ok(Self { name, text }),
+            Err(error) => Err(Self::new(&name, "").at(None, error)),
+        }
+    }
+
+    /// The text of a file, for a command. A name without `.toml` that is no file is that of a file with it, or else of
+    /// a shipped config.
+    ///
+    /// # Errors
+    /// As [`Source::load`]; and if there is no such file, or the shipped config of this name is for another command.
+    pub fn find(path: &Path, command: &'static str) -> Result<Self, ConfigError> {
         // A folder may have the name too, as one of results has; a pipe is no file, but can be read.
         let is_there = |path: &Path| path.exists() && !path.is_dir();
         let with_end = path.with_extension("toml");
-        let is_short = path.extension().is_none() && !is_there(path);
-        let mut file = path;
-        if is_short && is_there(&with_end) {
-            file = &with_end;
-        } else if is_short && let Some(shipped) = path.to_str().and_then(Shipped::find) {
-            return Ok(Self::new(&format!("{}.toml", shipped.name), shipped.text));
+        if is_there(path) {
+            return Self::load(path);
         }
-        let name = file.display().to_string();
-        match read(file) {
-            Ok(text) => Ok(Self { name, text }),
-            Err(error) => Err(Self::new(&name, "").at(None, error.explained(path))),
+        if path.extension().is_none() && is_there(&with_end) {
+            return Self::load(&with_end);
         }
+        let shipped = path.to_str().and_then(Shipped::find);
+        let error = match shipped {
+            Some(shipped) if shipped.command == command => {
+                return Ok(Self::new(&format!("{}.toml", shipped.name), shipped.text));
+            }
+            Some(Shipped { command, .. }) => Unreadable::Elsewhere(command),
+            None if path.is_dir() => return Self::load(path),
+            None => missing(path, command),
+        };
+        Err(Self::new(&path.display().to_string(), "").at(None, error))
     }
 
     /// The name in messages.
@@ -215,43 +232,44 @@ impl Source {
     }
 }
 
-impl Unreadable {
-    /// The same, where nothing is found at a path that may be meant for the name of a shipped config.
-    fn explained(self, path: &Path) -> Self {
-        let is_missing =
-            matches!(&self, Self::Io(error) if error.kind() == io::ErrorKind::NotFound);
-        let name = path.file_stem().and_then(|stem| stem.to_str());
-        let Some(name) = name.filter(|_| is_missing) else {
-            return self;
-        };
-        if let Some(shipped) = Shipped::find(name) {
-            return Self::Shipped(shipped.name);
-        }
-        if path.extension().is_some() {
-            return self;
-        }
-        let near = nearest(name, SHIPPED.iter().map(|shipped| shipped.name));
-        let hint = near.map_or(String::new(), |near| format!(", did you mean `{near}`?"));
-        Self::Unknown { hint }
+/// Why nothing is found at a path.
+fn missing(path: &Path, command: &str) -> Unreadable {
+    let names = SHIPPED.iter().filter(|shipped| shipped.command == command);
+    let mut names = names.map(|shipped| shipped.name);
+    let stem = path.file_stem().and_then(|stem| stem.to_str());
+    let name = stem.unwrap_or_default();
+    if let Some(name) = names.clone().find(|shipped| *shipped == name) {
+        return Unreadable::Shipped(name);
+    }
+    if path.extension().is_some() {
+        return Unreadable::Io(io::ErrorKind::NotFound.into());
+    }
+    let near = nearest(name, &mut names);
+    Unreadable::Unknown {
+        hint: near.map_or(String::new(), |near| format!(", did you mean `{near}`?")),
     }
 }
 
 /// A file's text, in UTF-8 or, as its first bytes say, UTF-16.
 fn read(path: &Path) -> Result<String, Unreadable> {
-    let file = File::open(path)?;
     let mut bytes = Vec::new();
+    let file = File::open(path)?;
     file.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > MOST_BYTES {
         return Err(Unreadable::TooLarge);
     }
-    let mut text = String::new();
-    let mut decoder = DecodeReaderBytesBuilder::new()
-        .strip_bom(true)
-        .build(&bytes[..]);
-    decoder
-        .read_to_string(&mut text)
-        .map_err(|_| Unreadable::NotText)?;
-    Ok(text)
+    let utf16 = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
+        let (units, rest) = bytes.as_chunks();
+        let units: Vec<u16> = units.iter().copied().map(unit).collect();
+        String::from_utf16(&units).ok().filter(|_| rest.is_empty())
+    };
+    let text = match &bytes[..] {
+        [0xFF, 0xFE, rest @ ..] => utf16(rest, u16::from_le_bytes),
+        [0xFE, 0xFF, rest @ ..] => utf16(rest, u16::from_be_bytes),
+        [0xEF, 0xBB, 0xBF, rest @ ..] => str::from_utf8(rest).ok().map(str::to_owned),
+        all => str::from_utf8(all).ok().map(str::to_owned),
+    };
+    text.ok_or(Unreadable::NotText)
 }
 
 fn first_line(message: &str) -> String {

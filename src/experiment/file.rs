@@ -51,7 +51,7 @@ impl Experiment {
     /// If the file cannot be read, is not TOML, has an unknown key, lacks a required key, or names no study
     /// or more than one.
     pub fn load(path: &Path, studies: &[&'static str]) -> Result<Self, ConfigError> {
-        Self::new(Source::load(path)?, studies)
+        Self::new(Source::find(path, "sweep")?, studies)
     }
 
     /// Reads a file's text. Messages call the file `name`.

@@ -17,6 +17,9 @@ pub use error::FigureError;
 
 use crate::plot::{Plot, layout};
 
+/// Dots per inch of a PNG unless others are asked for.
+pub const DPI: u32 = 300;
+
 /// A picture in both its forms.
 #[derive(Clone, Debug)]
 pub struct Drawing {
@@ -33,9 +36,40 @@ pub struct Drawing {
 pub fn render(plot: &Plot, provenance: &str) -> Result<Drawing, FigureError> {
     let canvas = layout(plot)?;
     Ok(Drawing {
-        png: raster::png(&canvas, provenance)?,
+        png: raster::png(&canvas, provenance, DPI)?,
         svg: svg::svg(&canvas, provenance).into_bytes(),
     })
+}
+
+/// A kind of file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// With so many dots per inch.
+    Png(u32),
+    Svg,
+    Pdf,
+}
+
+/// Draws a plot as a file of some kind.
+///
+/// # Errors
+/// Where it does not fit on a sheet, or drawing fails.
+pub fn file(plot: &Plot, provenance: &str, kind: Kind) -> Result<Vec<u8>, FigureError> {
+    let canvas = layout(plot)?;
+    match kind {
+        Kind::Png(dpi) => raster::png(&canvas, provenance, dpi),
+        Kind::Svg => Ok(svg::svg(&canvas, provenance).into_bytes()),
+        Kind::Pdf => pdf(&svg::svg(&canvas, provenance)),
+    }
+}
+
+fn pdf(svg: &str) -> Result<Vec<u8>, FigureError> {
+    let drawing = |error: String| FigureError::Drawing(error);
+    let tree = svg2pdf::usvg::Tree::from_str(svg, &svg2pdf::usvg::Options::default());
+    let tree = tree.map_err(|error| drawing(error.to_string()))?;
+    let options = svg2pdf::PageOptions::default();
+    svg2pdf::to_pdf(&tree, svg2pdf::ConversionOptions::default(), options)
+        .map_err(|error| drawing(error.to_string()))
 }
 
 /// Draws a plot as an element of an HTML page, as wide as the page lets it be; `label` is read aloud in its place.

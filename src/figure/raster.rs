@@ -1,4 +1,4 @@
-//! PNG at 300 dpi. It is drawn three times too large and averaged down, because the drawing library's own
+//! PNG. It is drawn three times too large and averaged down, because the drawing library's own
 //! lines are jagged.
 
 use super::error::FigureError;
@@ -10,23 +10,21 @@ use plotters::prelude::{
 use plotters::style::register_font;
 use std::sync::OnceLock;
 
-/// Dots per inch.
-const DPI: u32 = 300;
 /// Raster pixels that become one pixel, in each direction.
 const OVERSAMPLING: u32 = 3;
 /// What the drawing library calls the embedded font.
 const FAMILY: &str = "sans-serif";
 
 /// The picture, where it comes from in its text chunk.
-pub(super) fn png(canvas: &Canvas, provenance: &str) -> Result<Vec<u8>, FigureError> {
+pub(super) fn png(canvas: &Canvas, provenance: &str, dpi: u32) -> Result<Vec<u8>, FigureError> {
     register_embedded_font();
-    let pixels = |points: f64| (points * f64::from(DPI) / 72.0).round() as u32;
+    let pixels = |points: f64| (points * f64::from(dpi) / 72.0).round() as u32;
     let (width, height) = (pixels(canvas.size.0), pixels(canvas.size.1));
     let (fine_width, fine_height) = (width * OVERSAMPLING, height * OVERSAMPLING);
     let mut fine = vec![255; fine_width as usize * fine_height as usize * 3];
     let mut backend = BitMapBackend::with_buffer(&mut fine, (fine_width, fine_height));
     for shape in &canvas.shapes {
-        draw(&mut backend, shape)?;
+        draw(&mut backend, shape, dpi)?;
     }
     drop(backend);
     let mut bytes = Vec::new();
@@ -34,7 +32,7 @@ pub(super) fn png(canvas: &Canvas, provenance: &str) -> Result<Vec<u8>, FigureEr
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::High);
-    let per_metre = (f64::from(DPI) / 0.0254).round() as u32;
+    let per_metre = (f64::from(dpi) / 0.0254).round() as u32;
     encoder.set_pixel_dims(Some(png::PixelDimensions {
         xppu: per_metre,
         yppu: per_metre,
@@ -46,8 +44,8 @@ pub(super) fn png(canvas: &Canvas, provenance: &str) -> Result<Vec<u8>, FigureEr
     Ok(bytes)
 }
 
-fn draw(backend: &mut BitMapBackend, shape: &Shape) -> Result<(), FigureError> {
-    let unit = f64::from(DPI * OVERSAMPLING) / 72.0;
+fn draw(backend: &mut BitMapBackend, shape: &Shape, dpi: u32) -> Result<(), FigureError> {
+    let unit = f64::from(dpi * OVERSAMPLING) / 72.0;
     let at = |point: &(f64, f64)| rounded(*point, unit);
     match shape {
         Shape::Line(points, width, colour) => {

@@ -2,9 +2,9 @@
 
 use super::axis::Axis;
 use super::canvas::{Align, Canvas};
-use super::picture::{Panel, WIDTH as SHEET};
+use super::picture::Panel;
 use super::style::Colour;
-use super::text::{NORMAL, SMALL, text_width};
+use super::text::{LINE, NORMAL, SMALL, text_width};
 
 const WIDTH: f64 = 0.6;
 const TICK: f64 = 3.0;
@@ -14,6 +14,8 @@ const GRID: Colour = Colour::new(225, 225, 225);
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame<'a> {
     pub panel: &'a Panel,
+    /// The width of the sheet.
+    pub sheet: f64,
     pub left: f64,
     pub right: f64,
     pub top: f64,
@@ -65,7 +67,7 @@ impl Frame<'_> {
             canvas.line(&[(at, bottom), (at, bottom - TICK)], WIDTH, Colour::BLACK);
             // The last label stays on the sheet.
             let half = text_width(label, SMALL) / 2.0;
-            let at = at.min(SHEET - half).max(half);
+            let at = at.min(self.sheet - half).max(half);
             canvas.text(label, (at, bottom + SMALL + 3.0), SMALL, Align::Centre);
         }
         for (value, label) in &y.ticks {
@@ -74,16 +76,25 @@ impl Frame<'_> {
             canvas.text(label, (left - 4.0, at + 0.36 * SMALL), SMALL, Align::Right);
         }
         let middle = f64::midpoint(left, right);
-        canvas.text(&x.label, (middle, bottom + 25.0), NORMAL, Align::Centre);
+        for (line, text) in (0..).zip(x.label.split('\n')) {
+            let baseline = bottom + 25.0 + LINE * f64::from(line);
+            canvas.text(text, (middle, baseline), NORMAL, Align::Centre);
+        }
         canvas.upright_text(&y.label, (12.0, f64::midpoint(top, bottom)), NORMAL);
-        canvas.text(title, (middle, top - 5.0), NORMAL, Align::Centre);
+        let above = |canvas: &mut Canvas, text: &str, lowest: f64| {
+            for (line, text) in (0..).zip(text.rsplit('\n')) {
+                let baseline = lowest - LINE * f64::from(line);
+                canvas.text(text, (middle, baseline), NORMAL, Align::Centre);
+            }
+        };
+        above(canvas, title, top - 5.0);
         if let Some(axis) = &self.panel.top {
             for (value, label) in &axis.ticks {
                 let at = left + axis.share(*value) * (right - left);
                 canvas.line(&[(at, top), (at, top + TICK)], WIDTH, Colour::BLACK);
                 canvas.text(label, (at, top - 4.0), SMALL, Align::Centre);
             }
-            canvas.text(&axis.label, (middle, top - 16.0), NORMAL, Align::Centre);
+            above(canvas, &axis.label, top - 16.0);
         }
     }
 

@@ -4,9 +4,9 @@ use super::canvas::{Align, Canvas, Shape, Text};
 use super::frame::Frame;
 use super::legend::Place;
 use super::mark::Mark;
-use super::picture::{CAPTION_LEFT, Panel, Plot, WIDTH};
+use super::picture::{CAPTION_LEFT, Panel, Plot};
 use super::placed::Placed;
-use super::text::{CAPTION, font_width};
+use super::text::{CAPTION, LINE, font_width};
 
 /// From one line of a caption to the next.
 const CAPTION_STEP: f64 = 10.5;
@@ -51,19 +51,21 @@ pub fn layout(plot: &Plot) -> Result<Canvas, LayoutError> {
     let (legend, above) = plot.placed_legend();
     let frames = plot.frames(above);
     let bottom = frames[frames.len() - 1].bottom;
-    let height = bottom + plot.margins.bottom + CAPTION_STEP * plot.caption.len() as f64;
+    let caption = plot.caption_lines();
+    let words = bottom + plot.panels[frames.len() - 1].lines_below();
+    let height = words + plot.margins.bottom + CAPTION_STEP * caption.len() as f64;
     if height > HIGHEST {
         return Err(LayoutError::Height(height));
     }
-    let mut canvas = Canvas::new((WIDTH, height));
+    let mut canvas = Canvas::new((plot.width, height));
     for (panel, mark) in &plot.marks {
         match (mark, &legend) {
             (Mark::Legend, Some(legend)) => legend.draw(&mut canvas),
             _ => mark.draw(&mut canvas, *panel, &frames),
         }
     }
-    for (line, text) in (0..).zip(&plot.caption) {
-        let baseline = bottom + 41.0 + CAPTION_STEP * f64::from(line);
+    for (line, text) in (0..).zip(&caption) {
+        let baseline = words + 41.0 + CAPTION_STEP * f64::from(line);
         canvas.text(text, (CAPTION_LEFT, baseline), CAPTION, Align::Left);
     }
     canvas.check()?;
@@ -81,22 +83,26 @@ impl Plot {
     /// The place of a panel, or the one after the last.
     fn frame(&self, index: usize, above: f64) -> Frame<'_> {
         let columns = self.columns as f64;
-        let width = WIDTH - self.margins.left - self.margins.right;
+        let width = self.width - self.margins.left - self.margins.right;
         let width = (width - BESIDE * (columns - 1.0)) / columns;
         let left = self.margins.left + (index % self.columns) as f64 * (width + BESIDE);
-        let has_words = |panel: &Panel| self.columns > 1 || !panel.x.label.is_empty();
-        let between = |panel| BETWEEN[usize::from(has_words(panel))];
+        let has_words = |panel: &Panel| self.is_apart || !panel.x.label.is_empty();
+        let between = |panel: &Panel| BETWEEN[usize::from(has_words(panel))] + panel.lines_below();
         let over = self
             .panels
             .iter()
             .step_by(self.columns)
             .take(index / self.columns);
         let top = above + self.margins.top;
-        let top = over.fold(top, |top, panel| top + panel.height + between(panel));
+        let top = over.fold(top, |top, panel| {
+            top + panel.lines_above() + panel.height + between(panel)
+        });
         let panel = &self.panels[index.min(self.panels.len() - 1)];
+        let top = top + panel.lines_above();
         let (right, bottom) = (left + width, top + panel.height);
         Frame {
             panel,
+            sheet: self.width,
             left,
             right,
             top,
@@ -114,7 +120,7 @@ impl Plot {
             Place::Across => (CAPTION_LEFT, CAPTION_LEFT),
             _ => (self.margins.left, self.margins.right),
         };
-        let spread = column.spread(WIDTH - left - right);
+        let spread = column.spread(self.width - left - right);
         let inside = match legend.place {
             Place::Free => self.in_free_place(column).or(self.in_free_place(spread)),
             Place::Inside(left, down) => {
@@ -156,6 +162,18 @@ impl Plot {
             }
         }
         covered
+    }
+}
+
+impl Panel {
+    /// What the second and later lines of its words take above it, and below it.
+    fn lines_above(&self) -> f64 {
+        let over = self.top.as_ref().map_or("", |top| &top.label);
+        LINE * (self.title.matches('\n').count() + over.matches('\n').count()) as f64
+    }
+
+    fn lines_below(&self) -> f64 {
+        LINE * self.x.label.matches('\n').count() as f64
     }
 }
 

@@ -24,6 +24,8 @@ pub enum Key {
     MarkedLine,
     Line,
     Shade,
+    /// Nothing: a further line of the entry before.
+    None,
 }
 
 /// Where a legend goes.

@@ -17,6 +17,7 @@ mod mark;
 mod phases;
 mod picture;
 mod placed;
+mod resize;
 mod style;
 mod text;
 

@@ -5,7 +5,7 @@ use super::legend::{Entry, Legend, Place};
 use super::mark::Mark;
 use super::text::wrap;
 
-/// Width of every sheet, in points.
+/// Width of a sheet unless another is asked for, in points.
 pub const WIDTH: f64 = 396.0;
 /// Where a caption starts, and as far from the right edge it ends.
 pub(super) const CAPTION_LEFT: f64 = 10.0;
@@ -15,13 +15,17 @@ pub(super) const CAPTION_LEFT: f64 = 10.0;
 pub struct Plot {
     /// From left to right in each row, from the uppermost row down.
     pub panels: Vec<Panel>,
+    /// Of the sheet, in points.
+    pub width: f64,
     /// Panels in a row.
     pub columns: usize,
+    /// Whether words stand between the rows, though panels share what is along x.
+    pub is_apart: bool,
     /// In the order in which they are drawn, each with the panel it lies in.
     pub marks: Vec<(usize, Mark)>,
     pub legend: Option<Legend>,
-    /// In lines.
-    pub caption: Vec<String>,
+    /// Each of these begins on a line of its own, and is broken between its parts.
+    pub caption: Vec<Vec<String>>,
     pub margins: Margins,
 }
 
@@ -81,7 +85,9 @@ impl Plot {
         let (legend, margins) = (None, Margins::default());
         Self {
             panels,
+            width: WIDTH,
             columns,
+            is_apart: columns > 1,
             marks,
             legend,
             caption,
@@ -110,7 +116,14 @@ impl Plot {
 
     /// What the caption says, broken into lines between these parts.
     pub fn set_caption(&mut self, parts: &[String]) {
-        self.caption = wrap(parts, WIDTH - 2.0 * CAPTION_LEFT);
+        self.caption = vec![parts.to_vec()];
+    }
+
+    /// The caption in lines.
+    pub fn caption_lines(&self) -> Vec<String> {
+        let width = self.width - 2.0 * CAPTION_LEFT;
+        let parts = self.caption.iter();
+        parts.flat_map(|parts| wrap(parts, width)).collect()
     }
 
     /// The marks of a panel.

@@ -7,6 +7,8 @@ use super::style::Colour;
 use super::text::{SMALL, text_width};
 
 const STEP: f64 = 11.5;
+/// What the key of an entry takes, and the margins.
+pub(super) const BESIDE_TEXT: f64 = 32.0;
 const MARGIN: f64 = 6.0;
 const EDGE: (f64, Colour) = (0.4, Colour::BLACK.faded(0.3));
 
@@ -36,7 +38,7 @@ impl<'a> Placed<'a> {
 
     fn column_width(&self) -> f64 {
         let widths = (self.entries.iter()).map(|entry| text_width(&entry.text, SMALL));
-        widths.fold(0.0, f64::max) + 32.0
+        widths.fold(0.0, f64::max) + BESIDE_TEXT
     }
 
     pub fn height(&self) -> f64 {
@@ -97,7 +99,7 @@ impl Entry {
         let (style, colour) = (&self.style, self.style.colour);
         let ends = [(left + 4.0, middle), (left + 22.0, middle)];
         match self.key {
-            Key::Marker => {}
+            Key::Marker | Key::None => {}
             Key::MarkedLine => canvas.line(&ends, style.width, colour),
             Key::Line => canvas.dashed(&ends, style),
             Key::Shade => {

@@ -62,9 +62,50 @@ fn a_text_over_the_edge_is_refused() {
 fn a_caption_breaks_where_it_must() {
     let mut plot = plot_of(&[]);
     plot.set_caption(&["one".to_owned(), "two".to_owned(), "three and ".repeat(20)]);
-    assert!(plot.caption.len() > 2);
-    assert!(plot.caption[0].starts_with("one; two; three and three"));
+    let lines = plot.caption_lines();
+    assert!(lines.len() > 2);
+    assert!(lines[0].starts_with("one; two; three and three"));
     assert!(layout(&plot).is_ok());
+}
+
+/// On a narrow sheet all words are there, as large as before, in more lines.
+#[test]
+fn a_narrow_sheet_keeps_its_words() {
+    let mut plot = plot_of(&[]);
+    plot.panels[0].x.label =
+        "many words that need the width of a page of paper to stand side by side".to_owned();
+    plot.panels[0].title = "a title of its own that is a little longer than a column".to_owned();
+    plot.set_caption(&[
+        "a caption of several parts".to_owned(),
+        "each of some length".to_owned(),
+    ]);
+    plot.margins.top = 20.0;
+    let text = "a name of a curve that says all there is to say".to_owned();
+    plot.add_legend([Entry::new(text, Style::of(0), Key::Line)], Place::Free);
+    let words = |plot: &Plot| {
+        let canvas = layout(plot).unwrap();
+        let texts = canvas.shapes.iter().filter_map(|shape| match shape {
+            Shape::Text(text) => Some((text.text.clone(), text.height)),
+            _ => None,
+        });
+        let all: Vec<_> = texts.collect();
+        let words = all
+            .iter()
+            .flat_map(|(text, _)| text.split([' ', ';']).map(str::to_owned));
+        let mut words: Vec<String> = words.filter(|word| !word.is_empty()).collect();
+        words.sort();
+        let smallest = all
+            .iter()
+            .map(|(_, height)| *height)
+            .fold(f64::INFINITY, f64::min);
+        (words, smallest, canvas.size)
+    };
+    let (wide, narrow) = (
+        words(&plot),
+        words(&plot.clone().resized(88.0 * 72.0 / 25.4)),
+    );
+    assert_eq!((&wide.0, wide.1), (&narrow.0, narrow.1));
+    assert!(narrow.2.0 < 250.0 && narrow.2.1 > wide.2.1);
 }
 
 #[test]
@@ -72,7 +113,7 @@ fn as_many_panels_as_can_be_drawn() {
     let grid = |count: usize| {
         let panel = || Panel::new(114.0, axis("x"), axis("y"));
         let mut plot = Plot::of((0..count).map(|_| panel()).collect(), 2);
-        plot.caption = vec![String::new(); 8];
+        plot.caption = vec![vec![String::new()]; 8];
         layout(&plot)
     };
     assert_eq!(check_panels(26), Ok(()));

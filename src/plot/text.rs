@@ -9,6 +9,8 @@ pub const SMALL: f64 = 8.0;
 pub const CAPTION: f64 = 7.5;
 /// Em size of axis labels and titles.
 pub const NORMAL: f64 = 9.0;
+/// From one line of labels and titles to the next.
+pub(super) const LINE: f64 = 11.0;
 /// The font library counts a size from descender to ascender; this many times the em.
 pub(super) const FONT_HEIGHT: f64 = 1.164;
 /// Stands for an underscore that is meant as one.

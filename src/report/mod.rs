@@ -8,10 +8,9 @@ mod text;
 pub use text::{PlaceholderError, fill};
 
 use crate::claim::{
-    self, Claim, ClaimError, Evidence, Judgement, Narrative, Verdict, trials_to_decide,
+    self, Claim, ClaimError, Enough, Evidence, Judgement, Narrative, Verdict, trials_to_decide,
 };
 use crate::format::thousands;
-use crate::stats::tally::MOST_TRIALS;
 use std::fmt::Write;
 
 /// One experiment and its results.
@@ -78,22 +77,19 @@ impl Section {
         let mut text = String::new();
         for (number, (claim, judgement)) in (1..).zip(self.narrative.claims.iter().zip(judgements))
         {
-            let verdict = verdict(&judgement.verdict).replace('*', "");
+            let (verdict, places) = verdict(&judgement.verdict);
             let Judgement { evidence, .. } = judgement;
-            text += &format!("{}: {verdict}\n    {evidence}\n", &*claim.claim);
+            text += &format!("{}: {verdict}{places}\n    {evidence}\n", &*claim.claim);
             if judgement.verdict != Verdict::Undecided {
                 continue;
             }
             let (evidence, trials) = (&self.evidence, self.trials);
-            let enough = trials_to_decide(claim, number, evidence, trials, MOST_TRIALS);
+            let enough = trials_to_decide(claim, number, evidence, trials);
             text += &match enough.map_err(|error| self.refused(claim, number, error))? {
-                Some(trials) => format!(
-                    "    about --trials {trials} would decide it, if the rates stay as they are\n"
+                Enough::Trials(trials) => format!(
+                    "    if the rates stay as they are, about {trials} trials per point decide it (--trials)\n"
                 ),
-                None => {
-                    "    no number of trials would decide it, if the numbers stay as they are\n"
-                        .to_owned()
-                }
+                Enough::Unknown => "    more trials may decide it (--trials); so far the numbers do not say how many\n".to_owned(),
             };
         }
         Ok(text)
@@ -220,22 +216,24 @@ fn claim_row(section: &Section, claim: &Claim, judgement: &Judgement, configs: &
         format!("; {} trials per point", thousands(section.trials))
     };
     let source = claim.source.as_deref().map(|source| cell(source) + " | ");
+    let (verdict, places) = verdict(&judgement.verdict);
     format!(
         "| [{}](#{name}) | {}{}{trials} ([{config}]({configs}/{config})) | {} | {} |\n",
         cell(&claim.claim),
         source.unwrap_or_default(),
         cell(&judgement.how),
         cell(&judgement.evidence),
-        cell(&verdict(&judgement.verdict)),
+        cell(&format!("**{verdict}**{places}")),
     )
 }
 
-fn verdict(verdict: &Verdict) -> String {
+/// A verdict in words, and where it holds if that is not everywhere.
+fn verdict(verdict: &Verdict) -> (&'static str, String) {
     match verdict {
-        Verdict::Holds => "**holds**".to_owned(),
-        Verdict::HoldsWhere(places) => format!("**holds where** {places}"),
-        Verdict::DoesNotHold => "**does not hold**".to_owned(),
-        Verdict::Undecided => "**undecided**".to_owned(),
+        Verdict::Holds => ("holds", String::new()),
+        Verdict::HoldsWhere(places) => ("holds where", format!(" {places}")),
+        Verdict::DoesNotHold => ("does not hold", String::new()),
+        Verdict::Undecided => ("undecided", String::new()),
     }
 }
 

@@ -43,10 +43,14 @@ impl Identity {
     }
 
     /// Compares the first point of `there` that `here` lacks with the most similar point of `here`, and names
-    /// the first parameter that differs. Points of `here` that `there` lacks are preferred.
+    /// the first parameter that differs. Points of `here` that `there` lacks are preferred; where there are none,
+    /// points were left out, which changes nothing of the others.
     pub(super) fn difference(there: &[Self], here: &[Self]) -> Option<String> {
         let is_in = |all: &[Self]| all.iter().map(|one| one.parameters.clone()).collect();
         let (known, held): (BTreeSet<_>, BTreeSet<_>) = (is_in(here), is_in(there));
+        if known.is_subset(&held) {
+            return None;
+        }
         let odd = there.iter().find(|one| !known.contains(&one.parameters))?;
         let differing = |one: &Self| {
             let pairs = odd.parameters.iter().zip(&one.parameters);

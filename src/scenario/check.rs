@@ -4,7 +4,7 @@ use super::{Calibration, Scenario};
 use crate::detect::{Baseline, Exceedances, Method, RegionError, Rule};
 use crate::format::brief;
 use crate::signal::MotionError;
-use crate::whiten::{Fit, WhiteningError};
+use crate::whiten::{DEFAULT_ORDER, Fit, Order, WhiteningError};
 
 /// Why sections do not fit together.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -19,6 +19,15 @@ pub enum ScenarioError {
          noise.quantum)", brief(*.range), brief(*.quantum)
     )]
     RangeBelowQuantum { range: f64, quantum: f64 },
+    #[error(
+        "whitening.order: has no effect with fit = \"none\", got {0} (leave it out, or fit the filter)"
+    )]
+    OrderOfNothing(usize),
+    #[error(
+        "whitening.order: the known filter of this sensor has order {sensor}, got {order} (leave order out, or set it \
+         to {sensor})"
+    )]
+    OrderAboveSensor { sensor: usize, order: usize },
     #[error("detector: {0}")]
     Region(#[from] RegionError),
     #[error(
@@ -82,6 +91,9 @@ impl ScenarioError {
             Self::Motion(MotionError::Rise { .. }) => &["motion.profile", "motion.duration"],
             Self::Whitening(error) => error.keys(),
             Self::RangeBelowQuantum { .. } => &["noise.range", "noise.quantum"],
+            Self::OrderOfNothing(_) | Self::OrderAboveSensor { .. } => {
+                &["whitening.order", "whitening.fit"]
+            }
             Self::Region(error) => blamed(error),
             Self::KnownFilterDecimated(_) => &["whitening.fit", DECIMATION],
             Self::WhitenedDeltaDecimated(_) => &["motion.delta_at", DECIMATION],
@@ -118,6 +130,7 @@ impl Scenario {
     /// Checks the sections against each other.
     pub(super) fn check(&self) -> Result<(), ScenarioError> {
         self.check_digitiser()?;
+        self.check_order()?;
         self.check_decimation()?;
         let detector = &self.detector;
         let is_calibrated = detector.calibration != Calibration::None;
@@ -138,8 +151,24 @@ impl Scenario {
 
     fn check_digitiser(&self) -> Result<(), ScenarioError> {
         match (self.digitiser.range(), self.digitiser.quantum()) {
-            (Some(range), Some(quantum)) if range < quantum => {
+            // The slack with which the converter counts its steps.
+            (Some(range), Some(quantum)) if range * (1.0 + 1e-12) < quantum => {
                 Err(ScenarioError::RangeBelowQuantum { range, quantum })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// An order that is written must mean something: what is not fitted has the default or the sensor's own.
+    fn check_order(&self) -> Result<(), ScenarioError> {
+        let Order::Fixed(order) = self.whitening.order else {
+            return Ok(());
+        };
+        let sensor = self.sensor.ar().len();
+        match self.whitening.fit {
+            Fit::None if order != DEFAULT_ORDER => Err(ScenarioError::OrderOfNothing(order)),
+            Fit::Known if order > sensor.max(DEFAULT_ORDER) => {
+                Err(ScenarioError::OrderAboveSensor { sensor, order })
             }
             _ => Ok(()),
         }

@@ -5,7 +5,7 @@ use crate::claim::{Evidence, Narrative, Scope};
 use crate::counts::Counts;
 use crate::experiment::Experiment;
 use crate::figure::{Drawing, render};
-use crate::plot::layout;
+use crate::plot::{Plot, layout};
 use crate::report::Section;
 use crate::results::{Comparison, Directory, Manifest, Origin, RESULTS, ResultsError, file_name};
 use crate::run::{AnyStudy, DrawError, Output, StudyError};
@@ -85,12 +85,20 @@ impl Loaded {
         trials.check(&counts)
     }
 
+    /// The picture of `points.csv`.
+    ///
+    /// # Errors
+    /// If the bytes do not belong to the study.
+    pub fn plot(&self, points: &[u8], manifest: &Manifest) -> Result<Plot, DrawError> {
+        self.study.plot(points, manifest.origin.seed)
+    }
+
     /// Draws `points.csv`.
     ///
     /// # Errors
     /// If the bytes do not belong to the study, or drawing fails.
     pub fn draw(&self, points: &[u8], manifest: &Manifest) -> Result<Drawing, DrawError> {
-        let plot = self.study.plot(points, manifest.origin.seed)?;
+        let plot = self.plot(points, manifest)?;
         Ok(render(&plot, &manifest.provenance())?)
     }
 

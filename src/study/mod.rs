@@ -38,7 +38,7 @@ pub mod vibration;
 
 pub use kind::{Context, Study, TooMany};
 pub use loaded::Loaded;
-pub use sweep::{EachTrial, Sweep};
+pub use sweep::{Sweep, TrialOutcomes};
 
 use crate::experiment::{ConfigError, Experiment};
 use crate::results::Origin;

@@ -110,7 +110,7 @@ fn a_sweep_of_power_shows_each_curve_in_its_band() {
     assert!((drawn.low - low).abs() < 1e-7 && (drawn.high - high).abs() < 1e-7);
     assert!(!plot.marks_of(0).any(|mark| matches!(mark, Mark::Level(..))));
     assert!(
-        plot.caption
+        plot.caption_lines()
             .join("; ")
             .contains("seed 7; bands: pointwise exact 95 % intervals")
     );
@@ -146,7 +146,7 @@ fn false_alarms_by_rule_are_bars_around_their_level() {
     assert!((limits[0].y - 1.8444e-5f64.log10()).abs() < 1e-4);
     assert_eq!(points(&plot, 0)[1].len(), 3);
     assert!(
-        plot.caption
+        plot.caption_lines()
             .last()
             .unwrap()
             .starts_with("arrows: upper limits")

@@ -68,7 +68,7 @@ pub struct Whitening {
 }
 
 /// The order of the paper's filter.
-const DEFAULT_ORDER: usize = 2;
+pub const DEFAULT_ORDER: usize = 2;
 
 impl Default for Whitening {
     fn default() -> Self {
@@ -116,19 +116,9 @@ pub enum WhiteningError {
     /// An automatic order without a fit.
     #[error(
         "order: \"auto\" chooses among fitted filters, got fit = \"{0}\" \
-         (give order a number or fit the filter)"
+         (leave order out, or fit the filter)"
     )]
     NothingToChoose(Fit),
-    /// A number for the order of what is not fitted.
-    #[error(
-        "order: means nothing to fit = \"{fit}\", got {order} (leave it out, or fit the filter)"
-    )]
-    NotFitted {
-        /// The fit asked for.
-        fit: Fit,
-        /// The order asked for.
-        order: usize,
-    },
     /// A known filter with too few coefficients for the sensor.
     #[error(
         "order: the known filter of this sensor has order {sensor}, got {order} \
@@ -147,9 +137,7 @@ impl WhiteningError {
     pub fn keys(&self) -> &'static [&'static str] {
         match self {
             Self::NoOrder => &["whitening.order"],
-            Self::NothingToChoose(_) | Self::NotFitted { .. } => {
-                &["whitening.order", "whitening.fit"]
-            }
+            Self::NothingToChoose(_) => &["whitening.order", "whitening.fit"],
             Self::TrainingTooShort { .. } | Self::TooShortToChoose { .. } => {
                 &["whitening.training", "whitening.order", "whitening.fit"]
             }
@@ -222,11 +210,6 @@ impl Whitening {
         }
         if fit == Fit::Known && order < sensor {
             return Err(WhiteningError::BelowSensor { sensor, order });
-        }
-        // The default, or what is written to give a known filter all its coefficients.
-        let is_sensible = order == DEFAULT_ORDER || fit == Fit::Known && order == sensor;
-        if matches!(fit, Fit::Known | Fit::None) && !is_sensible {
-            return Err(WhiteningError::NotFitted { fit, order });
         }
         Ok(())
     }

@@ -15,6 +15,23 @@ pub const CONFIGS: &[(&str, &str)] = &[
         "[axis]\ndelta = [1.0]\n[detector]\nalhpa = 0.1\n",
     ),
     (
+        "steps that miss the end",
+        "[axis]\ndelta = { from = 0.0, to = 1.0, step = 0.3 }\n",
+    ),
+    ("a value twice", "[axis]\ndelta = [0.0, 0.5, 0.50]\n"),
+    (
+        "an order of nothing",
+        "[axis]\ndelta = [1.0]\n[[curve]]\nwhitening = { fit = \"none\", order = 3 }\n",
+    ),
+    (
+        "an order above the sensor's",
+        "[axis]\ndelta = [1.0]\n[whitening]\nfit = \"known\"\norder = 5\n",
+    ),
+    (
+        "a range below the step",
+        "[axis]\ndelta = [1.0]\n[noise]\nquantum = 0.5\nrange = 0.4\n",
+    ),
+    (
         "a date for a text",
         "title = 1979-05-27\n[axis]\ndelta = [1.0]\n",
     ),

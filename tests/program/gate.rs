@@ -92,6 +92,17 @@ fn findings_are_told_to_machines() {
     assert_eq!(code, 1);
     assert_eq!(out.matches("<testcase ").count(), scenarios.len());
     assert_eq!(out.matches("<failure ").count(), failed.len());
+    let names: Vec<&str> = out
+        .split(" name=\"")
+        .skip(2)
+        .map(|rest| rest.split('"').next().unwrap())
+        .collect();
+    let distinct: std::collections::BTreeSet<_> = names.iter().collect();
+    assert_eq!(
+        (names.len(), distinct.len()),
+        (scenarios.len(), scenarios.len()),
+        "{out}"
+    );
     let (code, out) = check(&[
         "configs/floors_alarm.toml",
         "--trials",

@@ -92,10 +92,26 @@ fn a_study_is_begun_planned_run_and_judged() {
     let said = ran(&["sweep", "my_study", "--trials", "2000"]);
     let claim = "Frequent strong impulses lower D once the acceleration is strong";
     assert!(said.contains(claim) && said.contains("undecided"), "{said}");
-    assert!(said.contains("would decide it"), "{said}");
+    assert!(
+        said.contains("trials per point decide it (--trials)"),
+        "{said}"
+    );
     assert!(folder.path().join("results/my_study/figure.png").exists());
     // Nothing is left to simulate, and the verdicts are said again.
-    assert!(ran(&["sweep", "my_study", "--trials", "2000"]).contains("would decide it"));
+    assert!(ran(&["sweep", "my_study", "--trials", "2000"]).contains("decide it (--trials)"));
+}
+
+/// A name stays that of the shipped config beside a folder of results; and a copy of a ride can be copied.
+#[test]
+fn names_are_not_confused() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("fig6")).unwrap();
+    let ran =
+        |arguments: &[&str]| assert_eq!(liftsim(folder.path(), arguments).0, 0, "{arguments:?}");
+    ran(&["sweep", "fig6", "--trials", "50"]);
+    ran(&["new", "house", "--like", "ride"]);
+    ran(&["new", "other", "--like", "house.toml"]);
+    ran(&["simulate", "other", "--out", "other.csv"]);
 }
 
 /// What the copy says of further keys is a config with those defaults.
@@ -149,12 +165,19 @@ fn what_is_not_there_is_named() {
         &["sweep", "fig6.toml"],
         &["`fig6` alone is the shipped config"],
     );
+    refused(&["sweep", "ride"], &["is for `liftsim simulate`"]);
+    refused(
+        &["simulate", "fig6", "--out", "x.csv"],
+        &["is for `liftsim sweep`"],
+    );
+    refused(&["monitor", "--config", "fig6"], &["fig6: cannot be read"]);
+    refused(&["sweep", "fig6", "--force"], &["--save-trials"]);
     refused(&["new", "fgi6"], &["did you mean fig6?", "--like"]);
     refused(
         &["new", "my_study"],
         &["no shipped config is called my_study", "--like fig6"],
     );
-    refused(&["new", "fig6.csv"], &["must end in .toml"]);
+    refused(&["new", "fig6.csv"], &["NAME must end in .toml"]);
     refused(
         &["new", "mine", "--like", "fig66"],
         &["did you mean `fig6`"],
@@ -227,8 +250,16 @@ fn configs_of_any_editor_are_read() {
     ] {
         assert!(written(bytes) == plain);
     }
-    fs::write(folder.path().join("it.toml"), b"question = \"\xff\"").unwrap();
-    let (code, _, error) = liftsim(folder.path(), &["sweep", "it.toml"]);
-    assert_eq!(code, 2);
-    assert!(error.contains("save it as UTF-8"), "{error}");
+    // A byte that is no text, after either mark or none, and half a character of UTF-16.
+    for bytes in [
+        &b"question = \"\xff\""[..],
+        b"\xef\xbb\xbfquestion = \"\xff\"",
+        b"\xff\xfe\x00\xd8q\x00",
+        b"\xff\xfeq",
+    ] {
+        fs::write(folder.path().join("it.toml"), bytes).unwrap();
+        let (code, _, error) = liftsim(folder.path(), &["sweep", "it.toml"]);
+        assert_eq!(code, 2);
+        assert!(error.contains("save it as UTF-8"), "{error}");
+    }
 }

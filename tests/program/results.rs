@@ -166,3 +166,40 @@ fn manifests_vouch_for_the_files_beside_them() {
     let directories = directories.filter(|entry| entry.as_ref().unwrap().path().is_dir());
     assert_eq!(directories.count(), stems.len());
 }
+
+/// A curve or a point that is left out of a finished sweep costs nothing, and the others keep their counts.
+#[test]
+fn what_is_left_out_is_dropped() {
+    let folder = tempfile::tempdir().unwrap();
+    let swept = |values: &str, curves: &[&str]| {
+        let curves = curves.iter().map(|nu| {
+            format!("[[curve]]\nlabel = \"{nu}\"\nimpulses = {{ nu = {nu}, theta = 3.0 }}\n")
+        });
+        let text = format!(
+            "question = \"?\"\nseed = 7\ntrials = 500\n[axis]\ndelta = {values}\n{}",
+            curves.collect::<String>()
+        );
+        fs::write(folder.path().join("it.toml"), text).unwrap();
+        let mut command = liftsim();
+        command.current_dir(folder.path());
+        let (code, _, progress) = outcome(command.args(["sweep", "it.toml", "--json"]));
+        assert_eq!(code, 0, "{progress}");
+        let points = fs::read_to_string(folder.path().join("results/it/points.csv")).unwrap();
+        (progress.contains("\"total\":0,"), points)
+    };
+    let (_, all) = swept("[0.0, 0.5, 1.0]", &["0.1", "0.2", "0.3"]);
+    for (values, curves) in [
+        ("[0.0, 0.5, 1.0]", &["0.1", "0.3"][..]),
+        ("[0.0, 1.0]", &["0.1", "0.3"]),
+    ] {
+        let (is_free, points) = swept(values, curves);
+        assert!(is_free);
+        // All but the number of the curve.
+        let cells = |line: &str| line.split_once(',').unwrap().1.to_owned();
+        let known: Vec<String> = all.lines().map(cells).collect();
+        assert!(
+            points.lines().all(|line| known.contains(&cells(line))),
+            "{points}"
+        );
+    }
+}

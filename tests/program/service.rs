@@ -48,6 +48,29 @@ fn the_heart_beats_while_the_sensor_is_silent() {
     assert!(monitor.wait().unwrap().success());
 }
 
+/// Readings count as they come, also while the rate is still being measured from them; and where nobody reads the lines,
+/// the heart ends the monitor though the sensor goes on.
+#[test]
+fn the_heart_sees_every_reading_and_the_reader() {
+    let mut monitor = Command::new(env!("CARGO_BIN_EXE_liftsim"))
+        .args(["monitor", "--heartbeat", "0.1"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut sensor = monitor.stdin.take().unwrap();
+    for number in 0..60 {
+        writeln!(sensor, "{},0.0{}", f64::from(number) * 0.02, number % 7).unwrap();
+    }
+    sensor.flush().unwrap();
+    let mut lines = BufReader::new(monitor.stdout.take().unwrap()).lines();
+    let all = lines.find(|line| line.as_ref().unwrap().contains("\"readings\":60"));
+    assert!(all.is_some());
+    drop(lines);
+    assert!(monitor.wait().unwrap().success());
+    drop(sensor);
+}
+
 /// What systemd would start runs, with a sensor at a real pipe.
 #[cfg(unix)]
 #[test]

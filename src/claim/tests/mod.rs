@@ -8,6 +8,7 @@ use crate::stats::tally::Tally;
 
 mod contrast;
 mod false_alarm;
+mod further;
 mod growth;
 
 const MARGIN: f64 = 0.005;

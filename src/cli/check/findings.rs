@@ -6,6 +6,7 @@ use liftsim::format::eight_digits;
 use liftsim::gate::{self, EXCESS, FAMILY_LEVEL, Finding, Verdict};
 use quick_xml::escape::escape;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
 /// How findings are printed.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
@@ -127,11 +128,45 @@ impl Report<'_> {
         }
     }
 
+    /// The scenario with what tells it from others of its name, in one line.
+    fn full_name(&self, at: usize) -> String {
+        let name = self.names[at].replace(
+            |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'),
+            " ",
+        );
+        match &self.regions {
+            Some(regions) => {
+                let (rule, nominal) = (&regions[at].0, eight_digits(self.findings[at].nominal));
+                format!("{name}, {rule}, alpha {nominal}")
+            }
+            None => name,
+        }
+    }
+
+    /// Every scenario by its full name, and what was found. Names that are there again are numbered, since a test runner
+    /// takes equal ones for one.
+    fn named(&self) -> impl Iterator<Item = (String, &Finding)> {
+        let mut times: BTreeMap<String, usize> = BTreeMap::new();
+        let names = (0..self.names.len()).map(move |at| {
+            let name = self.full_name(at);
+            let times = times.entry(name.clone()).or_default();
+            *times += 1;
+            if *times == 1 {
+                name
+            } else {
+                format!("{name} ({times})")
+            }
+        });
+        names.zip(self.findings)
+    }
+
     fn json(&self) -> Value {
-        let scenarios = self.names.iter().zip(self.findings).map(|(scenario, of)| {
+        let scenarios = self.findings.iter().enumerate().map(|(at, of)| {
             let (low, high) = of.tally.interval(self.confidence);
+            let region = self.regions.as_ref().map(|regions| &regions[at]);
             json!({
-                "scenario": scenario, "verdict": name(of.verdict), "nominal": of.nominal,
+                "scenario": self.names[at], "rule": region.map(|region| &region.0),
+                "size": region.and_then(|region| region.1), "verdict": name(of.verdict), "nominal": of.nominal,
                 "cases": of.tally.trials, "false_alarms": of.tally.hits, "rate": of.tally.rate(),
                 "low": low, "high": high, "p": of.p_value, "power": of.power,
             })
@@ -167,7 +202,7 @@ impl Report<'_> {
             self.count(Verdict::Fail),
             self.count(Verdict::Inconclusive),
         );
-        for (scenario, of) in self.names.iter().zip(self.findings) {
+        for (scenario, of) in self.named() {
             let words = self.words(of);
             let words = escape(&*words);
             let outcome = match of.verdict {
@@ -187,13 +222,13 @@ impl Report<'_> {
 
     fn annotations(&self) -> String {
         let mut text = String::new();
-        for (scenario, of) in self.names.iter().zip(self.findings) {
+        for (scenario, of) in self.named() {
             let (kind, problem) = match of.verdict {
                 Verdict::Pass => continue,
                 Verdict::Inconclusive => ("warning", "too few to tell"),
                 Verdict::Fail => ("error", "too many false alarms"),
             };
-            let scenario = scenario.replace(['\r', '\n'], " ").replace('%', "%25");
+            let scenario = scenario.replace('%', "%25");
             text += &format!(
                 "::{kind} title=liftsim check::{scenario}: {problem}, {}\n",
                 self.words(of)

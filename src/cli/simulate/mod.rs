@@ -168,7 +168,7 @@ impl Simulate {
         let Some(path) = &self.config else {
             return made(&flags);
         };
-        let source = Source::load(path).map_err(Failure::input)?;
+        let source = Source::find(path, "simulate").map_err(Failure::input)?;
         let tree = source.parse().map_err(Failure::input)?;
         let config: Settings = source.read(&tree, "").map_err(Failure::input)?;
         let settings = flags.clone().over(config);

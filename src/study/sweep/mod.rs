@@ -1,7 +1,7 @@
 //! `[axis]`: how often each point of each curve decides for H₁, along an axis.
 
-mod each;
 mod labels;
+mod outcomes;
 pub(super) mod picture;
 mod tally;
 mod targets;
@@ -19,7 +19,7 @@ use crate::run::{Identity, StudyError, Trials};
 use crate::scenario::{PARAMETERS, Sections};
 use crate::stats::tally::Tally;
 use crate::study::kind::{Context, Study, counted};
-pub use each::Trials as EachTrial;
+pub use outcomes::TrialOutcomes;
 use schemars::SchemaGenerator;
 use serde_json::Value;
 pub use targets::Sweep;

@@ -66,7 +66,7 @@ pub fn plot(
     plot.set_caption(&labels::caption(&all, common, axis.parameter, seed));
     if points(&groups).any(|point| point.limit.is_some()) {
         let arrows = "arrows: upper limits where no trial gave a false alarm";
-        plot.caption.push(arrows.to_owned());
+        plot.caption.push(vec![arrows.to_owned()]);
     }
     for (panel, group) in groups.into_iter().enumerate() {
         add_panel(&mut plot, panel, group, level, axis.is_named());

@@ -11,7 +11,7 @@ use std::ops::Range;
 
 /// The outcomes of consecutive trials of one point.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Trials {
+pub struct TrialOutcomes {
     /// W.
     pub rank_sums: Vec<u64>,
     /// T, or T′ where the config counts those of all of the motion.
@@ -26,12 +26,12 @@ impl Sweep {
     ///
     /// # Errors
     /// If a pilot shows no decision.
-    pub fn each(
+    pub fn trial_outcomes(
         &self,
         places: &[usize],
         trials: &Range<u64>,
         progress: &dyn Progress,
-    ) -> Result<Vec<Trials>, StudyError> {
+    ) -> Result<Vec<TrialOutcomes>, StudyError> {
         let plan = &self.plan;
         let points: Vec<Point> = places.iter().map(|&at| plan.points[at].clone()).collect();
         let pilots = Pilots::new(&points, plan.pilot, plan.seed)?;
@@ -42,15 +42,18 @@ impl Sweep {
         let schedule = plan.schedule_of(places);
         let length = trials.end - trials.start;
         progress.begin("trials", length * points.len() as u64, length);
-        let mut all = vec![Trials::default(); points.len()];
-        for (number, family) in schedule.families.iter().enumerate() {
-            let blocks = (0..length.div_ceil(BLOCK)).into_par_iter().map(|block| {
-                let first = trials.start + block * BLOCK;
+        let mut all = vec![TrialOutcomes::default(); points.len()];
+        let firsts: Vec<u64> = trials.clone().step_by(BLOCK as usize).collect();
+        let parts = schedule.families.iter().enumerate();
+        for ((number, family), firsts) in
+            parts.flat_map(|of| firsts.chunks(AT_ONCE).map(move |at| (of, at)))
+        {
+            let blocks = firsts.par_iter().map(|&first| {
                 let block = first..trials.end.min(first + BLOCK);
                 let mut watched = Watched {
                     points: &points,
                     decisions: &decisions,
-                    seen: vec![Trials::default(); points.len()],
+                    seen: vec![TrialOutcomes::default(); points.len()],
                 };
                 let work = (block.end - block.start) * family.points_per_trial() as u64;
                 schedule.run_block(number, block, &mut watched);
@@ -70,11 +73,14 @@ impl Sweep {
     }
 }
 
+/// Blocks of trials whose outcomes wait to be put together.
+const AT_ONCE: usize = 64;
+
 /// Keeps the outcomes of each point.
 struct Watched<'a> {
     points: &'a [Point],
     decisions: &'a [Decision],
-    seen: Vec<Trials>,
+    seen: Vec<TrialOutcomes>,
 }
 
 impl View for Watched<'_> {

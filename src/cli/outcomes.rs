@@ -1,18 +1,22 @@
 //! What every single trial gave, for other tools: a table of one point, or arrays of all.
 
-use super::Failure;
 use super::output::Output;
-use super::progress::{Reporter, each};
+use super::progress::{Reporter, trial_outcomes};
+use super::{Failure, print_to};
 use anyhow::anyhow;
 use liftsim::experiment::{Experiment, SWEEP, SweepConfig};
 use liftsim::npz::Archive;
 use liftsim::stats::tally::MOST_TRIALS;
 use liftsim::study::Sweep;
+use std::io;
 use std::ops::Range;
 use std::path::Path;
 
-/// The most trials of points that are kept in memory at once, 13 bytes each.
-const MOST: u64 = 200_000_000;
+/// Trials that are printed at once.
+const AT_ONCE: usize = 1 << 20;
+
+/// The most trials of points that are kept in memory, 13 bytes each.
+const MOST: u64 = 50_000_000;
 
 /// The trials `A..B` of a flag.
 pub fn range(text: &str) -> Result<Range<u64>, String> {
@@ -26,22 +30,31 @@ pub fn range(text: &str) -> Result<Range<u64>, String> {
     }
 }
 
-/// The outcomes of one point as CSV.
-pub fn table(
+/// Prints the outcomes of one point as CSV, as long as anybody reads it.
+pub fn print_table(
     config: SweepConfig,
     point: usize,
-    trials: &Range<u64>,
+    trials: Range<u64>,
     reporter: &Reporter,
-) -> Result<String, Failure> {
-    check("--trials", trials.end - trials.start)?;
+) -> Result<(), Failure> {
     let sweep = Sweep::new(config).map_err(Failure::input)?;
-    let outcomes = each(&sweep, &[point], trials, reporter)?.remove(0);
-    let mut text = "trial,rank_sum,exceedances,h1\n".to_owned();
-    let rows = outcomes.rank_sums.iter().zip(&outcomes.exceedances);
-    for (trial, ((rank_sum, exceedances), h1)) in trials.clone().zip(rows.zip(&outcomes.h1)) {
-        text += &format!("{trial},{rank_sum},{exceedances},{}\n", u8::from(*h1));
+    let mut out = io::stdout().lock();
+    let mut is_read = print_to(&mut out, "trial,rank_sum,exceedances,h1\n")?;
+    for first in trials.clone().step_by(AT_ONCE) {
+        if !is_read {
+            break;
+        }
+        let part = first..trials.end.min(first + AT_ONCE as u64);
+        let outcomes = trial_outcomes(&sweep, &[point], &part, reporter)?.remove(0);
+        let mut text = String::new();
+        for (at, trial) in part.enumerate() {
+            let (rank_sum, exceedances) = (outcomes.rank_sums[at], outcomes.exceedances[at]);
+            let h1 = u8::from(outcomes.h1[at]);
+            text += &format!("{trial},{rank_sum},{exceedances},{h1}\n");
+        }
+        is_read = print_to(&mut out, &text)?;
     }
-    Ok(text)
+    Ok(())
 }
 
 /// The file of `--save-trials`, and what it is of.
@@ -63,10 +76,13 @@ impl SavedTrials {
         let config = SweepConfig::new(experiment).map_err(Failure::input)?;
         let sweep = Sweep::new(config).map_err(Failure::input)?;
         let points = sweep.plan.points.len() as u64;
-        check(
-            "--save-trials",
-            sweep.plan.schedule.trials.saturating_mul(points),
-        )?;
+        let outcomes = sweep.plan.schedule.trials.saturating_mul(points);
+        if outcomes > MOST {
+            return Err(Failure::Input(anyhow!(
+                "--save-trials: {outcomes} trials of points are more than the {MOST} that are kept in memory (lower \
+                 --trials)"
+            )));
+        }
         Ok(Self { file, sweep })
     }
 
@@ -74,7 +90,7 @@ impl SavedTrials {
     pub fn write(self, reporter: &Reporter) -> Result<String, Failure> {
         let plan = &self.sweep.plan;
         let all: Vec<usize> = (0..plan.points.len()).collect();
-        let outcomes = each(&self.sweep, &all, &(0..plan.schedule.trials), reporter)?;
+        let outcomes = trial_outcomes(&self.sweep, &all, &(0..plan.schedule.trials), reporter)?;
         let name = self.file.path().display().to_string();
         let written = self.file.write_with(|out| {
             let mut archive = Archive::new(out);
@@ -86,13 +102,4 @@ impl SavedTrials {
         written?.publish()?;
         Ok(name)
     }
-}
-
-fn check(flag: &str, outcomes: u64) -> Result<(), Failure> {
-    if outcomes > MOST {
-        return Err(Failure::Input(anyhow!(
-            "{flag}: {outcomes} outcomes are more than the {MOST} that are kept at once (ask for fewer trials)"
-        )));
-    }
-    Ok(())
 }
