@@ -32,12 +32,11 @@ pub fn range(text: &str) -> Result<Range<u64>, String> {
 
 /// Prints the outcomes of one point as CSV, as long as anybody reads it.
 pub fn print_table(
-    config: SweepConfig,
+    sweep: &Sweep,
     point: usize,
     trials: Range<u64>,
     reporter: &Reporter,
 ) -> Result<(), Failure> {
-    let sweep = Sweep::new(config).map_err(Failure::input)?;
     let mut out = io::stdout().lock();
     let mut is_read = print_to(&mut out, "trial,rank_sum,exceedances,h1\n")?;
     for first in trials.clone().step_by(AT_ONCE) {
@@ -45,7 +44,7 @@ pub fn print_table(
             break;
         }
         let part = first..trials.end.min(first + AT_ONCE as u64);
-        let outcomes = trial_outcomes(&sweep, &[point], &part, reporter)?.remove(0);
+        let outcomes = trial_outcomes(sweep, &[point], &part, reporter)?.remove(0);
         let mut text = String::new();
         for (at, trial) in part.enumerate() {
             let (rank_sum, exceedances) = (outcomes.rank_sums[at], outcomes.exceedances[at]);
@@ -66,7 +65,7 @@ pub struct SavedTrials {
 impl SavedTrials {
     /// Refuses what cannot be saved.
     pub fn new(path: &Path, replaces: bool, experiment: Experiment) -> Result<Self, Failure> {
-        let file = Output::with_end("--save-trials", path, replaces, "npz")?;
+        let file = Output::named(path, replaces, "--save-trials", &["npz"])?;
         if experiment.study() != SWEEP {
             return Err(Failure::Input(anyhow!(
                 "--save-trials: [{}] has no W and T (leave it out)",

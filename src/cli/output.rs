@@ -3,7 +3,7 @@
 
 use super::Failure;
 use anyhow::anyhow;
-use liftsim::figure::render;
+use liftsim::figure::{self, DPI, Kind};
 use liftsim::files::Draft;
 use liftsim::format::shorten;
 use liftsim::plot::Plot;
@@ -84,12 +84,8 @@ impl Output {
         Self::named(path, replaces, "--report", &["html", "htm"])
     }
 
-    /// The same for a file with this end.
-    pub fn with_end(flag: &str, path: &Path, replaces: bool, end: &str) -> Result<Self, Failure> {
-        Self::named(path, replaces, flag, &[end])
-    }
-
-    fn named(path: &Path, replaces: bool, flag: &str, ends: &[&str]) -> Result<Self, Failure> {
+    /// The same for a file of a flag, whose name must end in one of these.
+    pub fn named(path: &Path, replaces: bool, flag: &str, ends: &[&str]) -> Result<Self, Failure> {
         let end = path.extension();
         if end.is_some_and(|end| ends.iter().any(|it| end == *it)) {
             return Self::new(path, replaces);
@@ -136,12 +132,14 @@ impl Output {
     /// Writes a picture in the kind that the name says; `origin` says what it was made from.
     pub fn draw(self, plot: &Plot, origin: &str) -> Result<Ready, Failure> {
         let provenance = format!("liftsim {}, {origin}", env!("CARGO_PKG_VERSION"));
-        let drawing = render(plot, &provenance).map_err(Failure::run)?;
-        if self.path.extension().is_some_and(|e| e == "svg") {
-            self.write(&drawing.svg)
-        } else {
-            self.write(&drawing.png)
-        }
+        self.draw_at(plot, &provenance, DPI)
+    }
+
+    /// The same with dots per inch of a PNG; `provenance` says what made the picture.
+    pub fn draw_at(self, plot: &Plot, provenance: &str, dpi: u32) -> Result<Ready, Failure> {
+        let kind = Kind::of(&self.path, dpi).expect("the name was checked");
+        let bytes = figure::file(plot, provenance, kind).map_err(Failure::run)?;
+        self.write(&bytes)
     }
 
     /// Writes what `content` writes.

@@ -3,9 +3,8 @@
 use super::output::Output;
 use super::store::{line, store, stored};
 use super::{CommandResult, Failure, print};
-use anyhow::anyhow;
 use clap::Args;
-use liftsim::figure::{self, Kind};
+use liftsim::figure;
 use liftsim::plot::WIDTH;
 use liftsim::results::Directory;
 use liftsim::run::DrawError;
@@ -43,6 +42,9 @@ pub struct Plot {
     force: bool,
 }
 
+/// How the name of a figure may end.
+const KINDS: [&str; 3] = ["pdf", "svg", "png"];
+
 /// Points in a millimetre.
 const POINTS: f64 = 72.0 / 25.4;
 
@@ -50,7 +52,7 @@ impl Plot {
     /// Runs the command.
     pub fn run(self) -> CommandResult {
         let file = match &self.figure {
-            Some(path) => Some((self.kind(path)?, Output::new(path, self.force)?)),
+            Some(path) => Some(Output::named(path, self.force, "--figure", &KINDS)?),
             None => None,
         };
         let directory = Directory::new(self.directory.clone());
@@ -66,12 +68,10 @@ impl Plot {
             DrawError::Rows(error) => Failure::input(directory.damaged_points(error)),
             DrawError::Figure(error) => Failure::run(error),
         };
-        if let Some((kind, file)) = file {
-            let plot = study.plot(&points, &manifest).map_err(undrawn)?;
-            let plot = self.changed(plot);
-            let bytes = figure::file(&plot, &manifest.provenance(), kind);
+        if let Some(file) = file {
+            let plot = self.changed(study.plot(&points, &manifest).map_err(undrawn)?);
             let path = file.path().display().to_string();
-            file.write(&bytes.map_err(Failure::run)?)?.publish()?;
+            (file.draw_at(&plot, &manifest.provenance(), self.dpi)?).publish()?;
             print(&format!("{path}  written\n"))?;
             return Ok(ExitCode::SUCCESS);
         }
@@ -84,18 +84,6 @@ impl Plot {
             .write("run.json", &manifest.to_json())
             .map_err(Failure::run)?;
         Ok(ExitCode::SUCCESS)
-    }
-
-    fn kind(&self, path: &std::path::Path) -> Result<Kind, Failure> {
-        match path.extension().and_then(|end| end.to_str()) {
-            Some("png") => Ok(Kind::Png(self.dpi)),
-            Some("svg") => Ok(Kind::Svg),
-            Some("pdf") => Ok(Kind::Pdf),
-            _ => Err(Failure::Input(anyhow!(
-                "--figure must end in .pdf, .svg or .png, got {}",
-                path.display()
-            ))),
-        }
     }
 
     /// The plot as the flags want it.

@@ -9,8 +9,8 @@ use liftsim::chain::{Decision, Replay};
 use liftsim::detect::Samples;
 use liftsim::experiment::SweepConfig;
 use liftsim::pilot::Pilots;
-use liftsim::plan::Plan;
 use liftsim::stats::tally::MOST_TRIALS;
+use liftsim::study::Sweep;
 use std::fmt::Write;
 use std::ops::Range;
 use std::process::ExitCode;
@@ -50,7 +50,8 @@ impl ReplayCommand {
     pub fn run(self, quiet: bool) -> CommandResult {
         let config = SweepConfig::new(self.simulation.config()?).map_err(Failure::input)?;
         self.simulation.start_threads()?;
-        let plan = Plan::new(&config).map_err(Failure::input)?;
+        let sweep = Sweep::new(config).map_err(Failure::input)?;
+        let plan = &sweep.plan;
         let points = plan.points.len();
         if self.point > points as u64 {
             return Err(Failure::Input(anyhow!(
@@ -61,7 +62,7 @@ impl ReplayCommand {
         let point = self.point as usize - 1;
         if let Some(trials) = &self.trials {
             let reporter = Reporter::new(quiet, &self.progress, "");
-            outcomes::print_table(config, point, trials.clone(), &reporter)?;
+            outcomes::print_table(&sweep, point, trials.clone(), &reporter)?;
             return Ok(ExitCode::SUCCESS);
         }
         let trial = self.trial.expect("one of both is given");

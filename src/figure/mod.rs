@@ -15,7 +15,8 @@ pub mod vibration;
 
 pub use error::FigureError;
 
-use crate::plot::{Plot, layout};
+use crate::plot::{Canvas, Plot, layout};
+use std::path::Path;
 
 /// Dots per inch of a PNG unless others are asked for.
 pub const DPI: u32 = 300;
@@ -36,8 +37,8 @@ pub struct Drawing {
 pub fn render(plot: &Plot, provenance: &str) -> Result<Drawing, FigureError> {
     let canvas = layout(plot)?;
     Ok(Drawing {
-        png: raster::png(&canvas, provenance, DPI)?,
-        svg: svg::svg(&canvas, provenance).into_bytes(),
+        png: drawn(&canvas, provenance, Kind::Png(DPI))?,
+        svg: drawn(&canvas, provenance, Kind::Svg)?,
     })
 }
 
@@ -50,16 +51,31 @@ pub enum Kind {
     Pdf,
 }
 
+impl Kind {
+    /// What the end of a file's name says; a PNG has so many dots per inch.
+    pub fn of(path: &Path, dpi: u32) -> Option<Self> {
+        match path.extension()?.to_str()? {
+            "png" => Some(Self::Png(dpi)),
+            "svg" => Some(Self::Svg),
+            "pdf" => Some(Self::Pdf),
+            _ => None,
+        }
+    }
+}
+
 /// Draws a plot as a file of some kind.
 ///
 /// # Errors
 /// Where it does not fit on a sheet, or drawing fails.
 pub fn file(plot: &Plot, provenance: &str, kind: Kind) -> Result<Vec<u8>, FigureError> {
-    let canvas = layout(plot)?;
+    drawn(&layout(plot)?, provenance, kind)
+}
+
+fn drawn(canvas: &Canvas, provenance: &str, kind: Kind) -> Result<Vec<u8>, FigureError> {
     match kind {
-        Kind::Png(dpi) => raster::png(&canvas, provenance, dpi),
-        Kind::Svg => Ok(svg::svg(&canvas, provenance).into_bytes()),
-        Kind::Pdf => pdf(&svg::svg(&canvas, provenance)),
+        Kind::Png(dpi) => raster::png(canvas, provenance, dpi),
+        Kind::Svg => Ok(svg::svg(canvas, provenance).into_bytes()),
+        Kind::Pdf => pdf(&svg::svg(canvas, provenance)),
     }
 }
 
