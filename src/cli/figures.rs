@@ -1,5 +1,6 @@
 //! `liftsim figures`: every config's results, and the report on all of them.
 
+use super::figure::{FigureFlags, folder, redraw};
 use super::progress::{self, Progress, Reporter};
 use super::{CommandResult, Failure, print, say, store, sweep, table};
 use anyhow::anyhow;
@@ -39,6 +40,8 @@ pub struct Figures {
     #[arg(long)]
     fresh: bool,
     #[command(flatten)]
+    figure: FigureFlags,
+    #[command(flatten)]
     progress: Progress,
 }
 
@@ -65,7 +68,13 @@ impl Figures {
         let (mut lines, mut done) = (Vec::new(), 0);
         for (entry, session) in chosen.iter().zip(sessions) {
             let Some(session) = session else {
-                lines.push(vec![entry.name.clone(), "skipped".into(), "0.0".into()]);
+                let note = if self.figure.redraws(&entry.loaded, &entry.directory) {
+                    redraw(&entry.loaded, &entry.directory)?;
+                    "redrawn"
+                } else {
+                    "skipped"
+                };
+                lines.push(vec![entry.name.clone(), note.into(), "0.0".into()]);
                 continue;
             };
             done += 1;
@@ -115,9 +124,11 @@ impl Figures {
         if let Some(trials) = self.trials {
             config.header.set_trials(trials);
         }
+        let mut loaded = Loaded::new(config).map_err(Failure::study)?;
+        self.figure.lay_over(&mut loaded, folder(path))?;
         Ok(Entry {
             name: name.to_owned(),
-            loaded: Loaded::new(config).map_err(Failure::study)?,
+            loaded,
             directory: Directory::new(self.results.join(name)),
         })
     }

@@ -1,5 +1,6 @@
 //! `liftsim merge DIR…`: merges shards into one result.
 
+use super::figure::FigureFlags;
 use super::store::stored;
 use super::{CommandResult, Failure, print, sweep};
 use clap::Args;
@@ -35,7 +36,12 @@ impl Merge {
         let merged = run::merge(&*loaded.study, &origin, &directories, Directory::new(&out));
         let (session, absent) = merged.map_err(failure)?;
         if session.missing().is_none() {
-            print(&sweep::finish(&loaded, session, None)?)?;
+            print(&sweep::finish(
+                &loaded,
+                session,
+                None,
+                &FigureFlags::default(),
+            )?)?;
             return Ok(ExitCode::SUCCESS);
         }
         print(&incomplete(&absent, &origin.command_line(), &out))?;

@@ -6,6 +6,7 @@ mod arguments;
 mod check;
 mod completions;
 mod detect;
+mod figure;
 mod figures;
 mod floors;
 mod found;

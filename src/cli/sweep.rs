@@ -1,5 +1,6 @@
 //! `liftsim sweep CONFIG`: counts or computes what a config describes, and writes results and figure.
 
+use super::figure::{FigureFlags, folder, redraw, told};
 use super::outcomes::SavedTrials;
 use super::progress::{self, Progress, Reporter};
 use super::store::{Written, line, manifest, store};
@@ -45,6 +46,8 @@ pub struct Sweep {
     #[arg(long, requires = "save_trials")]
     force: bool,
     #[command(flatten)]
+    figure: FigureFlags,
+    #[command(flatten)]
     progress: Progress,
 }
 
@@ -52,7 +55,9 @@ impl Sweep {
     /// Runs the command.
     pub fn run(self, quiet: bool) -> CommandResult {
         let experiment = self.counted.config()?;
-        let loaded = self.counted.simulation.plan(experiment.clone())?;
+        let mut loaded = self.counted.simulation.plan(experiment.clone())?;
+        self.figure
+            .lay_over(&mut loaded, folder(&self.counted.simulation.config))?;
         let saved = match &self.save_trials {
             Some(path) => Some(SavedTrials::new(path, self.force, experiment)?),
             None => None,
@@ -77,7 +82,7 @@ impl Sweep {
             .map_err(Failure::input)?;
         let reporter = Reporter::new(quiet, &self.progress, "");
         progress::work_off(&mut session, &reporter)?;
-        print(&finish(&loaded, session, self.shard)?)?;
+        print(&finish(&loaded, session, self.shard, &self.figure)?)?;
         if let Some(saved) = saved {
             print(&format!("{}  written\n", saved.write(&reporter)?))?;
         }
@@ -104,6 +109,7 @@ pub(super) fn finish(
     loaded: &Loaded,
     mut session: Session,
     shard: Option<Shard>,
+    figure: &FigureFlags,
 ) -> Result<String, Failure> {
     let directory = session.directory().clone();
     let what = match loaded.study.trials() {
@@ -119,7 +125,13 @@ pub(super) fn finish(
     }
     let done = if session.is_complete() {
         let place = directory.path().display();
-        format!("{what} are complete in {place}: nothing to simulate\n")
+        drop(session);
+        let drawn = if figure.redraws(loaded, &directory) {
+            redraw(loaded, &directory)?
+        } else {
+            String::new()
+        };
+        format!("{what} are complete in {place}: nothing to simulate\n{drawn}")
     } else {
         let (output, written) = write(loaded, session)?;
         let findings = match output.findings {
@@ -164,8 +176,8 @@ pub(super) fn write(loaded: &Loaded, mut session: Session) -> Result<(Output, Wr
     let drawing = loaded
         .draw(&output.points, &manifest)
         .map_err(Failure::run)?;
-    for (name, bytes) in drawing.files() {
-        put(name, bytes, &mut manifest)?;
+    for (name, bytes) in told(drawing) {
+        put(name, &bytes, &mut manifest)?;
     }
     let _lock = session.close();
     directory

@@ -1,6 +1,7 @@
 //! The keys at the top of every config.
 
 use crate::config::Conflict;
+use crate::plot::Options;
 use crate::rule::OutOfRange;
 use crate::stats::tally::{MOST_TRIALS, trials_for_half_width};
 use crate::values::{Level, bounded_f64};
@@ -36,6 +37,9 @@ pub struct Header {
     /// Whether only the points at rest are run.
     #[serde(default)]
     pub at_rest: bool,
+    /// How the figure is drawn.
+    #[serde(default)]
+    pub figure: Options,
 }
 
 bounded_f64! {

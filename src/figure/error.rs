@@ -1,12 +1,14 @@
 //! Why a picture could not be drawn.
 
-use crate::plot::LayoutError;
+use crate::plot::{LayoutError, OptionsError};
 
 /// Why a picture could not be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum FigureError {
     #[error(transparent)]
     Layout(#[from] LayoutError),
+    #[error(transparent)]
+    Options(#[from] OptionsError),
     /// In the words of the drawing library.
     #[error("figure: {0}")]
     Drawing(String),

@@ -1,4 +1,4 @@
-//! How a [`Plot`] becomes PNG at 300 dpi and SVG.
+//! How a [`Plot`] becomes a file: PNG, SVG with its text as outlines, PDF.
 //!
 //! `detection` and `track` are pictures of a recording; the picture of a study stands beside it.
 
@@ -15,31 +15,53 @@ pub mod vibration;
 
 pub use error::FigureError;
 
-use crate::plot::{Canvas, Plot, layout};
+use crate::plot::{Canvas, Format, Options, Plot, layout};
 use std::path::Path;
 
 /// Dots per inch of a PNG unless others are asked for.
 pub const DPI: u32 = 300;
 
-/// A picture in both its forms.
-#[derive(Clone, Debug)]
+/// A picture in its files.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
-    /// At 300 dpi, its provenance in text chunks.
-    pub png: Vec<u8>,
-    /// With its text as outlines, so that it looks the same without the font.
-    pub svg: Vec<u8>,
+    /// By the names they have among results.
+    pub files: Vec<(&'static str, Vec<u8>)>,
+    /// What the reader of the picture must be told.
+    pub notes: Vec<String>,
 }
 
-/// Draws a plot; `provenance`, written into both files, says what made them.
+impl Drawing {
+    /// The names that its files may have.
+    pub const NAMES: [&'static str; 4] = ["figure.png", "figure.svg", "figure.pdf", OVERLAY];
+}
+
+/// The name among results of the curves of one's own that lie over a picture.
+pub const OVERLAY: &str = "overlay.csv";
+
+/// Draws a plot in the kinds that the options name; `provenance`, written into the files, says what made them.
 ///
 /// # Errors
 /// Where it does not fit on a sheet, or drawing fails.
-pub fn render(plot: &Plot, provenance: &str) -> Result<Drawing, FigureError> {
+pub fn render(
+    plot: &Plot,
+    provenance: &str,
+    options: &Options,
+) -> Result<Vec<(&'static str, Vec<u8>)>, FigureError> {
     let canvas = layout(plot)?;
-    Ok(Drawing {
-        png: drawn(&canvas, provenance, Kind::Png(DPI))?,
-        svg: drawn(&canvas, provenance, Kind::Svg)?,
-    })
+    let dpi = options.dpi.map_or(DPI, |dpi| dpi.get() as u32);
+    let formats = match &options.format[..] {
+        [] => &[Format::Png, Format::Svg],
+        formats => formats,
+    };
+    let file = |format: &Format| {
+        let (name, kind) = match format {
+            Format::Png => ("figure.png", Kind::Png(dpi)),
+            Format::Svg => ("figure.svg", Kind::Svg),
+            Format::Pdf => ("figure.pdf", Kind::Pdf),
+        };
+        Ok((name, drawn(&canvas, provenance, kind)?))
+    };
+    formats.iter().map(file).collect()
 }
 
 /// A kind of file.
@@ -94,11 +116,4 @@ fn pdf(svg: &str) -> Result<Vec<u8>, FigureError> {
 /// Where it does not fit on a sheet.
 pub fn inline(plot: &Plot, label: &str) -> Result<String, FigureError> {
     Ok(svg::inline(&layout(plot)?, label))
-}
-
-impl Drawing {
-    /// Both forms by the names they have among results.
-    pub fn files(&self) -> [(&'static str, &[u8]); 2] {
-        [("figure.png", &self.png), ("figure.svg", &self.svg)]
-    }
 }

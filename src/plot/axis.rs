@@ -1,5 +1,6 @@
 //! Axes: from data to a share of a panel's width or height, with ticks and a label.
 
+use super::scale::Scale;
 use crate::format::minus;
 
 /// Values that span more than this are drawn on a logarithmic axis.
@@ -11,6 +12,8 @@ pub struct Axis {
     /// Data at the two ends.
     pub from: f64,
     pub to: f64,
+    /// None where names stand along it.
+    pub scale: Option<Scale>,
     /// Where ticks stand, and what they say.
     pub ticks: Vec<(f64, String)>,
     pub label: String,
@@ -19,10 +22,11 @@ pub struct Axis {
 impl Axis {
     /// Ticks where the caller wants them.
     pub fn new(from: f64, to: f64, ticks: Vec<(f64, String)>) -> Self {
-        let label = String::new();
+        let (label, scale) = (String::new(), Some(Scale::Linear));
         Self {
             from,
             to,
+            scale,
             ticks,
             label,
         }
@@ -77,7 +81,7 @@ impl Axis {
             .map(|value| (libm::log10(value), (value * 1e12).round() / 1e12))
             .filter(|(x, _)| (from - 1e-9..=to + 1e-9).contains(x))
             .map(|(x, value)| (x, value.to_string()));
-        Self::new(from, to, ticks.collect())
+        Self::new(from, to, ticks.collect()).on(Scale::Log)
     }
 
     /// Decimal logarithms, `from` to `to`, with ticks at some of the powers of ten, about `count`.
@@ -86,7 +90,7 @@ impl Axis {
         let step = ((to - from) / count as f64).ceil().max(1.0) as usize;
         let powers = (first..=last).rev().step_by(step);
         let ticks = powers.map(|power| (f64::from(power), power_of_ten(power)));
-        Self::new(from, to, ticks.collect())
+        Self::new(from, to, ticks.collect()).on(Scale::Log)
     }
 
     /// Decimal logarithms with as many ticks as there is room for.
@@ -102,12 +106,45 @@ impl Axis {
     pub fn names(names: Vec<String>) -> Self {
         let to = names.len() as f64 - 0.5;
         let ticks = (0..).map(f64::from).zip(names);
-        Self::new(-0.5, to, ticks.collect())
+        Self {
+            scale: None,
+            ..Self::new(-0.5, to, ticks.collect())
+        }
     }
 
-    /// Numbers, or their logarithms, with a little room on either side.
+    /// Places of a scale, `from` to `to`, with about so many ticks.
+    pub fn scaled(scale: Scale, from: f64, to: f64, count: usize) -> Self {
+        match scale {
+            Scale::Linear => Self::linear(from, to, count),
+            Scale::Log => Self::decades(from, to),
+            Scale::Probit => Self::probits(from, to),
+        }
+    }
+
+    /// Quantiles of the normal law, with ticks at the usual probabilities.
+    fn probits(from: f64, to: f64) -> Self {
+        const TAIL: [f64; 8] = [1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.05, 0.1, 0.2];
+        let low = TAIL.iter().map(|tail| (*tail, tail.to_string()));
+        // Said by subtraction in decimals: 0.999, not 0.9989999.
+        let high = TAIL.iter().rev().map(|tail| {
+            let decimals = tail.to_string().len() - 2;
+            (1.0 - tail, format!("{:.decimals$}", 1.0 - tail))
+        });
+        let all = low.chain([(0.5, "0.5".to_owned())]).chain(high);
+        let ticks = all.map(|(value, label)| (Scale::Probit.place(value), label));
+        let ticks = ticks.filter(|(place, _)| (from..=to).contains(place));
+        Self::new(from, to, ticks.collect()).on(Scale::Probit)
+    }
+
+    fn on(self, scale: Scale) -> Self {
+        let scale = Some(scale);
+        Self { scale, ..self }
+    }
+
+    /// Numbers, or their logarithms, with a little room on either side. Of a few whole numbers each has its tick.
     pub fn around(places: impl IntoIterator<Item = f64>, is_logarithmic: bool) -> Self {
-        let (low, high) = ends(places);
+        let mut places: Vec<f64> = places.into_iter().collect();
+        let (low, high) = ends(places.iter().copied());
         let room = 0.025 * (high - low);
         if low == high {
             return Self::single(low);
@@ -116,6 +153,20 @@ impl Axis {
             Self::logarithms(low, high)
         } else {
             Self::linear(low, high, 7)
+        };
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        let value = |place: &f64| axis.scale.unwrap_or(Scale::Linear).value(*place);
+        let value = |place: &f64| (value(place) * 1e9).round() / 1e9;
+        let are_few = places.len() <= FEW && places.iter().map(value).all(|it| it.fract() == 0.0);
+        let axis = if are_few {
+            let ticks = places.iter().map(|at| (*at, minus(&value(at).to_string())));
+            Self {
+                ticks: ticks.collect(),
+                ..axis
+            }
+        } else {
+            axis
         };
         axis.within(low - room, high + room)
     }
@@ -134,7 +185,11 @@ impl Axis {
     /// The same without words.
     pub fn unlabelled(&self) -> Self {
         let ticks = self.ticks.iter().map(|(at, _)| (*at, String::new()));
-        Self::new(self.from, self.to, ticks.collect())
+        Self {
+            ticks: ticks.collect(),
+            label: String::new(),
+            ..self.clone()
+        }
     }
 
     /// 0 at the start, 1 at the end.
@@ -142,6 +197,9 @@ impl Axis {
         (value - self.from) / (self.to - self.from)
     }
 }
+
+/// So many whole numbers have a tick each.
+const FEW: usize = 10;
 
 /// Of a tick: longer labels run over the edge of the sheet.
 const LONGEST_LABEL: usize = 8;

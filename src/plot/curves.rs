@@ -1,5 +1,6 @@
 //! Curves of rates with their intervals: lines in bands, or bars side by side at names.
 
+use super::axis::Axis;
 use super::mark::{Mark, Point};
 use super::picture::Plot;
 use super::style::Style;
@@ -11,21 +12,55 @@ pub struct Curve {
     pub points: Vec<Point>,
 }
 
-/// Lines in their bands, and markers over all of them. Bands and lines pass through limits only where `joined`.
+/// Lines in their bands, and markers over all of them. Bands and lines pass through limits only where `joined`. A curve
+/// that lies under others is wider, so that its edge is seen.
 pub fn add_bands(plot: &mut Plot, panel: usize, curves: &[Curve], joined: bool) {
-    for Curve { points, style } in curves {
+    let covers: Vec<usize> = (0..curves.len())
+        .map(|index| covers_of(&plot.panels[panel].y, &curves[index..]))
+        .collect();
+    let widened = |style: Style, covers: usize| {
+        let more = 1.8 * covers.min(3) as f64;
+        style
+            .wide(style.width + more)
+            .sized(style.size + 0.5 * more)
+    };
+    for (Curve { points, style }, covers) in curves.iter().zip(&covers) {
         let band = points
             .iter()
             .filter(|point| joined || point.limit.is_none());
         let band: Vec<Point> = band.copied().collect();
         let line = band.iter().map(Point::place).collect();
         plot.add(panel, Mark::Band(band, style.faded(0.18)));
-        plot.add(panel, Mark::Line(line, style.solid()));
+        plot.add(panel, Mark::Line(line, widened(style.solid(), *covers)));
     }
-    for Curve { points, style } in curves {
-        plot.add(panel, Mark::Markers(points.clone(), *style));
+    for (Curve { points, style }, covers) in curves.iter().zip(&covers) {
+        plot.add(
+            panel,
+            Mark::Markers(points.clone(), widened(*style, *covers)),
+        );
     }
 }
+
+/// How many of the later curves lie over nine tenths of the first and more.
+fn covers_of(y: &Axis, curves: &[Curve]) -> usize {
+    let [first, later @ ..] = curves else {
+        return 0;
+    };
+    if first.points.is_empty() {
+        return 0;
+    }
+    let covers = |curve: &&Curve| {
+        let near = |a: &&Point| {
+            let mut at = curve.points.iter().filter(|b| b.x == a.x);
+            at.any(|b| (y.share(a.y) - y.share(b.y)).abs() < NEAR)
+        };
+        10 * first.points.iter().filter(near).count() >= 9 * first.points.len()
+    };
+    later.iter().filter(covers).count()
+}
+
+/// Points so close, as a share of a panel's height, lie on each other.
+const NEAR: f64 = 0.008;
 
 /// Each interval as an upright bar, those of other curves beside it, and markers over all of them.
 pub fn add_bars(plot: &mut Plot, panel: usize, mut curves: Vec<Curve>) {

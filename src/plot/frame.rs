@@ -52,7 +52,7 @@ impl Frame<'_> {
 
     /// A line at each tick of y.
     pub fn draw_grid(&self, canvas: &mut Canvas) {
-        for y in self.panel.y.ticks.iter().map(|(y, _)| self.y(*y)) {
+        for y in self.ticks_up().map(|(y, _)| self.y(*y)) {
             canvas.line(&[(self.left, y), (self.right, y)], 0.4, GRID);
         }
     }
@@ -70,7 +70,7 @@ impl Frame<'_> {
             let at = at.min(self.sheet - half).max(half);
             canvas.text(label, (at, bottom + SMALL + 3.0), SMALL, Align::Centre);
         }
-        for (value, label) in &y.ticks {
+        for (value, label) in self.ticks_up() {
             let at = self.y(*value);
             canvas.line(&[(left, at), (left + TICK, at)], WIDTH, Colour::BLACK);
             canvas.text(label, (left - 4.0, at + 0.36 * SMALL), SMALL, Align::Right);
@@ -98,11 +98,32 @@ impl Frame<'_> {
         }
     }
 
-    /// The ticks whose words find room side by side: the first and every so many after it.
+    /// The ticks of x whose words find room side by side.
     fn spaced_ticks<'t>(&self, axis: &'t Axis) -> impl Iterator<Item = &'t (f64, String)> {
         let widths = axis.ticks.iter().map(|(_, label)| text_width(label, SMALL));
         let needed = widths.fold(0.0, f64::max) + 6.0;
-        let every = needed * axis.ticks.len() as f64 / (self.right - self.left);
-        axis.ticks.iter().step_by(every.ceil().max(1.0) as usize)
+        spaced(&axis.ticks, needed, |value| self.x(value))
     }
+
+    /// The ticks of y whose words find room over each other.
+    fn ticks_up(&self) -> impl Iterator<Item = &(f64, String)> {
+        spaced(&self.panel.y.ticks, SMALL + 1.0, |value| -self.y(value))
+    }
+}
+
+/// The first tick and every one that is as far as it needs from the one before.
+fn spaced<'t>(
+    ticks: &'t [(f64, String)],
+    needed: f64,
+    place: impl Fn(f64) -> f64,
+) -> impl Iterator<Item = &'t (f64, String)> {
+    let mut last = f64::NEG_INFINITY;
+    ticks.iter().filter(move |(value, _)| {
+        let at = place(*value);
+        let has_room = at >= last + needed - 0.01;
+        if has_room {
+            last = at;
+        }
+        has_room
+    })
 }

@@ -128,6 +128,9 @@ impl Plot {
                 let placed = column.at((frame.right - left, frame.top + down));
                 (!placed.covers(&self.covered(0, &frame))).then_some(placed)
             }
+            Place::Corner { is_right, is_low } => {
+                Some(column.at(column.corner_of(&self.frame(0, 0.0), is_right, is_low)))
+            }
             Place::Above | Place::Across => None,
         };
         let (over, under) = self.margins.legend;

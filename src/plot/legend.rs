@@ -36,6 +36,8 @@ pub enum Place {
     /// So many points left of the right edge of the first panel and below its upper edge; above where it
     /// would cover data.
     Inside(f64, f64),
+    /// This corner of the first panel, whatever lies there.
+    Corner { is_right: bool, is_low: bool },
     /// Above the panels.
     Above,
     /// Above the panels, as wide as a caption.

@@ -43,6 +43,24 @@ pub enum Mark {
     Block(Block),
 }
 
+impl Mark {
+    /// Its colours.
+    pub(super) fn colours(&mut self) -> Vec<&mut Colour> {
+        match self {
+            Self::Line(_, style)
+            | Self::Dense(_, style)
+            | Self::Band(_, style)
+            | Self::Bars(_, style)
+            | Self::Markers(_, style)
+            | Self::Points(_, style) => vec![&mut style.colour],
+            Self::Span(_, colour) | Self::Bar(.., colour) => vec![colour],
+            Self::Cells(cells) => cells.iter_mut().map(|cell| &mut cell.2).collect(),
+            Self::Block(block) => block.colour.iter_mut().collect(),
+            _ => Vec::new(),
+        }
+    }
+}
+
 /// An estimate with its interval; on a logarithmic scale, their logarithms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {

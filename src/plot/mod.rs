@@ -14,12 +14,16 @@ mod frame;
 mod layout;
 mod legend;
 mod mark;
+mod options;
+mod overlay;
 mod phases;
 mod picture;
 mod placed;
 mod resize;
+mod scale;
 mod style;
 mod text;
+mod window;
 
 pub use axis::{Axis, LONG_RANGE, ends, is_long, power_of_ten};
 pub use canvas::{Canvas, Shape, Text, rounded};
@@ -27,10 +31,15 @@ pub use curves::{Curve, add_bands, add_bars};
 pub use layout::{LayoutError, layout};
 pub use legend::{Entry, Key, Legend, Place};
 pub use mark::{Block, Cell, Limit, Mark, Point};
+pub use options::{ColourName, Dpi, Format, Height, LegendPlace, Options, OptionsError, Width};
+pub use overlay::{Overlay, OverlayError};
 pub use phases::{add_phases, hatch, phase_colour, phase_words};
 pub use picture::{Margins, Panel, Plot, WIDTH};
+pub use scale::Scale;
 pub use style::{Colour, Marker, Style};
 pub use text::{font, literal, text_width};
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_of_options;

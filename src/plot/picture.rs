@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::legend::{Entry, Legend, Place};
 use super::mark::Mark;
-use super::text::wrap;
+use super::text::{missing_glyphs, wrap};
 
 /// Width of a sheet unless another is asked for, in points.
 pub const WIDTH: f64 = 396.0;
@@ -124,6 +124,28 @@ impl Plot {
         let width = self.width - 2.0 * CAPTION_LEFT;
         let parts = self.caption.iter();
         parts.flat_map(|parts| wrap(parts, width)).collect()
+    }
+
+    /// The characters in its words that the font has no sign for.
+    pub(super) fn missing_glyphs(&self) -> Vec<char> {
+        let axes = self
+            .panels
+            .iter()
+            .flat_map(|panel| [Some(&panel.x), panel.top.as_ref(), Some(&panel.y)]);
+        let axes = axes.flatten().flat_map(|axis| {
+            let ticks = axis.ticks.iter().map(|(_, label)| label);
+            ticks.chain([&axis.label])
+        });
+        let titles = self.panels.iter().map(|panel| &panel.title);
+        let entries = self
+            .legend
+            .iter()
+            .flat_map(|it| it.entries.iter().map(|entry| &entry.text));
+        let words = axes
+            .chain(titles)
+            .chain(entries)
+            .chain(self.caption.iter().flatten());
+        missing_glyphs(words.map(String::as_str))
     }
 
     /// The marks of a panel.

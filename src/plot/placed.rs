@@ -64,13 +64,28 @@ impl<'a> Placed<'a> {
 
     /// In a corner of `frame` where it covers nothing of `data`, points on the sheet.
     pub fn in_corner(self, frame: &Frame, data: &[(f64, f64)]) -> Option<Self> {
-        let (left, right) = (frame.left + MARGIN, frame.right - MARGIN - self.width());
-        let (top, bottom) = (frame.top + MARGIN, frame.bottom - MARGIN - self.height());
-        [(right, bottom), (left, top), (right, top), (left, bottom)]
+        let (left, top) = self.corner_of(frame, false, false);
+        [(true, true), (false, false), (true, false), (false, true)]
             .into_iter()
+            .map(|(is_right, is_low)| self.corner_of(frame, is_right, is_low))
             .filter(|&(x, y)| x >= left && y >= top)
             .map(|corner| self.at(corner))
             .find(|legend| !legend.covers(data))
+    }
+
+    /// Where it begins in this corner of `frame`.
+    pub fn corner_of(&self, frame: &Frame, is_right: bool, is_low: bool) -> (f64, f64) {
+        let x = if is_right {
+            frame.right - MARGIN - self.width()
+        } else {
+            frame.left + MARGIN
+        };
+        let y = if is_low {
+            frame.bottom - MARGIN - self.height()
+        } else {
+            frame.top + MARGIN
+        };
+        (x, y)
     }
 
     /// Whether any of `data` lies under it, or close to it.

@@ -49,16 +49,20 @@ impl Colour {
 }
 
 impl Style {
-    /// The style of curve `index`: colours that remain apart for colour-blind readers (Okabe and Ito),
-    /// and markers that shift against them, so that 36 curves differ.
+    /// So many colours are used in turn.
+    pub const COLOURS: usize = 6;
+
+    /// The style of curve `index`: colours that remain apart for colour-blind readers, each with a contrast of at
+    /// least 3 on white (the darker four of Okabe and Ito, brown and navy), and markers that shift against them, so
+    /// that 36 curves differ.
     pub const fn of(index: usize) -> Self {
-        const COLOURS: [Colour; 6] = [
+        const COLOURS: [Colour; Style::COLOURS] = [
             Colour::new(0, 114, 178),
             Colour::new(213, 94, 0),
             Colour::new(0, 158, 115),
             Colour::new(204, 121, 167),
-            Colour::new(230, 159, 0),
-            Colour::new(86, 180, 233),
+            Colour::new(120, 70, 0),
+            Colour::new(0, 45, 98),
         ];
         const MARKERS: [Marker; 6] = [
             Marker::Disc,
@@ -103,5 +107,28 @@ impl Style {
     /// Markers of this half-width.
     pub const fn sized(self, size: f64) -> Self {
         Self { size, ..self }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// (L₁ + 0.05)/(L₂ + 0.05) of WCAG 2, relative luminance by its definition for sRGB.
+    #[test]
+    fn colours_stand_out_on_white() {
+        let linear = |part: u8| {
+            let part = f64::from(part) / 255.0;
+            if part <= 0.04045 {
+                part / 12.92
+            } else {
+                libm::pow((part + 0.055) / 1.055, 2.4)
+            }
+        };
+        for index in 0..Style::COLOURS {
+            let [red, green, blue] = Style::of(index).colour.rgb.map(linear);
+            let contrast = 1.05 / (0.2126 * red + 0.7152 * green + 0.0722 * blue + 0.05);
+            assert!(contrast >= 3.0, "colour {index}: {contrast}");
+        }
     }
 }

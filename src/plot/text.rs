@@ -2,6 +2,7 @@
 //! subscript.
 
 use ab_glyph::{Font, FontRef, ScaleFont};
+use std::collections::BTreeSet;
 
 /// Em size of tick labels, legends and names.
 pub const SMALL: f64 = 8.0;
@@ -25,6 +26,16 @@ pub(super) struct Run {
 /// The embedded font.
 pub fn font() -> FontRef<'static> {
     FontRef::try_from_slice(dejavu::sans::regular()).expect("the embedded font is a font")
+}
+
+/// The characters that the font has no sign for, in order.
+pub(super) fn missing_glyphs<'t>(texts: impl Iterator<Item = &'t str>) -> Vec<char> {
+    let font = font();
+    let all = texts
+        .flat_map(str::chars)
+        .filter(|c| *c != UNDERSCORE && !c.is_control());
+    let missing: BTreeSet<char> = all.filter(|c| font.glyph_id(*c).0 == 0).collect();
+    missing.into_iter().collect()
 }
 
 /// Text in which an underscore is an underscore.

@@ -1,6 +1,7 @@
 //! The directory of one experiment: its files, what may replace them, and how they are written.
 
 use super::{Checkpoint, Comparison, Manifest, Origin, Quantity, ResultsError, sha256};
+use crate::figure::OVERLAY;
 use crate::files;
 use serde::de::DeserializeOwned;
 use std::io;
@@ -18,12 +19,14 @@ const COMPARISONS: &str = "comparisons.csv";
 const QUANTITIES: &str = "quantities.csv";
 const COUNTS: &str = "counts.json";
 /// The files that a run may write beside its manifest.
-const FILES: [&str; 6] = [
+const FILES: [&str; 8] = [
     POINTS,
     COMPARISONS,
     QUANTITIES,
     "figure.png",
     "figure.svg",
+    "figure.pdf",
+    OVERLAY,
     COUNTS,
 ];
 
@@ -175,6 +178,15 @@ impl Directory {
     /// If it is missing or changed.
     pub fn points(&self, manifest: &Manifest) -> Result<Vec<u8>, ResultsError> {
         self.vouched(POINTS, manifest)
+    }
+
+    /// The curves of one's own that lie over the figure, which must have the hash listed in `manifest`.
+    ///
+    /// # Errors
+    /// If they are missing or changed.
+    pub fn overlay(&self, manifest: &Manifest) -> Result<String, ResultsError> {
+        let bytes = self.vouched(OVERLAY, manifest)?;
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 
     /// The error for a `points.csv` that cannot be parsed.

@@ -4,8 +4,8 @@ use super::kind::{Context, Study};
 use crate::claim::{Evidence, Narrative, Scope};
 use crate::counts::Counts;
 use crate::experiment::Experiment;
-use crate::figure::{Drawing, render};
-use crate::plot::{Plot, layout};
+use crate::figure::{Drawing, FigureError, OVERLAY, render};
+use crate::plot::{Options, Overlay, OverlayError, Plot, layout};
 use crate::report::Section;
 use crate::results::{Comparison, Directory, Manifest, Origin, RESULTS, ResultsError, file_name};
 use crate::run::{AnyStudy, DrawError, Output, StudyError};
@@ -22,6 +22,10 @@ pub struct Loaded {
     pub confidence: f64,
     /// How many points there are, in words.
     pub points: String,
+    /// How its figure is drawn.
+    pub figure: Options,
+    /// The curves of one's own that lie over the figure, and their text.
+    overlay: Option<(Overlay, String)>,
     scope: Scope,
     narrative: Narrative,
 }
@@ -41,7 +45,23 @@ impl Loaded {
             origin: origin(config, context.trials),
             question: config.header.question.clone(),
             confidence: context.confidence,
+            figure: config.header.figure.clone(),
+            overlay: None,
         })
+    }
+
+    /// Lays curves of one's own over the figure, a table as text.
+    ///
+    /// # Errors
+    /// If it is no such table.
+    pub fn set_overlay(&mut self, text: String) -> Result<(), OverlayError> {
+        self.overlay = Some((Overlay::parse(&text)?, text));
+        Ok(())
+    }
+
+    /// The text of the curves of one's own.
+    pub fn overlay(&self) -> Option<&str> {
+        self.overlay.as_ref().map(|(_, text)| &text[..])
     }
 
     /// Judges the claims, fills the text and lays out the picture once on empty counts. This shows, before
@@ -56,7 +76,8 @@ impl Loaded {
         }
         let output = self.study.output(&Counts::default())?;
         self.judge(&output)?;
-        layout(&self.study.plot(&output.points, self.origin.seed)?)?;
+        let (plot, _) = self.plot(&output.points)?;
+        layout(&plot)?;
         Ok(())
     }
 
@@ -85,12 +106,15 @@ impl Loaded {
         trials.check(&counts)
     }
 
-    /// The picture of `points.csv`.
+    /// The picture of `points.csv` as the options want it, and what its reader must be told.
     ///
     /// # Errors
-    /// If the bytes do not belong to the study.
-    pub fn plot(&self, points: &[u8], manifest: &Manifest) -> Result<Plot, DrawError> {
-        self.study.plot(points, manifest.origin.seed)
+    /// If the bytes do not belong to the study, or the options do not fit its picture.
+    pub fn plot(&self, points: &[u8]) -> Result<(Plot, Vec<String>), DrawError> {
+        let plot = self.study.plot(points, self.origin.seed)?;
+        let overlay = self.overlay.as_ref().map(|(overlay, _)| overlay);
+        let drawn = self.figure.apply(plot, overlay);
+        Ok(drawn.map_err(FigureError::Options)?)
     }
 
     /// Draws `points.csv`.
@@ -98,8 +122,13 @@ impl Loaded {
     /// # Errors
     /// If the bytes do not belong to the study, or drawing fails.
     pub fn draw(&self, points: &[u8], manifest: &Manifest) -> Result<Drawing, DrawError> {
-        let plot = self.plot(points, manifest)?;
-        Ok(render(&plot, &manifest.provenance())?)
+        let (plot, notes) = self.plot(points)?;
+        let mut files = render(&plot, &manifest.provenance(), &self.figure)?;
+        let own = self
+            .overlay()
+            .map(|text| (OVERLAY, text.as_bytes().to_vec()));
+        files.extend(own);
+        Ok(Drawing { files, notes })
     }
 
     /// The section of the report, from the files of `directory`.

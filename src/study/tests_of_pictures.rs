@@ -3,7 +3,7 @@
 use super::*;
 use crate::claim::{Axis, Curve, Scope};
 use crate::figure::{FigureError, render};
-use crate::plot::{Limit, Mark, Panel, Place, Plot, Point};
+use crate::plot::{Limit, Mark, Options, Panel, Place, Plot, Point};
 use crate::results::Row;
 use serde::de::DeserializeOwned;
 use std::path::{Path, PathBuf};
@@ -41,7 +41,12 @@ fn sweep(axis: &'static str, panels: &[Option<&str>], rows: &[Row]) -> Result<Pl
     };
     let curves = panels.iter().map(curve).collect();
     let step_gains = vec![3.0; panels.len()];
-    sweep::picture::plot(&Scope { curves, axis }, &step_gains, rows, 7)
+    let frame = sweep::picture::Frame {
+        scope: &Scope { curves, axis },
+        step_gains: &step_gains,
+        excess: None,
+    };
+    sweep::picture::plot(&frame, rows, 7)
 }
 
 /// Every picture must fit on its sheet.
@@ -112,7 +117,7 @@ fn a_sweep_of_power_shows_each_curve_in_its_band() {
     assert!(
         plot.caption_lines()
             .join("; ")
-            .contains("seed 7; bands: pointwise exact 95 % intervals")
+            .contains("seed 7; pointwise exact 95 % intervals are narrower than the lines")
     );
 }
 
@@ -310,11 +315,12 @@ fn rides_show_rates_above_delays() {
 fn the_same_plot_gives_the_same_bytes() {
     let rows: Vec<crate::study::independence::Row> = rows("independence");
     let plot = independence::picture::plot(&rows);
-    let drawing = render(&plot, "a < b").unwrap();
-    assert_eq!(drawing.png, render(&plot, "a < b").unwrap().png);
-    assert!(
-        String::from_utf8(drawing.svg)
-            .unwrap()
-            .contains("<desc>a &lt; b</desc>")
-    );
+    let draw = || render(&plot, "a < b", &Options::default()).unwrap();
+    assert_eq!(draw(), draw());
+    let [(png, _), (svg, bytes)] = &draw()[..] else {
+        panic!("a PNG and an SVG");
+    };
+    assert_eq!([png, svg], [&"figure.png", &"figure.svg"]);
+    let svg = String::from_utf8(bytes.clone()).unwrap();
+    assert!(svg.contains("<desc>a &lt; b</desc>"));
 }

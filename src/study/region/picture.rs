@@ -64,7 +64,7 @@ pub fn title(samples: &Samples, alternative: Alternative, alpha: f64) -> Vec<Str
         format!("M_2 = {}", samples.scale()),
         format!("alternative {alternative}"),
         format!("α = {alpha}"),
-        format!("a rule decides H_1* {side}"),
+        format!("a rule decides H_1*, for motion, {side}"),
     ]
 }
 

@@ -4,7 +4,7 @@
 //! share, except for usual defaults. The legend states how the curves differ.
 
 use crate::format::thousands;
-use crate::plot::literal;
+use crate::plot::{Mark, Panel, Plot, Point, Style, literal};
 use crate::results::Row;
 use crate::scenario::{Caption, PARAMETERS, Parameter, Words};
 
@@ -100,18 +100,40 @@ pub(super) fn caption(
     {
         parts.insert(1.min(parts.len()), format!("exact size {size:.6}"));
     }
-    let band = if axis.name == "rule" { "bars" } else { "bands" };
     parts.push(format!("{} trials per point", thousands(row.tally.trials)));
     parts.push(format!("seed {seed}"));
-    parts.push(format!(
-        "{band}: pointwise exact {} % intervals, at times narrower than a line",
-        100.0 * row.confidence
-    ));
-    if is_held_against_alpha(rows) {
-        parts.push("line: the nominal level".to_owned());
-    }
     parts
 }
+
+/// What the bands or bars of a plot are, and whether they can be seen.
+pub(super) fn intervals(plot: &Plot, confidence: f64) -> String {
+    let words = format!("pointwise exact {} % intervals", 100.0 * confidence);
+    let (mut name, mut seen, mut all) = ("bands", 0, 0);
+    for (panel, mark) in &plot.marks {
+        let (points, least) = match mark {
+            Mark::Band(points, _) => (points, LINE),
+            Mark::Bars(points, style) => {
+                name = "bars";
+                (points, 2.0 * style.size)
+            }
+            _ => continue,
+        };
+        let Panel { y, height, .. } = &plot.panels[*panel];
+        let high = |point: &&Point| height * (y.share(point.high) - y.share(point.low)) > least;
+        seen += points.iter().filter(high).count();
+        all += points.len();
+    }
+    match (seen, name) {
+        (0, "bars") => format!("{words} are narrower than the markers"),
+        (0, _) => format!("{words} are narrower than the lines"),
+        (seen, _) if seen == all => format!("{name}: {words}"),
+        (_, "bars") => format!("bars: {words}, at times narrower than a marker"),
+        _ => format!("bands: {words}, at times narrower than a line"),
+    }
+}
+
+/// The width of a curve's line, points.
+const LINE: f64 = Style::of(0).width;
 
 /// Whether these are false-alarm rates of one level.
 pub(super) fn is_held_against_alpha(rows: &[&Row]) -> bool {

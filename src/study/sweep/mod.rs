@@ -8,7 +8,7 @@ mod targets;
 mod trials;
 mod x_axis;
 
-use crate::claim::{self, Evidence, Outcome, Scope};
+use crate::claim::{self, Evidence, Outcome, Scope, Test};
 use crate::counts::{Counts, Key, Sums};
 use crate::experiment::{Experiment, SWEEP, SweepConfig, schema};
 use crate::figure::FigureError;
@@ -136,7 +136,21 @@ impl Study for Sweep {
         let step_gain =
             |places: &Vec<usize>| self.plan.points[places[0]].scenario.sensor.step_gain();
         let step_gains: Vec<f64> = self.plan.along.iter().map(step_gain).collect();
-        picture::plot(&self.config.scope, &step_gains, rows, seed)
+        let excess = self
+            .config
+            .narrative
+            .claims
+            .iter()
+            .filter_map(|claim| match claim.test {
+                Test::AlphaHeld { excess, .. } => Some(excess.get()),
+                _ => None,
+            });
+        let frame = picture::Frame {
+            scope: &self.config.scope,
+            step_gains: &step_gains,
+            excess: excess.reduce(f64::max),
+        };
+        picture::plot(&frame, rows, seed)
     }
 
     fn points(&self) -> String {

@@ -26,17 +26,23 @@ struct Group {
     curves: Vec<Curve>,
 }
 
-/// The picture of a sweep. `step_gains` has of every curve 1 − β: what a unit of Δ in the record becomes after
-/// whitening.
+/// What a picture shows beside the rows.
+pub struct Frame<'a> {
+    pub scope: &'a Scope,
+    /// Of every curve 1 − β: what a unit of Δ in the record becomes after whitening.
+    pub step_gains: &'a [f64],
+    /// The largest multiple of α that a claim allows.
+    pub excess: Option<f64>,
+}
+
+/// The picture of a sweep.
 ///
 /// # Errors
 /// Where no row lies on the axis.
-pub fn plot(
-    scope: &Scope,
-    step_gains: &[f64],
-    rows: &[Row],
-    seed: u64,
-) -> Result<Plot, FigureError> {
+pub fn plot(frame: &Frame, rows: &[Row], seed: u64) -> Result<Plot, FigureError> {
+    let Frame {
+        scope, step_gains, ..
+    } = *frame;
     let curves = 1..=scope.curves.len();
     let drawn: Vec<Vec<&Row>> = curves.map(|curve| rows_of(rows, curve)).collect();
     let all = drawn.concat();
@@ -50,9 +56,13 @@ pub fn plot(
     let is_log = is_false_alarm && spans_far(&groups);
     groups.iter_mut().for_each(|group| group.scale(is_log));
     let scale: fn(f64) -> f64 = if is_log { libm::log10 } else { f64::from };
-    let level = is_held_against_alpha(&all).then(|| scale(all[0].alpha()));
+    let alpha = is_held_against_alpha(&all).then(|| all[0].alpha());
+    let most = alpha.and_then(|alpha| Some(alpha * frame.excess?));
+    let levels: Vec<(f64, &'static [f64])> = (alpha.map(|alpha| (scale(alpha), SOLID)).into_iter())
+        .chain(most.map(|most| (scale(most), DASHED)))
+        .collect();
     let y = if is_false_alarm {
-        rate_axis(&groups, level, is_log)
+        rate_axis(&groups, &levels, is_log)
     } else {
         power_axis()
     };
@@ -63,13 +73,22 @@ pub fn plot(
     {
         plot.add_whitened_axis(unit);
     }
-    plot.set_caption(&labels::caption(&all, common, axis.parameter, seed));
-    if points(&groups).any(|point| point.limit.is_some()) {
+    let has_limits = points(&groups).any(|point| point.limit.is_some());
+    for (panel, group) in groups.into_iter().enumerate() {
+        add_panel(&mut plot, panel, group, &levels, axis.is_named());
+    }
+    let mut caption = labels::caption(&all, common, axis.parameter, seed);
+    caption.push(labels::intervals(&plot, all[0].confidence));
+    if alpha.is_some() {
+        caption.push("line: the nominal level".to_owned());
+    }
+    if let Some(excess) = frame.excess.filter(|_| alpha.is_some()) {
+        caption.push(format!("dashed: {excess} α, the most that a claim allows"));
+    }
+    plot.set_caption(&caption);
+    if has_limits {
         let arrows = "arrows: upper limits where no trial gave a false alarm";
         plot.caption.push(vec![arrows.to_owned()]);
-    }
-    for (panel, group) in groups.into_iter().enumerate() {
-        add_panel(&mut plot, panel, group, level, axis.is_named());
     }
     // One curve without a name of its own needs no legend.
     if entries.len() > 1 || entries[0].text != "1" {
@@ -78,10 +97,20 @@ pub fn plot(
     Ok(plot)
 }
 
-fn add_panel(plot: &mut Plot, panel: usize, group: Group, level: Option<f64>, is_named: bool) {
+/// The dashes of the nominal level, and of the most that a claim allows.
+const SOLID: &[f64] = &[];
+const DASHED: &[f64] = &[3.0, 2.0];
+
+fn add_panel(
+    plot: &mut Plot,
+    panel: usize,
+    group: Group,
+    levels: &[(f64, &'static [f64])],
+    is_named: bool,
+) {
     plot.add(panel, Mark::Grid);
-    if let Some(level) = level {
-        plot.add(panel, Mark::Level(level, &[]));
+    for (level, dash) in levels {
+        plot.add(panel, Mark::Level(*level, dash));
     }
     if is_named {
         add_bars(plot, panel, group.curves);
@@ -190,7 +219,8 @@ fn power_axis() -> Axis {
 }
 
 /// Around what there is of false-alarm rates.
-fn rate_axis(groups: &[Group], level: Option<f64>, is_logarithmic: bool) -> Axis {
+fn rate_axis(groups: &[Group], levels: &[(f64, &[f64])], is_logarithmic: bool) -> Axis {
+    let level = levels.iter().map(|(level, _)| *level);
     let axis = if is_logarithmic {
         let (bottom, top) = ends(points(groups).map(|point| point.y).chain(level));
         Axis::decades(bottom - 0.25, (top + 0.15).min(0.08))
