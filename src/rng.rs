@@ -16,15 +16,33 @@
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 /// The generator behind every draw of the project.
 pub type Generator = ChaCha8Rng;
 
 /// A family of independent generators, one for each position.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(from = "Key", into = "Key")]
 pub struct Stream {
     origin: Generator,
+}
+
+/// What a stream is saved as: its draws are a function of it.
+type Key = [u8; 32];
+
+impl From<Key> for Stream {
+    fn from(key: Key) -> Self {
+        let origin = Generator::from_seed(key);
+        Self { origin }
+    }
+}
+
+impl From<Stream> for Key {
+    fn from(stream: Stream) -> Self {
+        stream.origin.get_seed()
+    }
 }
 
 impl Stream {

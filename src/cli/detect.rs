@@ -74,6 +74,7 @@ impl Detect {
             knowledge: detection.knowledge.clone(),
             settings: settings.clone(),
             rate: *rate,
+            running: None,
         };
         if saved.knowledge.reference.is_none() && self.save_state.is_some() {
             return Err(self.rides.refused(anyhow!(NO_REST)));

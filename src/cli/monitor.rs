@@ -1,22 +1,26 @@
 //! `liftsim monitor`: watches a lift, sample by sample, from standard input.
 
+use super::first_second::FirstSecond;
 use super::floors::{Building, FloorArguments};
 use super::heartbeat::{self, Heartbeat};
+use super::kept::{Going, Kept};
 use super::monitor_options::{Beginning, MonitorArguments, Setup};
 use super::network::{Network, NetworkArguments};
 use super::output;
 use super::reading::ColumnArguments;
 use super::readings::{Reading, Readings};
+use super::signals::Signals;
+use super::stdin::Stdin;
 use super::{CommandResult, Failure, print_to, warn};
 use anyhow::{Context, anyhow};
 use clap::Args;
 use liftsim::detection::MonitorOptions;
-use liftsim::monitor::{Kind, Knowledge, Monitor, SavedState};
+use liftsim::monitor::{Kind, Knowledge, Monitor, SavedState, State};
 use liftsim::recording::{self, LineReader, Sample};
 use liftsim::track::{Happened, Watch};
 use serde::Serialize;
 use std::io::{self, BufReader};
-use std::iter;
+use std::path::PathBuf;
 use std::process::{self, ExitCode};
 use std::sync::{Mutex, mpsc};
 use std::thread;
@@ -47,6 +51,7 @@ use std::time::Duration;
 #[command(after_help = "Examples:\n  \
     liftsim detect ride.csv --save-state lift.json\n  \
     sensor | liftsim monitor --state lift.json --begins rest\n  \
+    sensor | liftsim monitor --state lift.json --save-state lift.json\n  \
     cut -d, -f1,4 ride.csv | liftsim monitor --state lift.json\n  \
     sensor | liftsim monitor --rate 100 --begins rest\n  \
     paste -d, sensor.txt drum.txt | liftsim monitor --rate 100 --expected-moving\n  \
@@ -71,6 +76,10 @@ pub struct MonitorCommand {
     /// readings, and for how long none has come; not over --tcp: {"event":"heartbeat","time":…,"state":"rest","readings":6000,"silent":0.0}.
     #[arg(long, value_name = "SECONDS", value_parser = heartbeat::period)]
     heartbeat: Option<Duration>,
+    /// Save the running monitor to this file at every stop and at a signal (SIGTERM, Ctrl-C), from which --state goes on as
+    /// if it had never stopped; it may be the file of --state.
+    #[arg(long, value_name = "FILE.json")]
+    save_state: Option<PathBuf>,
     #[command(flatten)]
     options: MonitorArguments,
     #[command(flatten)]
@@ -93,6 +102,9 @@ impl MonitorCommand {
         let reading = self.columns.over(&config.reading)?;
         if let Some(spool) = self.network.spool() {
             output::apart(spool, self.floors.map.iter())?;
+        }
+        if let Some(path) = &self.save_state {
+            Kept::check(path, self.options.state())?;
         }
         let network = self.network.open()?;
         // Heartbeats and events come from two threads, and each line is written whole.
@@ -145,33 +157,105 @@ impl MonitorCommand {
         heartbeat: &Heartbeat,
         report: impl FnMut(String) -> Result<bool, Failure>,
     ) -> Result<bool, Failure> {
-        let input = BufReader::with_capacity(1 << 16, io::stdin().lock());
-        let lines = if self.expected_moving {
+        let signals = self.save_state.as_ref().map(|_| Signals::watch());
+        let signals = signals
+            .transpose()
+            .context("signals")
+            .map_err(Failure::Run)?;
+        let input = Stdin::new(signals.as_ref());
+        let input = input.context("standard input").map_err(Failure::Run)?;
+        let input = BufReader::with_capacity(1 << 16, input);
+        let mut lines = if self.expected_moving {
             LineReader::with_drum(input, reading)
         } else {
             LineReader::new(input, reading)
         };
+        let mut going = match &saved {
+            Some(saved) if self.begins.is_none() => Going::of(saved)?,
+            _ => None,
+        };
+        if let Some(columns) = going.as_mut().and_then(|it| it.columns.take()) {
+            lines = lines
+                .resume(columns)
+                .context("standard input")
+                .map_err(Failure::Input)?;
+        }
         let heartbeat = self.heartbeat.is_some().then_some(heartbeat);
         let mut readings = Readings::new(lines, self.keep_going, heartbeat);
+        if let Some(going) = &going {
+            readings.go_on(going.taken);
+        }
         let known = self.rate.or(saved.as_ref().map(|saved| saved.rate));
+        let is_told = || signals.as_ref().is_some_and(|it| it.came().is_some());
         let Some((first, rate)) = readings.begin(known)? else {
-            return Ok(false);
+            return Ok(is_told());
         };
         let saved = saved.unwrap_or(SavedState {
             settings: config.settings,
             rate,
             first_sample: None,
             knowledge: Knowledge::default(),
+            running: None,
         });
         let saved = SavedState { rate, ..saved };
-        let mut lift = self.lift(&saved, known.is_none(), &first[0].0, heartbeat, report)?;
-        let rest = iter::from_fn(|| readings.next().transpose());
-        let read = lift.take(first.into_iter().map(Ok).chain(rest));
-        // What was read is told, also before a line that cannot be.
-        let ended = lift.end();
+        let lift = match going {
+            Some(going) => self.go_on(going, heartbeat, report),
+            None => self.lift(&saved, known.is_none(), &first[0].0, heartbeat, report),
+        };
+        let mut lift = lift?;
+        let mut kept = self.save_state.as_ref().map(|path| Kept::new(path, &saved));
+        let mut save = |lift: &Lift<_>, readings: &Readings<_>| {
+            if let Some(kept) = &mut kept {
+                kept.save(&lift.monitor, lift.trips.as_ref(), readings);
+            }
+        };
+        let mut first = first.into_iter();
+        let read = loop {
+            // Nobody may read what is reported any more.
+            let next = match first.next() {
+                _ if !lift.is_read => break Ok(()),
+                None => readings.next(),
+                known => Ok(known),
+            };
+            match next.and_then(|next| next.map(|it| lift.step(it)).transpose()) {
+                Ok(Some(true)) => save(&lift, &readings),
+                Ok(Some(false)) => {}
+                Ok(None) => break Ok(()),
+                Err(failure) => break Err(failure),
+            }
+        };
+        save(&lift, &readings);
+        // What was read is told, also before a line that cannot be; at a signal it waits for the next monitor.
+        let ended = if is_told() { lift.keep() } else { lift.end() };
         readings.say_counts();
         read.and(ended)?;
         Ok(true)
+    }
+
+    /// The lift that another monitor has watched.
+    fn go_on<'a, R: FnMut(String) -> Result<bool, Failure>>(
+        &self,
+        going: Going,
+        heartbeat: Option<&'a Heartbeat>,
+        report: R,
+    ) -> Result<Lift<'a, R>, Failure> {
+        let building = self.floors.building(false)?;
+        let measures = self.trips || building.is_some();
+        let new = || Watch::new(going.monitor.design().clone(), None);
+        if let Some(heartbeat) = heartbeat {
+            heartbeat.told(going.monitor.state());
+        }
+        Ok(Lift {
+            trips: measures.then(|| going.trips.unwrap_or_else(new)),
+            level: going.monitor.reference().map(|it| it.level),
+            monitor: going.monitor,
+            building,
+            heartbeat,
+            report,
+            is_warned: false,
+            is_read: true,
+            first_second: FirstSecond::default(),
+        })
     }
 
     /// The lift, at a rate that was perhaps measured, as the samples begin.
@@ -202,12 +286,14 @@ impl MonitorCommand {
         let measures = self.trips || building.is_some();
         let mut lift = Lift {
             trips: measures.then(|| Watch::new(design.clone(), begins_at_rest)),
+            level: knowledge.reference.as_ref().map(|it| it.level),
             monitor: Monitor::new(design, knowledge),
             building,
             heartbeat,
             report,
             is_warned: false,
             is_read: true,
+            first_second: FirstSecond::default(),
         };
         if self.begins == Some(Beginning::Motion) {
             lift.monitor.begin_in_motion();
@@ -229,32 +315,27 @@ struct Lift<'a, R> {
     is_warned: bool,
     /// Whether anybody reads what is reported.
     is_read: bool,
+    first_second: FirstSecond,
+    /// The level that a saved state knows, m/s².
+    level: Option<f64>,
 }
 
 impl<R: FnMut(String) -> Result<bool, Failure>> Lift<'_, R> {
-    /// Takes readings, as long as anybody reads what they show.
-    fn take(
-        &mut self,
-        mut readings: impl Iterator<Item = Result<Reading, Failure>>,
-    ) -> Result<(), Failure> {
-        while self.is_read
-            && let Some(reading) = readings.next()
-        {
-            self.step(reading?)?;
-        }
-        Ok(())
-    }
-
-    /// Takes a reading, and reports what it shows.
-    fn step(&mut self, (sample, drum_turns): Reading) -> Result<(), Failure> {
+    /// Takes a reading, and reports what it shows; whether it has shown that the cage stands.
+    fn step(&mut self, (sample, drum_turns): Reading) -> Result<bool, Failure> {
+        self.first_second.step(sample, self.level);
+        let mut is_rest = false;
         for event in self.monitor.step(sample, drum_turns) {
-            if let (Some(heartbeat), Kind::Change { state, .. }) = (self.heartbeat, event.kind) {
-                heartbeat.told(state);
+            if let Kind::Change { state, .. } = event.kind {
+                is_rest = state == State::REST;
+                if let Some(heartbeat) = self.heartbeat {
+                    heartbeat.told(state);
+                }
             }
             self.is_read = self.is_read && (self.report)(line(event))?;
         }
         let Some(trips) = &mut self.trips else {
-            return Ok(());
+            return Ok(is_rest);
         };
         let floors = self.building.as_mut().map(|it| &mut it.floors);
         let (state, quiet) = (self.monitor.state(), self.monitor.quiet());
@@ -263,7 +344,12 @@ impl<R: FnMut(String) -> Result<bool, Failure>> Lift<'_, R> {
             self.tell(&told)?;
             self.building.as_ref().map_or(Ok(()), Building::keep)?;
         }
-        Ok(())
+        Ok(is_rest)
+    }
+
+    /// Writes the map, and tells nothing: what is left is in the saved state.
+    fn keep(self) -> Result<(), Failure> {
+        self.building.map_or(Ok(()), |building| building.save())
     }
 
     /// Reports what is left, and writes the map.

@@ -10,7 +10,7 @@ use liftsim::monitor::{DecisionRule, MOST_ORDER, SavedState, Settings};
 use liftsim::whiten::Order;
 use serde::Serialize;
 use std::fmt::Display;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// How the monitor is set up. Flags go over the config, the config over the defaults.
 #[derive(Debug, Args)]
@@ -130,6 +130,11 @@ fn order(text: &str) -> Result<Order, String> {
 }
 
 impl MonitorArguments {
+    /// The file of --state.
+    pub fn state(&self) -> Option<&Path> {
+        self.state.as_deref()
+    }
+
     /// Reads the config and the state, and lays the flags over them.
     pub fn setup(&self) -> Result<Setup, Failure> {
         let mut config = match &self.config {

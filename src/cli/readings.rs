@@ -5,7 +5,8 @@ use super::monitor_options::check_strength;
 use super::{Failure, warn};
 use anyhow::{Context, anyhow};
 use liftsim::monitor::SET_BACK;
-use liftsim::recording::{LineReader, LineReading, Sample};
+use liftsim::recording::{LineReader, LineReading, Sample, StreamColumns};
+use serde::{Deserialize, Serialize};
 use std::io;
 
 /// Readings from which a rate is measured.
@@ -24,15 +25,22 @@ pub struct Readings<'a, R> {
     heartbeat: Option<&'a Heartbeat>,
     /// Hz, where it is known.
     rate: Option<f64>,
-    /// When the last sample with a time was taken, s.
-    last: Option<f64>,
-    /// The first intervals between such samples, s.
+    taken: Taken,
+    /// The first intervals between samples with a time, s.
     intervals: Vec<f64>,
-    count: u64,
     keeps_going: bool,
     /// How many lines were passed over since they came late, and how often the clock was set back.
     late: u64,
     set_back: u64,
+}
+
+/// How far a stream was read.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub struct Taken {
+    /// When the last sample with a time was taken, s.
+    last: Option<f64>,
+    /// The samples without times so far.
+    count: u64,
 }
 
 impl<'a, R: io::BufRead> Readings<'a, R> {
@@ -41,13 +49,27 @@ impl<'a, R: io::BufRead> Readings<'a, R> {
             lines,
             heartbeat,
             rate: None,
-            last: None,
+            taken: Taken::default(),
             intervals: Vec::new(),
-            count: 0,
             keeps_going,
             late: 0,
             set_back: 0,
         }
+    }
+
+    /// Goes on where another reader has stopped.
+    pub fn go_on(&mut self, taken: Taken) {
+        self.taken = taken;
+    }
+
+    /// How far it has read.
+    pub fn taken(&self) -> Taken {
+        self.taken
+    }
+
+    /// The columns of the stream, once its first line was read.
+    pub fn columns(&self) -> Option<StreamColumns> {
+        self.lines.columns()
     }
 
     /// The first readings, if there is any, and the rate: as known, or measured from as many as that takes.
@@ -81,7 +103,7 @@ impl<'a, R: io::BufRead> Readings<'a, R> {
 
     /// Takes the time of a sample. Once there are enough, they must agree with the known rate.
     fn take_time(&mut self, time: f64) -> Result<(), Failure> {
-        if let Some(last) = self.last.replace(time)
+        if let Some(last) = self.taken.last.replace(time)
             && time > last
             && self.intervals.len() < MEASURED
         {
@@ -153,11 +175,11 @@ impl<'a, R: io::BufRead> Readings<'a, R> {
                     "standard input: samples without times need a rate (give --rate)"
                 )));
             };
-            self.count += 1;
-            let time = (self.count - 1) as f64 / rate;
+            self.taken.count += 1;
+            let time = (self.taken.count - 1) as f64 / rate;
             return Ok(Ok(Sample { time, acceleration }));
         };
-        match self.last {
+        match self.taken.last {
             _ if time.abs() > LATEST => Ok(Err(anyhow!(
                 "line {line}: times must lie within {LATEST:e} s, got {time:e} (give them in s)"
             ))),

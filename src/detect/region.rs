@@ -24,9 +24,10 @@ use super::law::NullLawError;
 use super::rule::{Alternative, Exceedances, Rule};
 use super::statistics::Statistics;
 use crate::format::brief;
+use serde::{Deserialize, Serialize};
 
 /// A region ϑ with its exact size.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Region {
     pub(super) exceedances: Exceedances,
     /// The smallest score that decides H₁, for each T; `u64::MAX` where none does.
@@ -78,7 +79,7 @@ impl Region {
 }
 
 /// Rank sums that decide H₁: those smaller than `below` and those from `from` on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Bounds {
     below: u64,
     from: u64,

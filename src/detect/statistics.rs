@@ -8,9 +8,10 @@
 //! [^1]: see [`crate::signal`].
 
 use crate::simd::{Vectors, greatest, least};
+use serde::{Deserialize, Serialize};
 
 /// The statistics of one trial.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Statistics {
     /// W.
     pub rank_sum: u64,

@@ -2,6 +2,7 @@
 
 use crate::recording::Sample;
 use crate::stats::quantile::median;
+use serde::{Deserialize, Serialize};
 
 /// Samples are added as whole nanometres per second squared, so that equal means stay equal in any order of
 /// their samples: in floating point, rounding would break the ties of a coarse sensor.
@@ -15,7 +16,7 @@ pub const STRONGEST: f64 = 1e4;
 const LONGEST_GAP: (f64, f64) = (0.5, 3.0);
 
 /// A complete block.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Block {
     /// Time of its first sample, s.
     pub from: f64,
@@ -28,7 +29,7 @@ pub struct Block {
 }
 
 /// The current, incomplete block.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Blocks {
     length: u32,
     /// Nominal length of a block, s.

@@ -5,9 +5,10 @@
 
 use super::pulse::Pulse;
 use libm::log1p;
+use serde::{Deserialize, Serialize};
 
 /// What is known of lifts beforehand.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Prior {
     /// The slowest trip, m/s.
     pub least_speed: f64,

@@ -4,12 +4,13 @@
 
 use super::cost::{self, Prior};
 use super::pulse::Pulse;
+use serde::{Deserialize, Serialize};
 
 /// The share of its top speed to which a motion that crept gains speed again.
 const RESTARTED: f64 = 0.3;
 
 /// A pulse in one direction of time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Turned {
     pub from: f64,
     pub to: f64,
@@ -55,7 +56,7 @@ impl Turned {
 }
 
 /// A motion in progress.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Progress {
     pub speed: f64,
     pub top: f64,

@@ -10,10 +10,11 @@ use super::reference::Reference;
 use crate::detect::{Pooled, Statistics};
 use crate::rng::Stream;
 use rand::Rng;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// W, T and the decision.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Verdict {
     pub statistics: Statistics,
     /// Whether (W, T) lies in ϑ.
@@ -23,14 +24,14 @@ pub(crate) struct Verdict {
 }
 
 /// The positions of Y₁ and Y₂.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Windows {
     pub shift: Range<u64>,
     pub scale: Range<u64>,
 }
 
 /// Makes decisions, with random keys for ties.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Decider {
     ties: Stream,
     keys: Vec<u64>,

@@ -7,6 +7,7 @@ use super::history::History;
 use super::ranked::Ranked;
 use super::reference::{MOST_RANKED, Reference};
 use crate::explain::Block;
+use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::ops::Range;
 
@@ -21,7 +22,7 @@ const LONGEST_BRAKING: f64 = 60.0;
 const CALM: (f64, f64, f64) = (2.0, 2.0, 9.0);
 
 /// A block and its decision.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Observation {
     /// Times of its first and last sample, s.
     pub times: (f64, f64),
@@ -34,7 +35,7 @@ pub struct Observation {
 }
 
 /// What decides.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 enum Rule {
     /// With the decision at the newest block, and its windows.
     ThreeSample(Decider, Option<(Windows, Verdict)>),
@@ -43,7 +44,7 @@ enum Rule {
 }
 
 /// All of them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Decisions {
     pub design: Design,
     pub reference: Option<Reference>,

@@ -4,12 +4,13 @@ use super::settings::{DecisionRule, LONGEST_BLOCK, Settings, SettingsError, WHY_
 use crate::detect::sequential::{Chart, Detector, Score, Side};
 use crate::detect::{Alternative, Exceedances, NullLaws, Region, Rule, Samples};
 use crate::rule::{Explained, OutOfRange, Rule as Bounds};
+use serde::{Deserialize, Serialize};
 
 /// k of the sequential ranks.
 const ALLOWANCE: f64 = 0.8;
 
 /// Settings at one sampling rate.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "what a name says is not said again")]
 pub struct Design {
     pub settings: Settings,

@@ -1,10 +1,12 @@
 //! The drum beside the cage: rope that is paid out to a cage that may stand.
 
+use serde::{Deserialize, Serialize};
+
 /// By how much a slack alarm may go back before the doubt, s.
 const LOOKS_BACK: f64 = 1.5;
 
 /// What is known of the drum.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Drum {
     /// Since when it turns, s, and since when it does so beside a cage that may stand.
     turns: Option<f64>,

@@ -6,6 +6,7 @@
 #![allow(missing_docs, reason = "what a name says is not said again")]
 
 use crate::signal::Phase;
+use serde::de::{Deserializer, Error};
 use serde::{Deserialize, Serialize, Serializer};
 
 /// The state of the cage as far as it is known.
@@ -143,7 +144,7 @@ pub enum Alarm {
 }
 
 /// What is wrong with a sensor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fault {
     /// It repeats one value, where it used to scatter or has hardly done so: then it may be too coarse.
@@ -163,7 +164,7 @@ pub enum Fault {
 }
 
 /// Why a state is unknown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Doubt {
     /// Too little was seen: it takes three quiet seconds, or without `--begins` one or two trips.
@@ -211,6 +212,19 @@ impl Serialize for State {
             Self::Unknown => "unknown",
             Self::Known(phase) => phase.name(),
         })
+    }
+}
+
+impl<'de> Deserialize<'de> for State {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        let known = || Phase::ALL.into_iter().find(|phase| phase.name() == name);
+        match &name[..] {
+            "unknown" => Ok(Self::Unknown),
+            _ => known()
+                .map(Self::Known)
+                .ok_or_else(|| D::Error::custom(format_args!("no state {name}"))),
+        }
     }
 }
 

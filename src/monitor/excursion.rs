@@ -4,6 +4,7 @@ use super::noise::Noises;
 use super::prices::Known;
 use super::recent::Smooth;
 use crate::explain::{Pulse, Turned, is_at_once};
+use serde::{Deserialize, Serialize};
 
 /// The least and the greatest distance from the level that is a pulse, m/s²: of the smoothed record, and of the
 /// mean of a longer time, which shows soft starts; and in standard deviations.
@@ -43,7 +44,7 @@ const SHOCK_ERROR: f64 = 0.03;
 const LEVEL_ERROR: f64 = 0.004;
 
 /// Some of what has left the level.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Part {
     pub from: f64,
     to: f64,
@@ -53,7 +54,7 @@ pub(super) struct Part {
 }
 
 /// A change at once.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Jump {
     /// m/s², away from the level.
     pub by: f64,
@@ -64,7 +65,7 @@ pub(super) struct Jump {
 }
 
 /// What has left the level so far.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Excursion {
     pub part: Part,
     /// How long ago its shock was, s.

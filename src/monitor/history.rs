@@ -3,10 +3,11 @@
 use super::reference::Reference;
 use crate::explain::Block;
 use crate::whiten;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// The latest blocks. Blocks are numbered from the first since the last gap.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct History {
     capacity: usize,
     /// The number of the first block held.

@@ -3,13 +3,14 @@
 use super::hypothesis::Hypothesis;
 use super::prices::{Known, PENDING};
 use crate::explain::{Pulse, Swing, Turned, is_of_hand};
+use serde::{Deserialize, Serialize};
 
 /// The most hypotheses kept, of old ones and of renewed ones, and how much dearer than the cheapest they may be.
 const MOST: [usize; 2] = [16, 4];
 const HOPELESS: f64 = 14.0;
 
 /// The pulses before, each with the hypotheses before it: as many as a disturbance may have.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Hypotheses {
     /// Now, cheapest first.
     pub now: Vec<Hypothesis>,

@@ -5,9 +5,10 @@
 
 use super::prices::{self, Known};
 use crate::explain::{Prior, Progress, Turned, cost};
+use serde::{Deserialize, Serialize};
 
 /// What the cage does.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum Cage {
     Rest,
     /// It moves, and was not seen to start.
@@ -16,7 +17,7 @@ pub(super) enum Cage {
 }
 
 /// One explanation of everything so far.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Hypothesis {
     pub cage: Cage,
     pub cost: f64,

@@ -12,6 +12,7 @@ use super::prices::Known;
 use super::recent::Recent;
 use super::track::{Hand, Track};
 use crate::explain::Block;
+use serde::{Deserialize, Serialize};
 
 /// What another level than the first costs where nothing is forgotten yet, and every level is tried from the beginning.
 const YOUNG_SHIFT: f64 = 8.0;
@@ -45,7 +46,7 @@ const IN_HOLE: f64 = 5.0;
 const BRIEF: f64 = 1.0;
 
 /// What is the case now.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Belief {
     /// The cheapest hypothesis at rest, and in motion, with the cost of each.
     pub rest: Option<(Hypothesis, f64)>,
@@ -67,7 +68,7 @@ pub(super) struct Belief {
 }
 
 /// All tracks.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Live {
     known: Known,
     begins: Vec<Hypothesis>,

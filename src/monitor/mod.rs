@@ -52,6 +52,7 @@ mod prices;
 mod ranked;
 mod recent;
 mod reference;
+mod running;
 mod saved_state;
 mod sensor;
 mod settings;
@@ -66,6 +67,7 @@ pub use event::{
     Alarm, Decided, Decision, Direction, Doubt, Event, Fault, Kind, RankDecision, Span, State,
 };
 pub use reference::Reference;
+pub use running::{Running, RunningError};
 pub use saved_state::{SavedState, SavedStateError};
 pub use sensor::SET_BACK;
 pub use settings::{
@@ -99,7 +101,7 @@ pub struct Knowledge {
 }
 
 /// A monitor of one cage.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Monitor {
     decisions: Decisions,
     blocks: Blocks,
@@ -119,6 +121,7 @@ pub struct Monitor {
     drum: Drum,
     /// The latest jam that was told, s.
     jam: f64,
+    #[serde(skip)]
     events: Vec<Event>,
 }
 

@@ -1,5 +1,7 @@
 //! The noise of a record, while it may move.
 
+use serde::{Deserialize, Serialize};
+
 /// What a bend changes the estimate by, as a share; in the beginning by more.
 const LEAST_SHARE: f64 = 0.005;
 const MOST_SHARE: f64 = 0.2;
@@ -13,7 +15,7 @@ const ENOUGH: f64 = 30.0;
 
 /// The deviation of means, from their bends: x − 2x′ + x″ of three in a row. Neither a level nor a ramp bends, and the
 /// median of the bends is not moved by a few pulses.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Noise {
     median: f64,
     count: f64,
@@ -58,7 +60,7 @@ impl Noise {
 }
 
 /// The deviations of the smoothed record and of the mean of a longer time, m/s².
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct Noises {
     pub fast: f64,
     pub slow: f64,

@@ -4,6 +4,7 @@
 //! match need prices of their own. In nats.
 
 use crate::explain::{Prior, Progress, Turned, cost};
+use serde::{Deserialize, Serialize};
 
 /// Pulses that change the speed by less than this share of the least speed begin no motion.
 const LEAST_START: f64 = 0.35;
@@ -104,7 +105,7 @@ const MOST_ENDLESS: f64 = 8.0;
 pub const PENDING: f64 = 1.5;
 
 /// What is known of the lift and its sensor.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Known {
     pub prior: Prior,
     /// Below this mean acceleration a long pulse is soft, m/s².

@@ -8,12 +8,13 @@
 use super::event::Direction;
 use crate::detect::sequential::{Detector, Side, Step};
 use crate::rng::{Stream, unit};
+use serde::{Deserialize, Serialize};
 
 /// Where nothing is learnt for long, everything begins again so many blocks after the reference, to bound the memory.
 const MOST: usize = 1 << 12;
 
 /// Ranks at work, with random numbers for ties.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Ranked {
     detector: Detector,
     /// The number of blocks that are ranked at most.

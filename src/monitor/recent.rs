@@ -2,6 +2,7 @@
 
 use super::noise::{Noise, Noises};
 use crate::explain::{AT_ONCE, Block, is_at_once, lies_still};
+use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
 /// Over which the record is smoothed, s.
@@ -18,7 +19,7 @@ pub(super) const SETTLED: f64 = 2.5;
 const KEPT: f64 = 20.0;
 
 /// A block, smoothed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct Smooth {
     pub from: f64,
     pub to: f64,
@@ -34,14 +35,14 @@ pub(super) struct Smooth {
 }
 
 /// Running mean over the newest blocks.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Mean {
     count: usize,
     sum: f64,
 }
 
 /// The newest blocks since the latest hole.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Recent {
     blocks: VecDeque<Block>,
     /// Of the blocks, as many as there are.

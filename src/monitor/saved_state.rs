@@ -1,6 +1,7 @@
 //! The saved state of a monitor, as written by `detect --save-state`.
 
 use super::reference::MOST_RANKED;
+use super::running::Running;
 use super::{DecisionRule, Design, Knowledge, MOST_ORDER, Settings, SettingsError};
 use crate::explain::STRONGEST;
 use crate::recording::Sample;
@@ -11,7 +12,7 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 /// The largest size of a state, bytes.
-const LONGEST: u64 = 1 << 20;
+const LONGEST: u64 = 64 << 20;
 
 /// The settings and the knowledge of a monitor, at one sampling rate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,6 +26,9 @@ pub struct SavedState {
     /// identifies that record, since the knowledge of its beginning applies to no other.
     pub first_sample: Option<(f64, f64)>,
     pub knowledge: Knowledge,
+    /// The monitor that wrote it, as it ran.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub running: Option<Running>,
 }
 
 /// Why a file cannot be used as a state.
@@ -62,7 +66,7 @@ enum Problem {
         needed: RangeInclusive<usize>,
         got: usize,
     },
-    #[error("longer than {} MiB, which no state is that `liftsim detect --save-state` writes", LONGEST >> 20)]
+    #[error("longer than {} MiB, which no state is that `--save-state` writes", LONGEST >> 20)]
     TooLong,
 }
 
@@ -190,6 +194,7 @@ mod tests {
                 reference: Some(reference),
                 ..Knowledge::default()
             },
+            running: None,
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::event::Fault;
 use crate::recording::Sample;
+use serde::{Deserialize, Serialize};
 
 /// A repeated value is suspicious for at least this long, s, and this many times as long as any run before.
 const STUCK: f64 = 1.0;
@@ -21,7 +22,7 @@ pub const SET_BACK: f64 = 1.0;
 const SLOW: (f64, f64, f64, f64) = (6.0, 5.0, 10.0, 20.0);
 
 /// What the samples have shown.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Sensor {
     /// The time between samples as it should be, s, and the mean of it as it is, in that.
     period: f64,

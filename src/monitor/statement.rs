@@ -4,6 +4,7 @@ use super::event::{Direction, Doubt, Event, Kind, State};
 use super::hypothesis::{Cage, Hypothesis};
 use super::live::Belief;
 use crate::signal::Phase;
+use serde::{Deserialize, Serialize};
 
 /// A hypothesis dearer than the cheapest by more than this is not plausible, nats.
 const MARGIN: f64 = 4.0;
@@ -13,7 +14,7 @@ const MARGIN: f64 = 4.0;
 const MOST_IGNORED: f64 = 4.0;
 
 /// The state of the cage, and since when.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Statement {
     pub state: State,
     /// s

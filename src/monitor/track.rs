@@ -7,6 +7,7 @@ use super::noise::Noises;
 use super::prices::{self, Known};
 use super::recent::{SETTLED, Smooth};
 use crate::explain::{Turned, is_at_once};
+use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
 /// How fast the level is followed: the time constant, s.
@@ -29,7 +30,7 @@ const MOST_TURNS: usize = 3;
 const OVERSHOT: f64 = 0.3;
 
 /// A change at once that may be one of the level.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Turn {
     /// m/s²
     by: f64,
@@ -40,7 +41,7 @@ struct Turn {
 }
 
 /// Somebody who may have the sensor in hand.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct Hand {
     /// s
     pub since: f64,
@@ -49,7 +50,7 @@ pub(super) struct Hand {
 }
 
 /// A level and what it implies.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Track {
     pub level: f64,
     pub hypotheses: Hypotheses,

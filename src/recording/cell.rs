@@ -1,5 +1,7 @@
 //! One cell of a table: a number, a time, nothing, or something else.
 
+use serde::{Deserialize, Serialize};
+
 /// The content of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Cell {
@@ -20,7 +22,7 @@ const LONGEST_NUMBER: usize = 64;
 
 /// The decimal mark of a column, learnt from the first cell that has one. A column that uses both is refused,
 /// since "1,234" would then be ambiguous; two columns may differ.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) enum DecimalMark {
     /// No cell has had one yet.
     #[default]

@@ -3,9 +3,10 @@
 use super::cell::{Cell, DecimalMark};
 use super::stamp::{self, DAY};
 use super::unit::TimeUnit;
+use serde::{Deserialize, Serialize};
 
 /// Reads the cells of a time column one after another.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Clock {
     /// As the file or the reader says.
     stated: Option<TimeUnit>,

@@ -7,6 +7,7 @@ use super::names::{self, Column, Gravity, Role};
 use super::pressure;
 use super::reading::Reading;
 use super::unit::{TimeUnit, Unit};
+use serde::{Deserialize, Serialize};
 
 /// What a sensor measures.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -36,9 +37,10 @@ pub(super) fn no_gravity(got: &str) -> RecordingProblem {
 }
 
 /// The columns of time and acceleration, and their units.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Layout {
     /// The app that wrote it.
+    #[serde(skip)]
     pub format: &'static str,
     pub columns: Vec<Column>,
     /// None if the rows have a rate instead.

@@ -8,6 +8,7 @@ use super::lines::Lines;
 use super::parser::Parser;
 use super::reading::Reading;
 use super::unit::Unit;
+use serde::{Deserialize, Serialize};
 use std::io::BufRead;
 
 /// Reads each line as soon as it is complete, in constant memory.
@@ -35,6 +36,10 @@ pub struct LineReader<R> {
     parser: Option<Parser>,
     number: u64,
 }
+
+/// The columns of a stream, and what its earlier lines have shown of them.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct StreamColumns(Parser);
 
 /// The reading of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,6 +87,36 @@ impl<R: BufRead> LineReader<R> {
             has_drum: true,
             ..Self::new(reader, options)
         }
+    }
+
+    /// Goes on with a stream whose columns another reader has found; a line that they do not fit begins a table of its own.
+    ///
+    /// # Errors
+    /// If the reader fails.
+    pub fn resume(mut self, columns: StreamColumns) -> Result<Self, LineError> {
+        let parser = columns.0;
+        let first = self.lines.next().map_err(|(line, problem)| LineError {
+            line: line.unwrap_or(0),
+            problem,
+        })?;
+        if let Some(line) = first.map(|line| line.keep()) {
+            let read = reading(
+                &mut parser.clone(),
+                &line.bytes,
+                self.has_drum,
+                &self.options,
+            );
+            if read.is_ok() {
+                self.parser = Some(parser);
+            }
+            self.lines.give_back(vec![line]);
+        }
+        Ok(self)
+    }
+
+    /// The columns of the stream, once its first line was read.
+    pub fn columns(&self) -> Option<StreamColumns> {
+        self.parser.clone().map(StreamColumns)
     }
 
     /// The number of the line read last, from 1.

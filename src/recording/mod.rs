@@ -74,7 +74,7 @@ pub use error::{Names, RecordingError, RecordingProblem};
 pub use facts::{Facts, Gap};
 
 pub use barometer::{Barometer, BarometerWarning};
-pub use line_reader::{LineError, LineReader, LineReading};
+pub use line_reader::{LineError, LineReader, LineReading, StreamColumns};
 pub use pressure::{Pressure, PressureUnit};
 pub use reading::Reading;
 pub use sample::Sample;

@@ -5,9 +5,10 @@
 
 use super::axis::AXES;
 use super::unit::{TimeUnit, Unit};
+use serde::{Deserialize, Serialize};
 
 /// A column of a table.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Column {
     pub name: String,
     pub role: Role,
@@ -18,7 +19,7 @@ pub(super) struct Column {
 }
 
 /// The apparent content of a column.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum Role {
     /// Time; of several, the one with the lowest rank is the record's own clock.
     Time { rank: usize },
@@ -33,7 +34,7 @@ pub(super) enum Role {
 }
 
 /// Whether a column includes gravity, by its name.
-#[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd)]
+#[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd, Serialize, Deserialize)]
 pub(super) enum Gravity {
     /// Left in, or not mentioned.
     In,

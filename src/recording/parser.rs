@@ -9,6 +9,7 @@ use super::lines::Lines;
 use super::reading::Reading;
 use super::splitter::{Delimiter, Splitter};
 use super::unit::Unit;
+use serde::{Deserialize, Serialize};
 use std::io::BufRead;
 
 /// What a cell must do, and else the user. No recording of a lift has times or accelerations beyond these: 30 000
@@ -30,7 +31,7 @@ const STRONGEST: Rule = (
 );
 
 /// Reads the rows of one table.
-#[derive(Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Parser {
     pub layout: Layout,
     pub clock: Clock,

@@ -1,7 +1,9 @@
 //! What a recording consists of.
 
+use serde::{Deserialize, Serialize};
+
 /// One reading of the vertical axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
     /// s, by the file's clock.
     pub time: f64,

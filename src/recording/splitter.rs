@@ -1,9 +1,10 @@
 //! Lines into cells.
 
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// What stands between cells.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+#[derive(Clone, Copy, Debug, Eq, PartialEq, Serialize, Deserialize)]
 pub(super) enum Delimiter {
     Tab,
     Semicolon,
@@ -39,7 +40,7 @@ impl Delimiter {
 const ARROW: &[u8] = b" -> ";
 
 /// Splits lines into cells, whose places are kept in one reused list.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Splitter {
     pub delimiter: Delimiter,
     /// Whether the first cell ends with an arrow.

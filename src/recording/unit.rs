@@ -1,11 +1,12 @@
 //! Units of time and of acceleration.
 
 use super::axis::UnknownName;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
 /// A unit of time.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+#[derive(Clone, Copy, Debug, Eq, PartialEq, Serialize, Deserialize)]
 pub enum TimeUnit {
     /// s.
     Seconds,
@@ -60,7 +61,7 @@ impl fmt::Display for TimeUnit {
 pub const GRAVITY: f64 = 9.80665;
 
 /// A unit of acceleration.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Unit {
     /// The unit in the header, or m/s² by default.
     #[default]

@@ -18,6 +18,15 @@ pub enum Phase {
 }
 
 impl Phase {
+    /// All phases.
+    pub const ALL: [Self; 5] = [
+        Self::Rest,
+        Self::Accelerating,
+        Self::Inertial,
+        Self::Braking,
+        Self::Levelling,
+    ];
+
     /// Whether the cage moves.
     pub fn moves(self) -> bool {
         self != Self::Rest

@@ -12,7 +12,7 @@ use super::warning::Warning;
 use crate::detection::{Detection, Undecided};
 use crate::monitor::{Design, State};
 use crate::recording::Sample;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::ops::Range;
 
@@ -40,7 +40,7 @@ const OVER: f64 = 0.2;
 const LONGEST: f64 = 900.0;
 
 /// A lift that is watched.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Watch {
     design: Design,
     /// What is not told yet.
@@ -54,7 +54,7 @@ pub struct Watch {
 }
 
 /// What the cage has done in a stretch that is not told yet.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 enum Cage {
     /// It stands.
     Stands,

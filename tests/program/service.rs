@@ -106,3 +106,75 @@ fn the_unit_of_the_readme_runs() {
         assert!(events.contains(&format!("\"state\":{state}")), "{events}");
     }
 }
+
+/// However often a monitor is stopped and started again at a pipe, the same is told as without.
+#[cfg(unix)]
+#[test]
+fn a_monitor_goes_on_where_another_was_stopped() {
+    use std::fs::{File, OpenOptions};
+    use std::io::Read;
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let make = ["simulate", "ride", "--out", "ride.csv"];
+    let (code, _, error) = outcome(liftsim().current_dir(folder.path()).args(make));
+    assert_eq!(code, 0, "{error}");
+    // Only the first reader sees the header, which has the unit.
+    let ride = fs::read_to_string(path("ride.csv")).unwrap();
+    let lines = ride.lines().map(|line| {
+        let cells: Vec<&str> = line.split(',').collect();
+        format!("{},{}\n", cells[0], cells[3])
+    });
+    let lines: String = lines.collect();
+    let monitor = |input: File, state: &[&str]| {
+        Command::new(env!("CARGO_BIN_EXE_liftsim"))
+            .current_dir(folder.path())
+            .args(["monitor", "--save-state", "lift.json"])
+            .args(state)
+            .stdin(input)
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap()
+    };
+    fs::write(path("lines.csv"), &lines).unwrap();
+    let begins = ["--begins", "rest", "--rate", "100"];
+    let whole = monitor(File::open(path("lines.csv")).unwrap(), &begins);
+    let whole = String::from_utf8(whole.wait_with_output().unwrap().stdout).unwrap();
+    assert!(whole.lines().count() > 10, "{whole}");
+    fs::remove_file(path("lift.json")).unwrap();
+
+    let made = Command::new("mkfifo").arg(path("pipe")).status();
+    assert!(made.unwrap().success());
+    // Open at both ends, so that neither waits for the other.
+    let both = OpenOptions::new().read(true).write(true).open(path("pipe"));
+    let mut sensor = both.unwrap();
+    let mut told = String::new();
+    let mut rest = &lines[..];
+    let go_on = || match path("lift.json").exists() {
+        true => &["--state", "lift.json"][..],
+        false => &begins,
+    };
+    for _ in 0..10 {
+        let mut monitor = monitor(File::open(path("pipe")).unwrap(), go_on());
+        // Parts that end within lines, and fit into the pipe.
+        let (part, after) = rest.split_at(lines.len() / 12);
+        sensor.write_all(part.as_bytes()).unwrap();
+        let mut out = BufReader::new(monitor.stdout.take().unwrap());
+        // It has read something, or will be told before.
+        if told.is_empty() {
+            out.read_line(&mut told).unwrap();
+        }
+        let stop = ["-TERM".to_owned(), monitor.id().to_string()];
+        assert!(Command::new("kill").args(stop).status().unwrap().success());
+        // It ends at the end of a line.
+        let (line, after) = after.split_at(after.find('\n').unwrap() + 1);
+        sensor.write_all(line.as_bytes()).unwrap();
+        rest = after;
+        out.read_to_string(&mut told).unwrap();
+        assert!(monitor.wait().unwrap().success());
+    }
+    let monitor = monitor(File::open(path("pipe")).unwrap(), go_on());
+    sensor.write_all(rest.as_bytes()).unwrap();
+    drop(sensor);
+    told += &String::from_utf8(monitor.wait_with_output().unwrap().stdout).unwrap();
+    assert_eq!(told, whole);
+}

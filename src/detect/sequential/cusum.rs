@@ -4,8 +4,10 @@
 //!
 //! [^1]: E. S. Page, "Continuous inspection schemes", Biometrika 41, 1954.
 
+use serde::{Deserialize, Serialize};
+
 /// The sum of one side.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Cusum {
     allowance: i32,
     threshold: i32,

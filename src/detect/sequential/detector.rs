@@ -4,6 +4,7 @@ use super::chart::Chart;
 use super::cusum::Cusum;
 use super::ranks::Ranks;
 use super::score::{Lattice, Side};
+use serde::{Deserialize, Serialize};
 
 /// What a block was taken for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,7 +18,7 @@ pub enum Step {
 }
 
 /// A running detector.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Detector {
     reference: usize,
     ranks: Ranks,

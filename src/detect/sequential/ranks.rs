@@ -24,9 +24,11 @@
 //! [^1]: O. Barndorff-Nielsen, "On the limit behaviour of extreme order statistics", Ann. Math. Statist. 34, 1963;
 //!     A. Rényi, "Théorie des éléments saillants d'une suite d'observations", 1962.
 
+use serde::{Deserialize, Serialize};
+
 /// The blocks since the beginning: 8 bytes for each. A step takes time in proportion to the root of their number (some
 /// tenth of a microsecond at a thousand).
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ranks {
     /// Nearly all, in ascending order.
     sorted: Vec<f64>,

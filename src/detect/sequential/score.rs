@@ -82,7 +82,7 @@ impl Side {
 }
 
 /// The lattice of a score.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lattice {
     /// Scores are −`most` … `most` steps.
     pub(super) most: i32,

@@ -192,6 +192,7 @@ fn a_saved_state_is_read_back_unchanged() {
         settings: Settings::default(),
         rate: RATE,
         first_sample: None,
+        running: None,
         knowledge: Knowledge {
             reference: monitor.reference().cloned(),
             begins_at_rest: true,

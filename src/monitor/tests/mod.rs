@@ -8,6 +8,7 @@ use crate::stats::binomial;
 use crate::whiten::Order;
 
 mod decisions;
+mod running;
 mod surroundings;
 
 const RATE: f64 = 100.0;
