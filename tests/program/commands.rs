@@ -222,6 +222,7 @@ fn a_flag_that_means_nothing_is_refused() {
 }
 
 /// No output may be the recording, or another output, by whatever name.
+#[cfg(unix)]
 #[test]
 fn an_output_is_one_file() {
     let directory = tempfile::tempdir().unwrap();

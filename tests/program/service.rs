@@ -1,7 +1,5 @@
 //! A monitor that is left alone: its heartbeat, and the unit of the README.
 
-use super::{liftsim, outcome, project};
-use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Command, Stdio};
 
@@ -75,6 +73,8 @@ fn the_heart_sees_every_reading_and_the_reader() {
 #[cfg(unix)]
 #[test]
 fn the_unit_of_the_readme_runs() {
+    use super::{liftsim, outcome, project};
+    use std::fs;
     use std::os::unix::fs::{PermissionsExt, symlink};
     let readme = fs::read_to_string(project().join("README.md")).unwrap();
     let start = readme
