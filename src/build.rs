@@ -13,14 +13,33 @@ fn main() {
     for path in sources.chain(head()).filter(|path| path.exists()) {
         println!("cargo::rerun-if-changed={}", path.display());
     }
-    let revision = git(&["rev-parse", "HEAD"]).unwrap_or_else(|| "unknown".to_owned());
-    let status = ["status", "--porcelain", "--untracked-files=no", "--"];
-    let changes = git(&[&status[..], &SOURCES].concat());
-    let is_clean = changes.is_none_or(|changes| changes.is_empty());
-    let note = if is_clean { "" } else { ", modified" };
-    println!("cargo::rustc-env=LIFTSIM_REVISION={revision}{note}");
+    let revision = packed().or_else(checked_out);
+    let revision = revision.unwrap_or_else(|| "unknown".to_owned());
+    println!("cargo::rustc-env=LIFTSIM_REVISION={revision}");
     let out = env::var_os("OUT_DIR").expect("cargo sets it");
     fs::write(Path::new(&out).join("shipped.rs"), shipped()).expect("it can be written");
+}
+
+/// The revision that a package was made from. It has no history, and may lie in that of something else.
+fn packed() -> Option<String> {
+    let text = fs::read_to_string(".cargo_vcs_info.json").ok()?;
+    let (_, rest) = text.split_once("\"sha1\": \"")?;
+    let (revision, rest) = rest.split_once('"')?;
+    Some(noted(revision, rest.contains("\"dirty\": true")))
+}
+
+/// The revision of a checkout.
+fn checked_out() -> Option<String> {
+    let revision = git(&["rev-parse", "HEAD"])?;
+    let status = ["status", "--porcelain", "--untracked-files=no", "--"];
+    let changes = git(&[&status[..], &SOURCES].concat());
+    let is_modified = changes.is_some_and(|changes| !changes.is_empty());
+    Some(noted(&revision, is_modified))
+}
+
+fn noted(revision: &str, is_modified: bool) -> String {
+    let note = if is_modified { ", modified" } else { "" };
+    format!("{revision}{note}")
 }
 
 /// The configs of both folders as an array, by name.
