@@ -49,8 +49,10 @@ enum Command {
 }
 
 impl Arguments {
-    /// Reads the command line. Where it cannot be used, says why and ends the process.
+    /// Reads the command line. Where it cannot be used, says why and ends the process; where a shell asks how one may go
+    /// on, says that.
     pub fn read() -> Self {
+        completions::answer(Self::command);
         Self::try_parse().unwrap_or_else(|error| without_long_arguments(error).exit())
     }
 
@@ -72,7 +74,7 @@ impl Arguments {
             Command::Detect(command) => command.run(),
             Command::Track(command) => command.run(),
             Command::Monitor(command) => command.run(),
-            Command::Completions(command) => command.run(Self::command()),
+            Command::Completions(command) => command.run(),
             Command::Man(command) => command.run(Self::command()),
         }
     }

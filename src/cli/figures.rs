@@ -2,9 +2,9 @@
 
 use super::figure::{FigureFlags, folder, redraw};
 use super::progress::{self, Progress, Reporter};
-use super::{CommandResult, Failure, print, say, store, sweep, table};
+use super::{CommandResult, Failure, completions, print, say, store, sweep, table};
 use anyhow::anyhow;
-use clap::Args;
+use clap::{Args, ValueHint};
 use liftsim::report;
 use liftsim::results::Directory;
 use liftsim::run::{Overwrite, Session};
@@ -25,13 +25,13 @@ use std::time::Instant;
 #[derive(Debug, Args)]
 pub struct Figures {
     /// Only the config of this name, without .toml; may be repeated.
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", add = completions::studies())]
     only: Vec<String>,
     /// Where the configs are.
-    #[arg(long, value_name = "DIR", default_value = "configs")]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, default_value = "configs")]
     configs: PathBuf,
     /// Where the results and the report go.
-    #[arg(long, value_name = "DIR", default_value = "results")]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, default_value = "results")]
     results: PathBuf,
     /// Trials per point, instead of each config's.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_TRIALS))]

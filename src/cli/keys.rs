@@ -1,10 +1,11 @@
 //! `liftsim keys`: the reference of every table and key of a config.
 
-use super::{CommandResult, Failure, print, simulate};
+use super::{CommandResult, Failure, completions, print, simulate};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::study::reference::{self, Chapter};
 use liftsim::suggest::nearest;
+use std::collections::BTreeSet;
 use std::process::ExitCode;
 
 /// Print the reference of every table and key of a config.
@@ -13,7 +14,7 @@ use std::process::ExitCode;
 #[derive(Debug, Args)]
 pub struct Keys {
     /// Only this table, such as whitening, or else the keys of this name in all tables.
-    #[arg(conflicts_with = "schema")]
+    #[arg(conflicts_with = "schema", add = completions::of_keys())]
     name: Option<String>,
     /// As a JSON Schema, for editors: `#:schema ./schema.json` in a config's first line.
     #[arg(long)]
@@ -26,11 +27,7 @@ impl Keys {
             print(&format!("{:#}\n", reference::schema()))?;
             return Ok(ExitCode::SUCCESS);
         }
-        let mut chapters = vec![
-            reference::config(),
-            reference::monitor_options(),
-            simulate::reference(),
-        ];
+        let mut chapters = chapters();
         if let Some(name) = &self.name {
             let known = chapters.clone();
             chapters = reference::matching(chapters, name);
@@ -42,6 +39,21 @@ impl Keys {
         print(&chapters.concat())?;
         Ok(ExitCode::SUCCESS)
     }
+}
+
+fn chapters() -> Vec<Chapter> {
+    vec![
+        reference::config(),
+        reference::monitor_options(),
+        simulate::reference(),
+    ]
+}
+
+/// The names of all tables and keys.
+pub fn names() -> BTreeSet<String> {
+    let chapters = chapters();
+    let names = chapters.iter().flat_map(Chapter::names);
+    names.map(str::to_owned).collect()
 }
 
 fn unknown(name: &str, known: &[Chapter]) -> Failure {

@@ -3,7 +3,7 @@
 use super::figure::FigureFlags;
 use super::store::stored;
 use super::{CommandResult, Failure, print, sweep};
-use clap::Args;
+use clap::{Args, ValueHint};
 use liftsim::results::{Directory, Shard};
 use liftsim::run::{self, Absent, MergeError};
 use std::path::{Path, PathBuf};
@@ -17,10 +17,10 @@ use std::process::ExitCode;
 #[derive(Debug, Args)]
 pub struct Merge {
     /// Directories that `liftsim sweep --shard` has written.
-    #[arg(required = true, value_name = "DIR")]
+    #[arg(required = true, value_name = "DIR", value_hint = ValueHint::DirPath)]
     directories: Vec<PathBuf>,
     /// Where to write; results/<name of the config>/ by default.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     out: Option<PathBuf>,
 }
 

@@ -107,6 +107,7 @@ impl Failure {
 #[derive(Debug, Args)]
 struct Simulation {
     /// The experiment: a TOML file, or the name of a shipped one (see `liftsim new`).
+    #[arg(add = completions::configs(&["sweep"]))]
     config: PathBuf,
     /// Trials of each pilot run, instead of the config's.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_PILOT_TRIALS))]

@@ -1,7 +1,7 @@
 //! What `detect` and `monitor` share: how the monitor is set up.
 
-use super::Failure;
 use super::threshold::{Choice, one_of};
+use super::{Failure, completions};
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use liftsim::detection::{MonitorOptions, SLOW};
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 #[command(next_help_heading = "The monitor")]
 pub struct MonitorArguments {
     /// Settings, a TOML file; `liftsim keys` prints its keys.
-    #[arg(long, value_name = "CONFIG")]
+    #[arg(long, value_name = "CONFIG", add = completions::configs(&[]))]
     config: Option<PathBuf>,
     /// Start from a state that `detect --save-state` wrote, settings included.
     #[arg(long, value_name = "FILE", conflicts_with = "config")]

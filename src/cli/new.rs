@@ -1,7 +1,7 @@
 //! `liftsim new`: a config to start from.
 
 use super::output::Output;
-use super::{CommandResult, Failure, print, table};
+use super::{CommandResult, Failure, completions, print, table};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::config::{SHIPPED, Shipped, Source};
@@ -24,9 +24,10 @@ use std::process::ExitCode;
     Every command that takes a config takes the name of a shipped one too: liftsim sweep fig6")]
 pub struct New {
     /// A shipped config, or with --like the name of the new one.
+    #[arg(add = completions::configs(&["sweep", "simulate"]))]
     name: Option<PathBuf>,
     /// What to begin with: a shipped config or a file.
-    #[arg(long, value_name = "CONFIG", requires = "name")]
+    #[arg(long, value_name = "CONFIG", requires = "name", add = completions::configs(&["sweep", "simulate"]))]
     like: Option<PathBuf>,
 }
 
@@ -90,13 +91,11 @@ fn shipped(path: &Path) -> Result<&'static Shipped, Failure> {
 fn list() -> Result<String, Failure> {
     let (mut studies, mut rides) = (Vec::new(), Vec::new());
     for shipped in SHIPPED {
-        let name = shipped.name.to_owned();
+        let row = vec![shipped.name.to_owned(), about(shipped)?];
         if shipped.command == "simulate" {
-            let first = shipped.text.lines().next().unwrap_or_default();
-            rides.push(vec![name, first.trim_start_matches('#').trim().to_owned()]);
+            rides.push(row);
         } else {
-            let experiment = study::parse(&name, shipped.text).map_err(Failure::input)?;
-            studies.push(vec![name, experiment.header.question.to_string()]);
+            studies.push(row);
         }
     }
     Ok(format!(
@@ -104,6 +103,16 @@ fn list() -> Result<String, Failure> {
         table(&["liftsim sweep", "asks"], &studies),
         table(&["liftsim simulate", "makes"], &rides),
     ))
+}
+
+/// What a shipped config asks, or makes.
+pub fn about(shipped: &Shipped) -> Result<String, Failure> {
+    if shipped.command == "simulate" {
+        let first = shipped.text.lines().next().unwrap_or_default();
+        return Ok(first.trim_start_matches('#').trim().to_owned());
+    }
+    let experiment = study::parse(shipped.name, shipped.text).map_err(Failure::input)?;
+    Ok(experiment.header.question.to_string())
 }
 
 /// The text of a config at `path`, begun as a copy of another, and the command that it is for.

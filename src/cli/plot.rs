@@ -4,7 +4,7 @@ use super::figure::{FigureFlags, redraw, undrawn, warn_of_notes};
 use super::output::Output;
 use super::store::stored;
 use super::{CommandResult, Failure, print, warn};
-use clap::Args;
+use clap::{Args, ValueHint};
 use liftsim::figure::{DPI, OVERLAY};
 use liftsim::results::{Directory, Origin};
 use std::fs;
@@ -20,6 +20,7 @@ use std::process::ExitCode;
     liftsim plot results/fig6 --figure fig6.pdf --width 88 --no-caption")]
 pub struct Plot {
     /// A directory of `sweep`.
+    #[arg(value_hint = ValueHint::DirPath)]
     directory: PathBuf,
     /// Draw to this file, and leave the directory as it is.
     #[arg(

@@ -1,6 +1,7 @@
 //! The flags that say how a recording is read.
 
 use super::Failure;
+use super::completions::words;
 use clap::Args;
 use liftsim::recording::{Axis, Reading, TimeUnit, Unit};
 
@@ -38,13 +39,14 @@ pub struct ColumnArguments {
     #[arg(long, value_name = "COLUMN")]
     acceleration: Option<String>,
     /// The unit of time: s, ms, us or ns.
-    #[arg(long, value_name = "UNIT")]
+    #[arg(long, value_name = "UNIT", add = words(["s", "ms", "us", "ns"]))]
     time_unit: Option<TimeUnit>,
     #[command(flatten)]
     unit: UnitArguments,
     /// Which axis is vertical: x, y, z, -x, -y, -z; of a file also gravity (along it), or auto (along gravity, or
     /// else along the pulses of the ride) [default: auto].
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true,
+          add = words(["x", "y", "z", "-x", "-y", "-z", "gravity", "auto"]))]
     axis: Option<Axis>,
     /// Turn the vertical upside down, where gravity does not show which way is up.
     #[arg(long)]
@@ -55,7 +57,7 @@ pub struct ColumnArguments {
 #[derive(Debug, Args)]
 pub struct UnitArguments {
     /// The unit of acceleration: m/s^2, g, mg, or counts of a converter, see --scale.
-    #[arg(long, value_name = "UNIT")]
+    #[arg(long, value_name = "UNIT", add = words(["m/s^2", "g", "mg", "counts"]))]
     unit: Option<String>,
     /// One count of the converter, m/s^2.
     #[arg(long, value_name = "M/S2", allow_negative_numbers = true)]

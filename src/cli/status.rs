@@ -1,7 +1,7 @@
 //! `liftsim status DIR…`: shows the progress of each directory.
 
 use super::{CommandResult, Failure, print, table};
-use clap::Args;
+use clap::{Args, ValueHint};
 use liftsim::results::Directory;
 use liftsim::run::Status;
 use std::fs;
@@ -12,7 +12,7 @@ use std::process::ExitCode;
 #[derive(Debug, Args)]
 pub struct StatusCommand {
     /// Directories that `liftsim sweep` writes.
-    #[arg(required = true, value_name = "DIR")]
+    #[arg(required = true, value_name = "DIR", value_hint = ValueHint::DirPath)]
     directories: Vec<PathBuf>,
 }
 

@@ -5,7 +5,7 @@ use super::outcomes::SavedTrials;
 use super::progress::{self, Progress, Reporter};
 use super::store::{Written, line, manifest, store};
 use super::{CommandResult, Counted, Failure, print, table};
-use clap::Args;
+use clap::{Args, ValueHint};
 use liftsim::results::{Directory, Manifest, Shard};
 use liftsim::run::{Output, Overwrite, Session};
 use liftsim::study::Loaded;
@@ -29,7 +29,7 @@ pub struct Sweep {
     #[command(flatten)]
     counted: Counted,
     /// Where to write; results/<name of the config>/ by default.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     out: Option<PathBuf>,
     /// Start over, replacing whatever experiment the directory holds.
     #[arg(long)]

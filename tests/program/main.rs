@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod commands;
+mod completions;
 mod figures;
 mod gate;
 mod installed;

@@ -5,7 +5,7 @@ mod request;
 mod trips;
 
 use super::output::Output;
-use super::{CommandResult, Failure, print};
+use super::{CommandResult, Failure, completions, print};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::config::{Conflict, Source};
@@ -40,6 +40,7 @@ use std::process::ExitCode;
 pub struct Simulate {
     /// Settings, a TOML file with keys named as the flags below, or the name of a shipped one; flags take
     /// precedence.
+    #[arg(add = completions::configs(&["simulate"]))]
     config: Option<PathBuf>,
     /// The file of the record; the truth is written to FILE.truth.csv.
     #[arg(long, value_name = "FILE.csv")]
