@@ -1,12 +1,13 @@
 //! `liftsim detect RECORDING`: rest, rides and what decided them, in a recording.
 
-use super::found;
+use super::found::Found;
 use super::output::{Output, Ready};
 use super::rides::{RideArguments, Rides};
+use super::rows::{FormatArguments, Shown};
 use super::{CommandResult, Failure, print};
 use anyhow::anyhow;
 use clap::Args;
-use liftsim::detection::{DetectReport, Detection};
+use liftsim::detection::DetectReport;
 use liftsim::figure::{self, FigureError};
 use liftsim::monitor::SavedState;
 use std::path::PathBuf;
@@ -28,10 +29,9 @@ use std::process::ExitCode;
     liftsim detect log.csv --time t --acceleration az --unit mg\n  \
     liftsim detect ride.csv --save-state lift.json && liftsim monitor --state lift.json < samples")]
 pub struct Detect {
-    /// Print JSON instead of a table.
-    #[arg(long)]
-    json: bool,
-    /// Write the rides as CSV.
+    #[command(flatten)]
+    format: FormatArguments,
+    /// Write the rides as CSV too.
     #[arg(long, value_name = "FILE.csv")]
     csv: Option<PathBuf>,
     /// Draw the record, the record whitened, the states and the decisions.
@@ -81,12 +81,9 @@ impl Detect {
         }
         rides.warn();
         let report = DetectReport::new(self.rides.name(), recording, detection);
-        self.write(outputs, &report, detection, &saved)?;
-        print(&if self.json {
-            report.json()
-        } else {
-            found::text(&report, detection)
-        })?;
+        let found = Found { report, detection };
+        self.write(outputs, &found, &saved)?;
+        print(&self.format.show(&found))?;
         Ok(ExitCode::SUCCESS)
     }
 
@@ -105,13 +102,8 @@ impl Detect {
     }
 
     /// All files or none.
-    fn write(
-        &self,
-        to: Outputs,
-        report: &DetectReport,
-        detection: &Detection,
-        saved: &SavedState,
-    ) -> Result<(), Failure> {
+    fn write(&self, to: Outputs, found: &Found, saved: &SavedState) -> Result<(), Failure> {
+        let Found { report, detection } = found;
         let mut written = Vec::new();
         if let Some(figure) = to.figure {
             let name = self.rides.name();
@@ -126,7 +118,7 @@ impl Detect {
             written.push(state.write(saved.to_json().as_bytes())?);
         }
         if let Some(csv) = to.csv {
-            written.push(csv.write(&report.csv())?);
+            written.push(csv.write(found.rows().csv().as_bytes())?);
         }
         written.into_iter().try_for_each(Ready::publish)
     }

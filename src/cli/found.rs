@@ -1,5 +1,6 @@
-//! The result of `detect` as text.
+//! The result of `detect`.
 
+use super::rows::{Rows, Shown};
 use super::table;
 use liftsim::detection::{
     DetectReport, Detection, Event, Recorded, Trip, Undecided, event_lines, no_rides,
@@ -29,17 +30,36 @@ const DECISION: [&str; 4] = ["rank_sum", "exceedances", "lower", "upper"];
 /// The most undecided stretches that are printed.
 const MOST_STRETCHES: usize = 8;
 
-/// The whole text.
-pub fn text(report: &DetectReport, detection: &Detection) -> String {
-    [
-        recording(&report.recording),
-        rest(detection),
-        trips(report),
-        undecided(report.undecided),
-        events(report.events),
-        decisions(report.rides),
-    ]
-    .concat()
+/// What was found in a recording.
+pub struct Found<'a> {
+    pub report: DetectReport<'a>,
+    pub detection: &'a Detection,
+}
+
+impl Shown for Found<'_> {
+    fn text(&self) -> String {
+        let Self { report, detection } = self;
+        [
+            recording(&report.recording),
+            rest(detection),
+            trips(report),
+            undecided(report.undecided),
+            events(report.events),
+            decisions(report.rides),
+        ]
+        .concat()
+    }
+
+    fn json(&self) -> String {
+        self.report.json()
+    }
+
+    fn rows(&self) -> Rows {
+        Rows {
+            columns: self.report.columns(),
+            cells: self.report.rows(),
+        }
+    }
 }
 
 /// How it was read.

@@ -1,9 +1,11 @@
 //! `liftsim status DIR…`: shows the progress of each directory.
 
+use super::rows::{FormatArguments, Rows, Shown, pretty};
 use super::{CommandResult, Failure, print, table};
 use clap::{Args, ValueHint};
 use liftsim::results::Directory;
 use liftsim::run::Status;
+use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -14,12 +16,14 @@ pub struct StatusCommand {
     /// Directories that `liftsim sweep` writes.
     #[arg(required = true, value_name = "DIR", value_hint = ValueHint::DirPath)]
     directories: Vec<PathBuf>,
+    #[command(flatten)]
+    format: FormatArguments,
 }
 
 impl StatusCommand {
     /// Runs the command.
     pub fn run(self) -> CommandResult {
-        let mut rows = Vec::new();
+        let mut found = Vec::new();
         for directory in &self.directories {
             if !directory.is_dir() {
                 let place = directory.display();
@@ -30,23 +34,47 @@ impl StatusCommand {
             let shards = shards(directory);
             let status = Status::of(&Directory::new(directory));
             if shards.is_empty() || status.experiment.is_some() {
-                rows.push(row(directory, &status));
+                found.push(facts(directory, &status));
             }
             let each = shards.iter();
-            rows.extend(each.map(|shard| row(shard, &Status::of(&Directory::new(shard)))));
+            found.extend(each.map(|shard| facts(shard, &Status::of(&Directory::new(shard)))));
         }
-        let header = [
-            "directory",
-            "experiment",
-            "shard",
-            "points",
-            "trials",
-            "of",
-            "%",
-            "state",
-        ];
-        print(&table(&header, &rows))?;
+        print(&self.format.show(&Found(found)))?;
         Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// What is known of each directory.
+struct Found(Vec<Value>);
+
+const COLUMNS: [&str; 8] = [
+    "directory",
+    "experiment",
+    "shard",
+    "points",
+    "trials",
+    "of",
+    "percent",
+    "state",
+];
+
+impl Shown for Found {
+    fn text(&self) -> String {
+        let mut rows = self.rows();
+        for (row, found) in rows.cells.iter_mut().zip(&self.0) {
+            let percent = found["percent"].as_f64();
+            row[6] = percent.map_or(String::new(), |percent| format!("{percent:.1}"));
+        }
+        let header = COLUMNS.map(|name| if name == "percent" { "%" } else { name });
+        table(&header, &rows.cells)
+    }
+
+    fn json(&self) -> String {
+        pretty(&json!(self.0))
+    }
+
+    fn rows(&self) -> Rows {
+        Rows::of(&COLUMNS, &self.0, &Value::Null)
     }
 }
 
@@ -65,38 +93,22 @@ fn shards(directory: &Path) -> Vec<PathBuf> {
     shards
 }
 
-fn row(directory: &Path, status: &Status) -> Vec<String> {
-    let Status {
-        points,
-        done,
-        wanted,
-        ..
-    } = status;
-    let numbers = match status.experiment {
-        Some(_) => {
-            let percent = match wanted {
-                0 => 100.0,
-                _ => *done as f64 / *wanted as f64 * 100.0,
-            };
-            [
-                points.map_or(String::new(), |points| points.to_string()),
-                done.to_string(),
-                wanted.to_string(),
-                format!("{percent:.1}"),
-            ]
-        }
-        None => [const { String::new() }; 4],
-    };
-    let shard = status
-        .shard
-        .map_or(String::new(), |shard| shard.to_string());
-    [
-        directory.display().to_string(),
-        status.experiment.clone().unwrap_or_default(),
-        shard,
-    ]
-    .into_iter()
-    .chain(numbers)
-    .chain([status.state.name().to_owned()])
-    .collect()
+fn facts(directory: &Path, status: &Status) -> Value {
+    let mut facts = json!({
+        "directory": directory.display().to_string(),
+        "experiment": status.experiment,
+        "shard": status.shard.map(|shard| shard.to_string()),
+        "state": status.state.name(),
+    });
+    if status.experiment.is_some() {
+        let Status { done, wanted, .. } = *status;
+        facts["points"] = json!(status.points);
+        facts["trials"] = json!(done);
+        facts["of"] = json!(wanted);
+        facts["percent"] = json!(match wanted {
+            0 => 100.0,
+            _ => done as f64 / wanted as f64 * 100.0,
+        });
+    }
+    facts
 }

@@ -2,13 +2,14 @@
 
 use super::output::Output;
 use super::per_hour::PerHour;
+use super::rows::{FormatArguments, Rows, Shown, pretty};
 use super::{CommandResult, Failure, print, table};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args};
 use liftsim::detect::{Alternative, Exceedances, NullLaws, Region, Rule, Samples};
 use liftsim::study::plane;
 use liftsim::values::Size;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::error::Error;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -53,9 +54,8 @@ pub struct Threshold {
     /// The sign of the acceleration that it looks for.
     #[arg(long, value_name = "SIGN", value_parser = one_of(&ALTERNATIVES), default_value = "greater")]
     alternative: Alternative,
-    /// Print JSON instead of a table.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    format: FormatArguments,
     #[command(flatten)]
     per_hour: PerHour,
     /// Draw the plane of W and T with the region in it, or the delay against the shift.
@@ -113,18 +113,21 @@ impl Threshold {
         let (Some(n), Some(m1), Some(m2), Some(alpha)) =
             (self.reference, self.shift, self.scale, self.alpha)
         else {
-            return self.per_hour.run(self.reference, self.json, figure);
+            return self.per_hour.run(self.reference, &self.format, figure);
         };
         let samples = Samples::contiguous(n, m1, m2).map_err(Failure::input)?;
         let (rule, alternative) = (&self.rule, self.alternative);
         let laws =
             NullLaws::new(self.exceedances, alternative, &samples).map_err(Failure::input)?;
         let region = laws.region(rule, alpha).map_err(Failure::input)?;
-        let text = if self.json {
-            self.as_json(&samples, alpha, &laws, &region)
-        } else {
-            self.as_table(&samples, alpha, &laws, &region)
+        let found = Found {
+            flags: &self,
+            samples: &samples,
+            alpha,
+            laws: &laws,
+            region: &region,
         };
+        let text = self.format.show(&found);
         if let Some(figure) = figure {
             let title = plane::title(&samples, alternative, alpha);
             let plot = plane::plot(&laws, &plane::boundary(rule, &region), &title);
@@ -134,10 +137,72 @@ impl Threshold {
         print(&text)?;
         Ok(ExitCode::SUCCESS)
     }
+}
 
-    fn as_table(&self, samples: &Samples, alpha: f64, laws: &NullLaws, region: &Region) -> String {
+/// The region of a rule.
+struct Found<'a> {
+    flags: &'a Threshold,
+    samples: &'a Samples,
+    alpha: f64,
+    laws: &'a NullLaws,
+    region: &'a Region,
+}
+
+const COLUMNS: [&str; 6] = [
+    "exceedances",
+    "probability",
+    "lower",
+    "upper",
+    "rank_sum_probability",
+    "size",
+];
+
+impl Found<'_> {
+    fn facts(&self) -> Value {
+        let Self {
+            flags,
+            laws,
+            region,
+            ..
+        } = self;
+        let conditional = laws.conditional_sizes(region);
+        let critical: Vec<_> = (0..)
+            .zip(region.critical_values())
+            .map(|(t, (lower, upper))| {
+                json!({
+                    "exceedances": t,
+                    "probability": laws.exceedances().mass(t),
+                    "lower": lower,
+                    "upper": upper,
+                    "rank_sum_probability": conditional[t as usize],
+                })
+            })
+            .collect();
+        json!({
+            "reference": self.samples.reference(),
+            "shift": self.samples.shift(),
+            "scale": self.samples.scale(),
+            "alpha": self.alpha,
+            "rule": flags.rule.to_string(),
+            "exceedances": flags.exceedances.to_string(),
+            "alternative": flags.alternative.to_string(),
+            "size": region.size(),
+            "critical": critical,
+        })
+    }
+}
+
+impl Shown for Found<'_> {
+    fn text(&self) -> String {
+        let Self {
+            flags,
+            samples,
+            alpha,
+            laws,
+            region,
+        } = self;
         let bound = |bound: Option<u64>| bound.map_or("never".to_owned(), |w| w.to_string());
-        let critical = |(lower, upper): (Option<u64>, Option<u64>)| match self.alternative {
+        let critical = |(lower, upper): (Option<u64>, Option<u64>)| match flags.alternative {
             Alternative::Greater => bound(upper),
             Alternative::Less => bound(lower),
             Alternative::TwoSided => match (lower, upper) {
@@ -161,17 +226,17 @@ impl Threshold {
             ]
         })
         .collect();
-        let t = self.exceedances.symbol();
-        let name = match self.alternative {
+        let t = flags.exceedances.symbol();
+        let name = match flags.alternative {
             Alternative::Greater => "W >=",
             Alternative::Less => "W <=",
             Alternative::TwoSided => "W <= or >=",
         };
         format!(
             "rule {}, exceedances of {}, alternative {}, N/M1/M2 = {samples}, alpha = {alpha}\n\n{}\nexact size {}\n",
-            self.rule,
-            self.exceedances.samples().replace('_', ""),
-            self.alternative,
+            flags.rule,
+            flags.exceedances.samples().replace('_', ""),
+            flags.alternative,
             table(
                 &[t, &format!("P({t})"), name, &format!("P(H1* | {t})")],
                 &rows
@@ -180,32 +245,14 @@ impl Threshold {
         )
     }
 
-    fn as_json(&self, samples: &Samples, alpha: f64, laws: &NullLaws, region: &Region) -> String {
-        let conditional = laws.conditional_sizes(region);
-        let critical: Vec<_> = (0..)
-            .zip(region.critical_values())
-            .map(|(t, (lower, upper))| {
-                json!({
-                    "exceedances": t,
-                    "probability": laws.exceedances().mass(t),
-                    "lower": lower,
-                    "upper": upper,
-                    "rank_sum_probability": conditional[t as usize],
-                })
-            })
-            .collect();
-        let value = json!({
-            "reference": samples.reference(),
-            "shift": samples.shift(),
-            "scale": samples.scale(),
-            "alpha": alpha,
-            "rule": self.rule.to_string(),
-            "exceedances": self.exceedances.to_string(),
-            "alternative": self.alternative.to_string(),
-            "size": region.size(),
-            "critical": critical,
-        });
-        format!("{value:#}\n")
+    fn json(&self) -> String {
+        pretty(&self.facts())
+    }
+
+    fn rows(&self) -> Rows {
+        let facts = self.facts();
+        let critical = facts["critical"].as_array();
+        Rows::of(&COLUMNS, critical.map_or(&[], Vec::as_slice), &facts)
     }
 }
 

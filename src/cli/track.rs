@@ -6,7 +6,7 @@ use super::found::{self, cell};
 use super::output::{Output, Ready};
 use super::quality::{self, QualityArguments};
 use super::rides::{RideArguments, Rides};
-use super::rows::{self, Format};
+use super::rows::{FormatArguments, Rows, Shown};
 use super::vibration::{self, VibrationArguments};
 use super::{CommandResult, Failure, print, table, warn};
 use anyhow::anyhow;
@@ -48,9 +48,8 @@ use std::process::ExitCode;
     liftsim track phone.zip --baseline lift.vibration.json\n  \
     liftsim track ride.csv --floors 0,12 --at 0 --map lift.json")]
 pub struct TrackCommand {
-    /// Print it as this.
-    #[arg(long, value_name = "FORMAT", value_enum, default_value_t = Format::Table)]
-    format: Format,
+    #[command(flatten)]
+    format: FormatArguments,
     /// Draw the record, the speed, and the position within two deviations.
     #[arg(long, value_name = "FILE.png|FILE.svg")]
     figure: Option<PathBuf>,
@@ -179,7 +178,7 @@ impl TrackCommand {
         for it in ready? {
             it.publish()?;
         }
-        print(&self.printed(&report))?;
+        print(&self.format.show(&report))?;
         building.map_or(Ok(()), |building| building.save())?;
         kept.map_or(Ok(()), |kept| kept.save())?;
         Ok(ExitCode::SUCCESS)
@@ -226,37 +225,41 @@ impl TrackCommand {
             error => Failure::run(error),
         })
     }
-
-    fn printed(&self, report: &TrackReport) -> String {
-        match self.format {
-            Format::Table => text(report),
-            Format::Json => report.json(),
-            Format::Csv => rows::csv(&report.columns(), &report.rows()),
-            Format::Markdown => rows::markdown(&report.columns(), &report.rows()),
-        }
-    }
 }
 
-fn text(report: &TrackReport) -> String {
-    [
-        found::recording(&report.recording),
-        calibrated(&report.calibration, report.is_followed)
-            .map(|(name, it)| format!("{}: {it}\n", name.to_lowercase()))
-            .unwrap_or_default(),
-        report.barometer.as_ref().map(air::text).unwrap_or_default(),
-        trips(report),
-        report.rules.as_ref().map(rules).unwrap_or_default(),
-        quality(report),
-        report
-            .vibration
-            .as_ref()
-            .map(vibration::text)
-            .unwrap_or_default(),
-        floors::text(report),
-        found::undecided(report.undecided),
-        found::events(report.events),
-    ]
-    .concat()
+impl Shown for TrackReport<'_> {
+    fn text(&self) -> String {
+        let calibration = calibrated(&self.calibration, self.is_followed);
+        [
+            found::recording(&self.recording),
+            calibration
+                .map(|(name, it)| format!("{}: {it}\n", name.to_lowercase()))
+                .unwrap_or_default(),
+            self.barometer.as_ref().map(air::text).unwrap_or_default(),
+            trips(self),
+            self.rules.as_ref().map(rules).unwrap_or_default(),
+            quality(self),
+            self.vibration
+                .as_ref()
+                .map(vibration::text)
+                .unwrap_or_default(),
+            floors::text(self),
+            found::undecided(self.undecided),
+            found::events(self.events),
+        ]
+        .concat()
+    }
+
+    fn json(&self) -> String {
+        self.json()
+    }
+
+    fn rows(&self) -> Rows {
+        Rows {
+            columns: self.columns(),
+            cells: self.rows(),
+        }
+    }
 }
 
 fn threshold(text: &str) -> Result<f64, String> {

@@ -192,18 +192,20 @@ impl<'a> DetectReport<'a> {
         json.expect("a report is plain data") + "\n"
     }
 
-    /// One row per trip.
-    pub fn csv(&self) -> Vec<u8> {
+    /// The names of the columns of [`DetectReport::rows`].
+    pub fn columns(&self) -> Vec<String> {
+        [columns(), vec!["alpha".to_owned()]].concat()
+    }
+
+    /// A row for every trip.
+    pub fn rows(&self) -> Vec<Vec<String>> {
         let columns = columns();
         let alpha = self.settings.detector.alpha.to_string();
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        let mut write = |row: Vec<String>| writer.write_record(row).expect("a vector takes it");
-        write([&columns[..], &["alpha".to_owned()]].concat());
-        for trip in self.rides {
+        let row = |trip: &Trip| {
             let cells = columns.iter().map(|name| cell(&trip.column(name)));
-            write(cells.chain([alpha.clone()]).collect());
-        }
-        writer.into_inner().expect("a vector takes every byte")
+            cells.chain([alpha.clone()]).collect()
+        };
+        self.rides.iter().map(row).collect()
     }
 }
 

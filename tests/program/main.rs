@@ -4,6 +4,7 @@ mod bad_input;
 mod commands;
 mod completions;
 mod figures;
+mod formats;
 mod gate;
 mod installed;
 mod keys;

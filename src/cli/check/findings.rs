@@ -1,26 +1,13 @@
 //! The findings of the gate, for people and for machines.
 
+use super::format::Format;
+use crate::cli::rows::{Rows, Shown, pretty};
 use crate::cli::table;
-use clap::ValueEnum;
 use liftsim::format::eight_digits;
 use liftsim::gate::{self, EXCESS, FAMILY_LEVEL, Finding, Verdict};
 use quick_xml::escape::escape;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-
-/// How findings are printed.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-pub enum Format {
-    #[default]
-    /// Columns, to be read
-    Table,
-    /// One object: the verdict, and a list of the scenarios
-    Json,
-    /// XML as test runners write it: a fail is a failure, an inconclusive one is skipped
-    Junit,
-    /// Annotations of a GitHub workflow: an error for each fail, a warning for each inconclusive one
-    Github,
-}
 
 /// What was found, scenario by scenario.
 pub struct Report<'a> {
@@ -34,18 +21,32 @@ pub struct Report<'a> {
     pub confidence: f64,
 }
 
+const COLUMNS: [&str; 12] = [
+    "scenario",
+    "rule",
+    "size",
+    "nominal",
+    "cases",
+    "false_alarms",
+    "rate",
+    "low",
+    "high",
+    "p",
+    "power",
+    "verdict",
+];
+
 impl Report<'_> {
     /// The text in a format.
     pub fn show(&self, format: Format) -> String {
         match format {
-            Format::Table => self.columns() + &self.summary(),
-            Format::Json => format!("{:#}\n", self.json()),
+            Format::Rows(format) => format.show(self),
             Format::Junit => self.junit(),
             Format::Github => self.annotations(),
         }
     }
 
-    fn columns(&self) -> String {
+    fn table(&self) -> String {
         let mut header = vec!["scenario"];
         if self.regions.is_some() {
             header.push("rule");
@@ -160,7 +161,7 @@ impl Report<'_> {
         names.zip(self.findings)
     }
 
-    fn json(&self) -> Value {
+    fn facts(&self) -> Value {
         let scenarios = self.findings.iter().enumerate().map(|(at, of)| {
             let (low, high) = of.tally.interval(self.confidence);
             let region = self.regions.as_ref().map(|regions| &regions[at]);
@@ -235,6 +236,22 @@ impl Report<'_> {
             );
         }
         text + self.summary().trim_start()
+    }
+}
+
+impl Shown for Report<'_> {
+    fn text(&self) -> String {
+        self.table() + &self.summary()
+    }
+
+    fn json(&self) -> String {
+        pretty(&self.facts())
+    }
+
+    fn rows(&self) -> Rows {
+        let facts = self.facts();
+        let scenarios = facts["scenarios"].as_array();
+        Rows::of(&COLUMNS, scenarios.map_or(&[], Vec::as_slice), &facts)
     }
 }
 

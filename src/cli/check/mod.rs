@@ -1,12 +1,14 @@
 //! `liftsim check CONFIG`: the false-alarm gate.
 
 mod findings;
+mod format;
 
 use super::progress::{self, Progress, Reporter};
 use super::{CommandResult, Counted, Failure, print};
 use anyhow::anyhow;
 use clap::Args;
-use findings::{Format, Report};
+use findings::Report;
+use format::Format;
 use liftsim::experiment::{Experiment, SWEEP, SweepConfig};
 use liftsim::format::brief;
 use liftsim::gate::{self, Finding, Scenario, Verdict};

@@ -3,6 +3,7 @@
 mod words;
 
 use super::output::Output;
+use super::rows::FormatArguments;
 use super::threshold::{Choice, one_of};
 use super::{CommandResult, Failure, print};
 use clap::builder::{PossibleValue, TypedValueParser};
@@ -115,7 +116,7 @@ impl PerHour {
     pub fn run(
         &self,
         reference: Option<usize>,
-        json: bool,
+        format: &FormatArguments,
         figure: Option<Output>,
     ) -> CommandResult {
         let found = self.found(reference.unwrap_or(REFERENCE));
@@ -125,11 +126,7 @@ impl PerHour {
             let plot = found.plot(&caption);
             figure.draw(&plot, &caption.join("; "))?.publish()?;
         }
-        print(&if json {
-            found.as_json()
-        } else {
-            found.as_table()
-        })?;
+        print(&format.show(&found))?;
         Ok(ExitCode::SUCCESS)
     }
 

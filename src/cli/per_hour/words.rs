@@ -1,5 +1,6 @@
 //! What was found, as a table, JSON and a picture.
 
+use super::super::rows::{Rows, Shown, pretty};
 use super::super::table;
 use super::Found;
 use liftsim::detect::sequential::{Change, Side, units};
@@ -9,6 +10,27 @@ use serde_json::{Value, json};
 
 /// Probabilities of a false alarm by the times printed.
 const PROBABILITIES: [f64; 4] = [0.01, 0.05, 0.5, 0.95];
+
+const COLUMNS: [&str; 18] = [
+    "of",
+    "probability",
+    "hours",
+    "delta",
+    "shift",
+    "growth",
+    "blocks",
+    "seconds",
+    "this_reference_trials",
+    "this_reference_seen",
+    "this_reference_blocks",
+    "this_reference_low",
+    "this_reference_high",
+    "this_reference_seconds",
+    "threshold",
+    "exact",
+    "hours_between_false_alarms",
+    "hours_of_one_side",
+];
 
 impl Found<'_> {
     fn hours(&self, blocks: f64) -> f64 {
@@ -66,7 +88,83 @@ impl Found<'_> {
         plot_delays(&long.collect::<Vec<_>>(), &self.shifts, scale, caption)
     }
 
-    pub fn as_table(&self) -> String {
+    fn facts(&self) -> Value {
+        let Self { flags, law, .. } = self;
+        let first = self.quantiles().into_iter();
+        let first = first.map(|(p, hours)| json!({ "probability": p, "hours": hours }));
+        let shifts = self.shifts.iter().map(|delay| {
+            let shift = delay.change.shift;
+            self.with_delay(json!({ "delta": self.delta(shift), "shift": shift }), delay)
+        });
+        let growths = self.growths.iter().map(|delay| {
+            let growth = delay.change.growth;
+            self.with_delay(json!({ "growth": growth }), delay)
+        });
+        json!({
+            "score": flags.score,
+            "sides": self.chart.sides(),
+            "k": flags.k,
+            "reference": self.chart.reference(),
+            "rate": self.rate,
+            "block": flags.block,
+            "per_hour": self.per_hour,
+            "threshold": units(self.threshold),
+            "exact": law.is_exact(),
+            "hours_between_false_alarms": self.hours(law.promised()),
+            "hours_of_one_side": self.hours(law.one_side()),
+            "first_false_alarm": first.collect::<Vec<_>>(),
+            "delays": shifts.collect::<Vec<_>>(),
+            "growths": growths.collect::<Vec<_>>(),
+        })
+    }
+
+    /// The delays of vibration, if that is looked for.
+    fn growths(&self) -> String {
+        if self.growths.is_empty() {
+            return String::new();
+        }
+        let rows = self.growths.iter().map(|delay| {
+            let before = vec![delay.change.growth.to_string()];
+            [before, self.cells(delay)].concat()
+        });
+        format!(
+            "\nmean delay of a growth of the deviation of blocks, as by vibration ({})\n\n{}",
+            trials(&self.growths),
+            delays_table(&["times"], rows)
+        )
+    }
+
+    fn cells(&self, delay: &Delay) -> Vec<String> {
+        let (low, high) = delay.interval;
+        let mut cells = [delay.long, delay.long / self.rate].map(digits).to_vec();
+        cells.push(format!("{:.4}", delay.seen.rate()));
+        // The mean of those seen says little where many are not.
+        let short = delay.is_nearly_always_seen().then(|| {
+            let interval = format!("[{}, {}]", digits(low), digits(high));
+            [digits(delay.mean), interval, digits(delay.mean / self.rate)]
+        });
+        cells.extend(short.unwrap_or_default());
+        cells
+    }
+
+    /// A change with its delay.
+    fn with_delay(&self, mut change: Value, delay: &Delay) -> Value {
+        change["blocks"] = json!(delay.long);
+        change["seconds"] = json!(delay.long / self.rate);
+        change["this_reference"] = json!({
+            "trials": delay.seen.trials,
+            "seen": delay.seen.hits,
+            "blocks": delay.mean,
+            "low": delay.interval.0,
+            "high": delay.interval.1,
+            "seconds": delay.mean / self.rate,
+        });
+        change
+    }
+}
+
+impl Shown for Found<'_> {
+    fn text(&self) -> String {
         let Self { flags, law, .. } = self;
         let exactly = if law.is_exact() {
             "exactly "
@@ -114,79 +212,23 @@ impl Found<'_> {
         )
     }
 
-    /// The delays of vibration, if that is looked for.
-    fn growths(&self) -> String {
-        if self.growths.is_empty() {
-            return String::new();
-        }
-        let rows = self.growths.iter().map(|delay| {
-            let before = vec![delay.change.growth.to_string()];
-            [before, self.cells(delay)].concat()
-        });
-        format!(
-            "\nmean delay of a growth of the deviation of blocks, as by vibration ({})\n\n{}",
-            trials(&self.growths),
-            delays_table(&["times"], rows)
-        )
+    fn json(&self) -> String {
+        pretty(&self.facts())
     }
 
-    fn cells(&self, delay: &Delay) -> Vec<String> {
-        let (low, high) = delay.interval;
-        let mut cells = [delay.long, delay.long / self.rate].map(digits).to_vec();
-        cells.push(format!("{:.4}", delay.seen.rate()));
-        // The mean of those seen says little where many are not.
-        let short = delay.is_nearly_always_seen().then(|| {
-            let interval = format!("[{}, {}]", digits(low), digits(high));
-            [digits(delay.mean), interval, digits(delay.mean / self.rate)]
+    /// One for each probability and each change, of which `of` says what it is.
+    fn rows(&self) -> Rows {
+        let facts = self.facts();
+        let lists = ["first_false_alarm", "delays", "growths"];
+        let rows = lists.iter().flat_map(|list| {
+            let rows = facts[list].as_array().into_iter().flatten();
+            rows.map(move |row| {
+                let mut row = row.clone();
+                row["of"] = json!(list);
+                row
+            })
         });
-        cells.extend(short.unwrap_or_default());
-        cells
-    }
-
-    pub fn as_json(&self) -> String {
-        let Self { flags, law, .. } = self;
-        let first = self.quantiles().into_iter();
-        let first = first.map(|(p, hours)| json!({ "probability": p, "hours": hours }));
-        let shifts = self.shifts.iter().map(|delay| {
-            let shift = delay.change.shift;
-            self.with_delay(json!({ "delta": self.delta(shift), "shift": shift }), delay)
-        });
-        let growths = self.growths.iter().map(|delay| {
-            let growth = delay.change.growth;
-            self.with_delay(json!({ "growth": growth }), delay)
-        });
-        let value = json!({
-            "score": flags.score,
-            "sides": self.chart.sides(),
-            "k": flags.k,
-            "reference": self.chart.reference(),
-            "rate": self.rate,
-            "block": flags.block,
-            "per_hour": self.per_hour,
-            "threshold": units(self.threshold),
-            "exact": law.is_exact(),
-            "hours_between_false_alarms": self.hours(law.promised()),
-            "hours_of_one_side": self.hours(law.one_side()),
-            "first_false_alarm": first.collect::<Vec<_>>(),
-            "delays": shifts.collect::<Vec<_>>(),
-            "growths": growths.collect::<Vec<_>>(),
-        });
-        format!("{value:#}\n")
-    }
-
-    /// A change with its delay.
-    fn with_delay(&self, mut change: Value, delay: &Delay) -> Value {
-        change["blocks"] = json!(delay.long);
-        change["seconds"] = json!(delay.long / self.rate);
-        change["this_reference"] = json!({
-            "trials": delay.seen.trials,
-            "seen": delay.seen.hits,
-            "blocks": delay.mean,
-            "low": delay.interval.0,
-            "high": delay.interval.1,
-            "seconds": delay.mean / self.rate,
-        });
-        change
+        Rows::of(&COLUMNS, &rows.collect::<Vec<_>>(), &facts)
     }
 }
 
