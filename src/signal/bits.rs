@@ -9,11 +9,10 @@ mod chacha;
 
 /// Fills `bytes` as the generator does.
 pub fn fill_bytes(vectors: Vectors, generator: &mut Generator, bytes: &mut [u8]) {
-    #[cfg(target_arch = "x86_64")]
-    let bytes = if vectors == Vectors::Avx512 && vectors.is_available() {
-        fill_blocks(generator, bytes)
-    } else {
-        bytes
+    let bytes = match vectors {
+        #[cfg(target_arch = "x86_64")]
+        Vectors::Avx512 if vectors.is_available() => fill_blocks(generator, bytes),
+        _ => bytes,
     };
     generator.fill_bytes(bytes);
 }
