@@ -5,7 +5,6 @@ use super::{liftsim, outcome, project};
 use liftsim::experiment::{SWEEP, SweepConfig};
 use liftsim::study;
 use std::fs;
-use std::path::Path;
 
 fn run(arguments: &[&str]) -> String {
     let (code, out, err) = outcome(liftsim().args(arguments));
@@ -247,7 +246,7 @@ fn an_output_is_one_file() {
         assert_eq!(code, 2, "{err}");
         assert!(err.contains("used for something else too"), "{err}");
         assert_eq!(fs::read(&ride).unwrap(), recording);
-        assert!(!Path::new(&both).exists());
+        assert!(!fs::exists(&both).unwrap());
     }
 }
 
