@@ -1,5 +1,9 @@
 //! A monitor that is left alone: its heartbeat, and the unit of the README.
 
+#[cfg(unix)]
+use super::{liftsim, outcome, project};
+#[cfg(unix)]
+use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Command, Stdio};
 
@@ -73,8 +77,6 @@ fn the_heart_sees_every_reading_and_the_reader() {
 #[cfg(unix)]
 #[test]
 fn the_unit_of_the_readme_runs() {
-    use super::{liftsim, outcome, project};
-    use std::fs;
     use std::os::unix::fs::{PermissionsExt, symlink};
     let readme = fs::read_to_string(project().join("README.md")).unwrap();
     let start = readme
