@@ -31,20 +31,20 @@ pub(super) fn exceeds(
 ) -> Result<Judgement, ClaimError> {
     let compared = Compared::new(claim, number, names, evidence)?;
     let margin = claim.margin.get();
-    let smaller = compared.count(Side::Smaller);
+    let smaller = compared.on(&[Side::Smaller]);
     let is_below_nowhere = compared.comparisons.iter().all(|c| c.low >= -margin);
     let is_above_nowhere = compared.comparisons.iter().all(|c| c.high <= margin);
-    let verdict = if smaller > 0 {
+    let verdict = if !smaller.is_empty() {
         compared.where_on(Side::Greater)
     } else if is_above_nowhere {
         Verdict::DoesNotHold
-    } else if is_below_nowhere && compared.count(Side::Greater) > 0 {
+    } else if is_below_nowhere && !compared.on(&[Side::Greater]).is_empty() {
         Verdict::Holds
     } else {
         Verdict::Undecided
     };
     let rule = format!("nowhere below by more than {margin} and somewhere above by more");
-    Ok(compared.judgement(verdict, smaller, &rule))
+    Ok(compared.judgement(verdict, &smaller, &rule))
 }
 
 pub(super) fn equals(
@@ -54,16 +54,16 @@ pub(super) fn equals(
     evidence: &Evidence,
 ) -> Result<Judgement, ClaimError> {
     let compared = Compared::new(claim, number, names, evidence)?;
-    let outside = compared.count(Side::Greater) + compared.count(Side::Smaller);
-    let verdict = if outside > 0 {
+    let outside = compared.on(&[Side::Greater, Side::Smaller]);
+    let verdict = if !outside.is_empty() {
         compared.where_on(Side::Equal)
-    } else if compared.count(Side::Open) > 0 {
+    } else if !compared.on(&[Side::Open]).is_empty() {
         Verdict::Undecided
     } else {
         Verdict::Holds
     };
     let rule = format!("equivalent within ± {} everywhere", claim.margin.get());
-    Ok(compared.judgement(verdict, outside, &rule))
+    Ok(compared.judgement(verdict, &outside, &rule))
 }
 
 impl<'a> Compared<'a> {
@@ -101,10 +101,11 @@ impl<'a> Compared<'a> {
         }
     }
 
-    fn count(&self, side: Side) -> usize {
+    /// The comparisons on one of these sides.
+    fn on(&self, sides: &[Side]) -> Vec<&'a Comparison> {
         (self.comparisons.iter())
-            .filter(|comparison| self.side(comparison) == side)
-            .count()
+            .filter(|comparison| sides.contains(&self.side(comparison)))
+            .collect()
     }
 
     fn is_of(&self, contrast: &Contrast, comparison: &Comparison) -> bool {
@@ -124,11 +125,14 @@ impl<'a> Compared<'a> {
         }))
     }
 
-    fn judgement(&self, verdict: Verdict, refuted: usize, rule: &str) -> Judgement {
+    fn judgement(&self, verdict: Verdict, refuting: &[&Comparison], rule: &str) -> Judgement {
         let all = self.comparisons.len();
+        let size = |it: &&&Comparison| it.difference.abs();
+        let worst = (refuting.iter()).max_by(|a, b| size(a).total_cmp(&size(b)));
+        let worst = worst.map(|worst| self.place(worst));
         Judgement {
             verdict,
-            evidence: self.extremes() + &counter_examples(refuted, all, "comparison"),
+            evidence: self.extremes() + &counter_examples(refuting.len(), all, "comparison", worst),
             how: format!(
                 "{} against {}: {rule}; {}, family-wise level {}",
                 named(&self.names.first),
@@ -153,14 +157,19 @@ impl<'a> Compared<'a> {
 
     fn difference(&self, comparison: &Comparison) -> String {
         let number = interval(comparison.difference, comparison.low, comparison.high);
+        format!("{number} at {}", self.place(comparison))
+    }
+
+    /// `Δ/σ_ξ = 0.6 (impulses in Y_2 alone)`.
+    fn place(&self, comparison: &Comparison) -> String {
         let value = self.evidence.scope.axis.at(&comparison.first_value);
         let contrast = self
             .contrasts
             .iter()
             .find(|contrast| self.is_of(contrast, comparison));
         match contrast.map(|contrast| contrast.place) {
-            None | Some("") => format!("{number} at {value}"),
-            Some(place) => format!("{number} at {value} ({place})"),
+            None | Some("") => value,
+            Some(place) => format!("{value} ({place})"),
         }
     }
 }

@@ -97,23 +97,41 @@ fn rests<'a>(
         .collect())
 }
 
-/// The number of rows that pass and the worst row for its level, in words.
+/// The number of rows that pass, the worst row for its level, and the rows that never decide, in words.
 fn worst(rests: &[Rest], evidence: &Evidence) -> String {
     let excess = |rest: &Rest| rest.outcome.tally.rate() / rest.outcome.alpha;
     let worst = rests.iter().max_by(|a, b| excess(a).total_cmp(&excess(b)));
     let worst = worst.expect("a claim names a curve");
     let outcome = worst.outcome;
+    let place = |rest: &Rest| {
+        let value = evidence.scope.axis.at(rest.value);
+        format!("{}, {value}", named(rest.label))
+    };
     format!(
-        "{} of {} pass, {} are above α beyond doubt; the largest for its α: {} at α = {}, p {}, {}, {}",
+        "{} of {} pass, {} are above α beyond doubt; the largest for its α: {} at α = {}, p {}, {}{}",
         rests.iter().filter(|rest| rest.passes()).count(),
         rests.len(),
         rests.iter().filter(|rest| rest.is_rejected).count(),
         interval(outcome.tally.rate(), outcome.low, outcome.high),
         outcome.alpha,
         in_short(worst.p_value),
-        named(worst.label),
-        evidence.scope.axis.at(worst.value),
+        place(worst),
+        never(
+            rests
+                .iter()
+                .filter(|rest| rest.outcome.tally.hits == 0)
+                .map(place)
+        ),
     )
+}
+
+/// A rule that decides nothing keeps every level, and says so: `; no decision at all on "drift", rule wilcoxon`.
+fn never(places: impl Iterator<Item = String>) -> String {
+    let places: Vec<String> = places.collect();
+    if places.is_empty() {
+        return String::new();
+    }
+    format!("; no decision at all on {}", places.join(" and on "))
 }
 
 /// A p-value with two digits, as a power of ten if it is small.

@@ -1,6 +1,6 @@
 //! The test `grows`: whether each curve grows along the axis.
 
-use super::place::named_ranges;
+use super::place::named_range;
 use super::words::{compared, counter_examples, curve as named, interval};
 use super::{Axis, Claim, ClaimError, Comparison, Evidence, Judgement, Verdict};
 
@@ -48,7 +48,7 @@ pub(super) fn judge(
     Ok(Judgement {
         verdict,
         evidence: lowest_of(&climbs, &scope.axis)
-            + &counter_examples(refuted, climbs.len(), "curve"),
+            + &counter_examples(refuted, climbs.len(), "curve", None),
         how: format!(
             "growth along {}: no step below −{margin} and every curve's last above its first by more than \
              {margin}; {}, family-wise level {level}",
@@ -90,20 +90,22 @@ impl<'a> Climb<'a> {
         step.low >= -self.margin
     }
 
-    /// The ranges in which growth is shown, in words: the whole curve, or ranges without a fall in which the lower
-    /// limits of the steps add up to growth.
+    /// The range in which growth is shown, in words: the whole curve, or the one stretch without a fall in which the
+    /// lower limits of the steps add up to growth.
     fn place(&self, axis: &Axis) -> Option<String> {
         if self.state() == State::Grows {
             return Some(named(self.label));
         }
-        let ranges: Vec<String> = self
+        let mut ranges = self
             .steps
             .chunk_by(|a, b| self.is_sound(a) && self.is_sound(b))
             .filter(|run| self.is_sound(&run[0]))
             .filter(|run| run.iter().map(|step| step.low).sum::<f64>() > self.margin)
-            .map(|run| axis.range(&run[0].second_value, &run[run.len() - 1].first_value))
-            .collect();
-        named_ranges(&named(self.label), &ranges)
+            .map(|run| axis.range(&run[0].second_value, &run[run.len() - 1].first_value));
+        match (ranges.next(), ranges.next()) {
+            (Some(range), None) => Some(named_range(&named(self.label), &range)),
+            _ => None,
+        }
     }
 }
 

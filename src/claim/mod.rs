@@ -5,7 +5,7 @@
 //! of superiority, non-inferiority or equivalence; a difference that is merely not significant proves
 //! nothing and leaves the claim undecided.
 //!
-//! | test | holds | is refuted by | shown in a range |
+//! | test | holds | is refuted by | shown at a value, or between two |
 //! |---|---|---|---|
 //! | `grows` | every step's interval starts at −margin or above, every curve's last − first above margin | a curve that falls, or is flat from first to last | without a fall, and the lower limits of its steps add up to more than the margin |
 //! | `exceeds` | every point's interval starts at −margin or above, one above margin | a point below −margin, or all of them at margin or below | every point above margin |
@@ -18,11 +18,19 @@
 //! margin or below. `alpha_held` does not show that a rate is at most α, which no number of trials can show
 //! of a rate equal to α: a rate of 1.08 α passes if the excess is 1.2.
 //!
-//! A claim is about all its curves. A refuted claim *does not hold*, and its counter-examples are counted,
-//! unless it is shown in a range of the axis for every curve (pair of curves): at least two neighbouring
-//! values of an axis of numbers. Then it *holds where*; for growth some curve must also grow throughout. A
-//! single value does not count as a range, because curves that cross are equal where they cross. A claim that
-//! is neither shown nor refuted is undecided and needs more trials.
+//! A claim is about all its curves. A refuted claim *does not hold*, and its counter-examples are counted and the
+//! worst is named, unless it is shown in a connected range of the axis for every curve. Then it *holds where*; for
+//! growth some curve must also grow throughout. A claim that is neither shown nor refuted is undecided and needs more
+//! trials.
+//!
+//! A *connected range* is an interval of the values that were tested: two of them at least, in the order of numbers
+//! whatever order they are written in, and none between them at which the claim is not shown, be it refuted or open
+//! there. All values at which the claim is shown must lie in it. A single value is no range, because curves that
+//! cross are equal where they cross; a claim that is shown in two ranges apart is shown in no connected one; and names,
+//! such as those of rules, have no order, so that among them only all are a range. Each curve has its own range, and so
+//! has each pair where two curves, series or panels are compared: the pair in a panel is one curve here, and curves in
+//! different panels need not agree. Growth is shown between two values that no fall lies between and that the lower limits
+//! of the steps add up to; a curve with two such stretches has no connected range.
 //!
 //! # Why the level is kept
 //! - `grows`, `exceeds`, `equals`: each of n intervals has confidence 1 − level/n (Bonferroni), so with

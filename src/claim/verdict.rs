@@ -16,7 +16,7 @@ pub struct Judgement {
 pub enum Verdict {
     /// Shown everywhere.
     Holds,
-    /// Refuted, but shown in these ranges of the axis.
+    /// Refuted, but shown in a connected range of the axis, of each curve its own.
     HoldsWhere(String),
     /// Refuted.
     DoesNotHold,
@@ -25,8 +25,8 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// The verdict on a claim that is refuted somewhere: it holds where it is shown, if it is shown in some range
-    /// for each of its curves.
+    /// The verdict on a claim that is refuted somewhere: it holds where it is shown, if that is one range for each of
+    /// its curves.
     pub(super) fn where_shown(places: impl Iterator<Item = Option<String>>) -> Self {
         match places.collect::<Option<Vec<String>>>() {
             Some(places) => Self::HoldsWhere(places.join("; ")),

@@ -84,11 +84,17 @@ pub fn curve(label: &str) -> String {
     }
 }
 
-/// `; 14 of 32 comparisons are counter-examples`, or an empty text without counter-examples.
-pub fn counter_examples(number: usize, all: usize, noun: &str) -> String {
+/// `; 14 of 32 comparisons are counter-examples, the worst at Δ/σ_ξ = 0.6`, or an empty text without counter-examples.
+pub fn counter_examples(number: usize, all: usize, noun: &str, worst: Option<String>) -> String {
+    let all = count(all, noun);
+    let at = worst.map(|worst| match number {
+        1 => format!(", at {worst}"),
+        _ => format!(", the worst at {worst}"),
+    });
+    let at = at.unwrap_or_default();
     match number {
         0 => String::new(),
-        1 => format!("; 1 of {} is a counter-example", count(all, noun)),
-        _ => format!("; {number} of {} are counter-examples", count(all, noun)),
+        1 => format!("; 1 of {all} is a counter-example{at}"),
+        _ => format!("; {number} of {all} are counter-examples{at}"),
     }
 }

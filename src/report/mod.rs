@@ -175,8 +175,10 @@ fn claims_tables(
         text += &format!(
             "## What the paper claims\n\n{} The rule behind a verdict stands in the config. *Holds* takes a \
              test of superiority, non-inferiority or equivalence at the family-wise level. *Holds where* names \
-             ranges of the axis in which the claim is shown for every curve, though it is refuted elsewhere; \
-             without such ranges a claim with a counter-example *does not hold*. *Undecided* means that the \
+             for every curve the range of the axis in which the claim is shown, though it is refuted elsewhere: at \
+             least two neighbouring values of those that were tested, without a gap. Where the values at which it is \
+             shown lie apart, or there are none, a claim with a counter-example *does not hold*; the counter-examples \
+             are counted, and the worst is named. *Undecided* means that the \
              trials were too few to tell. *α is held* means that no rate is above α beyond doubt and that each \
              is surely at most the stated multiple of it. Points that share their noise are compared \
              trial by trial (*paired*), others by their counts; the bands in the pictures are pointwise and no \

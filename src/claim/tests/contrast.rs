@@ -8,8 +8,13 @@ const EXCEEDS: &str = "{ exceeds = { first = \"a\", second = \"b\" } }";
 fn exceeds_verdicts() {
     let verdict = |intervals: [(f64, f64); 4]| verdict(EXCEEDS, &intervals);
     assert_eq!(verdict([FLAT, UP, UP, FLAT]), Verdict::Holds);
-    // Only neighbours make a range; a wrong one would join values across the fall.
-    assert_eq!(verdict([UP, DOWN, UP, UP]), holds_where("Δ/σ_ξ in [1, 2]"));
+    assert_eq!(
+        verdict([DOWN, FLAT, UP, UP]),
+        holds_where("Δ/σ_ξ in [1, 2]")
+    );
+    // Shown on both sides of a fall, or of what is open: the range is not connected.
+    assert_eq!(verdict([UP, DOWN, UP, UP]), Verdict::DoesNotHold);
+    assert_eq!(verdict([DOWN, UP, FLAT, UP]), Verdict::DoesNotHold);
     assert_eq!(verdict([UP, DOWN, UP, DOWN]), Verdict::DoesNotHold);
     assert_eq!(verdict([FLAT; 4]), Verdict::DoesNotHold);
     assert_eq!(verdict([DOWN, FLAT, WIDE, FLAT]), Verdict::DoesNotHold);
@@ -53,6 +58,6 @@ fn contrasts_compare_like_with_like() {
     assert_eq!(
         evidence,
         "differences from −0.150 [−0.200, −0.100] at Δ/σ_ξ = 0.5 to 0.150 [0.100, 0.200] at Δ/σ_ξ = 1; \
-         2 of 4 comparisons are counter-examples"
+         2 of 4 comparisons are counter-examples, the worst at Δ/σ_ξ = 1"
     );
 }

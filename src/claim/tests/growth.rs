@@ -89,10 +89,15 @@ fn level_is_shared_within_a_claim() {
 #[test]
 fn growth_verdicts() {
     assert_eq!(growth(GROWING), Verdict::Holds);
-    // The ranges leave out the fall.
-    let fallen = [UP, DOWN, UP, UP];
-    let places = "\"a\"; \"b\": Δ/σ_ξ in [0, 0.5], Δ/σ_ξ in [1, 2]";
-    assert_eq!(growth(fallen), holds_where(places));
+    // The range leaves out the fall.
+    let places = "\"a\"; \"b\": Δ/σ_ξ in [0.5, 2]";
+    assert_eq!(growth([DOWN, UP, UP, UP]), holds_where(places));
+    assert_eq!(
+        growth([UP, DOWN, FLAT, UP]),
+        holds_where("\"a\"; \"b\": Δ/σ_ξ in [0, 0.5]")
+    );
+    // Growth on both sides of a fall is no connected range.
+    assert_eq!(growth([UP, DOWN, UP, UP]), Verdict::DoesNotHold);
     // Flat steps do not add up to growth, so there is no range, and the curve is a counter-example.
     assert_eq!(growth([FLAT, DOWN, FLAT, DOWN]), Verdict::DoesNotHold);
     // A curve that is flat overall refutes growth without a single fall.
@@ -128,7 +133,7 @@ fn growth_boundaries() {
     let rise = |low: f64| growth([UP, UP, UP, (low, 0.2)]);
     assert_eq!(rise(MARGIN), Verdict::Undecided);
     assert_eq!(rise(MARGIN + 1e-9), Verdict::Holds);
-    let fall = |high: f64| growth([UP, (-0.1, high), UP, UP]);
+    let fall = |high: f64| growth([UP, UP, (-0.1, high), UP]);
     assert_eq!(fall(-MARGIN), Verdict::Undecided);
     assert!(matches!(fall(-MARGIN - 1e-9), Verdict::HoldsWhere(_)));
 }
