@@ -1,5 +1,7 @@
 //! Verdicts on claims.
 
+use std::fmt;
+
 /// The verdict on a claim.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judgement {
@@ -25,12 +27,32 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// The verdict without its places.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::HoldsWhere(_) => "holds where",
+            Self::DoesNotHold => "does not hold",
+            Self::Undecided => "undecided",
+        }
+    }
+
     /// The verdict on a claim that is refuted somewhere: it holds where it is shown, if that is one range for each of
     /// its curves.
     pub(super) fn where_shown(places: impl Iterator<Item = Option<String>>) -> Self {
         match places.collect::<Option<Vec<String>>>() {
             Some(places) => Self::HoldsWhere(places.join("; ")),
             None => Self::DoesNotHold,
+        }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.name())?;
+        match self {
+            Self::HoldsWhere(places) => write!(f, " {places}"),
+            _ => Ok(()),
         }
     }
 }

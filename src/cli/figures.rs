@@ -5,7 +5,7 @@ use super::progress::{self, Progress, Reporter};
 use super::{CommandResult, Failure, completions, print, say, store, sweep, table};
 use anyhow::anyhow;
 use clap::{Args, ValueHint};
-use liftsim::report;
+use liftsim::report::Report;
 use liftsim::results::Directory;
 use liftsim::run::{Overwrite, Session};
 use liftsim::stats::tally::MOST_TRIALS;
@@ -21,7 +21,7 @@ use std::time::Instant;
 /// Each config in configs/ gets its directory in results/. Results that are complete for the same config,
 /// seed and trials are skipped; where only words of the config have changed, the figure is drawn again
 /// from the stored counts. Then results/README.md gives the verdict on each claim, after the text of
-/// configs/preface.md, if there is one.
+/// configs/preface.md, if there is one: paragraphs with `code`, *emphasis* and links.
 #[derive(Debug, Args)]
 pub struct Figures {
     /// Only the config of this name, without .toml; may be repeated.
@@ -198,7 +198,8 @@ impl Figures {
         let configs = self.way_to_configs().map_err(Failure::run)?;
         // A config directory may say what the report is about.
         let preface = fs::read_to_string(self.configs.join("preface.md")).unwrap_or_default();
-        let text = report::markdown(sections, &configs, &preface).map_err(Failure::input)?;
+        let report = Report::new(sections, &configs, &preface).map_err(Failure::input)?;
+        let text = report.markdown().into_bytes();
         let _lock = directory.lock().map_err(Failure::input)?;
         let is_new = directory.write("README.md", &text).map_err(Failure::run)?;
         print(&store::line(&directory, "README.md", is_new))

@@ -1,17 +1,25 @@
-//! The reproduction report: pictures, a paragraph each, and the table of claims, as Markdown.
+//! The reproduction report: the tables of claims, a picture and a paragraph for each experiment, and the equations cited.
 //!
 //! Its numbers come from the result files and its words from the configs. It contains no clock, host or
-//! revision, so the same results give the same bytes.
+//! revision, so the same results give the same bytes. It is made once, as a [`Report`]; Markdown and a page are views of it.
 
+mod claims;
+mod document;
+mod equations;
+mod markdown;
 mod text;
+mod words;
 
+pub use document::{Block, Part, Report, Span, Target, Text};
+pub use equations::Paper;
 pub use text::{PlaceholderError, fill};
 
 use crate::claim::{
     self, Claim, ClaimError, Enough, Evidence, Judgement, Narrative, Verdict, trials_to_decide,
 };
-use crate::format::thousands;
-use std::fmt::Write;
+use document::plain;
+use equations::Cited;
+use words::{cite, spans};
 
 /// One experiment and its results.
 #[derive(Clone, Debug)]
@@ -22,6 +30,8 @@ pub struct Section {
     pub config: String,
     /// The question in its config.
     pub question: String,
+    /// The paper whose equations it cites.
+    pub paper: Paper,
     /// The texts and claims of its config.
     pub narrative: Narrative,
     /// Trials per point.
@@ -77,10 +87,11 @@ impl Section {
         let mut text = String::new();
         for (number, (claim, judgement)) in (1..).zip(self.narrative.claims.iter().zip(judgements))
         {
-            let (verdict, places) = verdict(&judgement.verdict);
-            let Judgement { evidence, .. } = judgement;
-            text += &format!("{}: {verdict}{places}\n    {evidence}\n", &*claim.claim);
-            if judgement.verdict != Verdict::Undecided {
+            let Judgement {
+                evidence, verdict, ..
+            } = judgement;
+            text += &format!("{}: {verdict}\n    {evidence}\n", &*claim.claim);
+            if verdict != Verdict::Undecided {
                 continue;
             }
             let (evidence, trials) = (&self.evidence, self.trials);
@@ -109,167 +120,106 @@ impl Section {
     }
 }
 
-/// The report on all experiments; `configs` is the path from the report to their configs, `preface` the
-/// Markdown at the top.
-///
-/// # Errors
-/// If a claim or a text refers to something that is not in the results.
-pub fn markdown(
-    mut sections: Vec<Section>,
-    configs: &str,
-    preface: &str,
-) -> Result<Vec<u8>, ReportError> {
-    sections.sort_by_key(|section| (section.narrative.order, section.name.clone()));
-    let judged: Vec<(Vec<Judgement>, String)> = sections
-        .iter()
-        .map(Section::judge)
-        .collect::<Result<_, _>>()?;
-    let mut text = format!(
-        "# Reproduction report\n\n\
-         Every picture, number and verdict here comes from the result files beside it. `liftsim figures` \
-         makes them again from the [configs]({configs}).\n\n",
+/// A section with what its results say.
+struct Judged {
+    section: Section,
+    judgements: Vec<Judgement>,
+    paragraph: String,
+}
+
+impl Report {
+    /// The report on all experiments; `configs` is the path from the report to their configs, `preface` the
+    /// paragraphs at the top.
+    ///
+    /// # Errors
+    /// If a claim or a text refers to something that is not in the results.
+    pub fn new(
+        mut sections: Vec<Section>,
+        configs: &str,
+        preface: &str,
+    ) -> Result<Self, ReportError> {
+        sections.sort_by_key(|section| (section.narrative.order, section.name.clone()));
+        let judged = sections.into_iter().map(|section| {
+            let (judgements, paragraph) = section.judge()?;
+            Ok(Judged {
+                section,
+                judgements,
+                paragraph,
+            })
+        });
+        let judged: Vec<Judged> = judged.collect::<Result<_, _>>()?;
+        let mut cited = Cited::new();
+        let opening = opening(configs, preface, &mut cited);
+        let claims = claims::parts(&judged, configs, &mut cited);
+        let chapters = judged.iter();
+        let chapters = chapters.map(|judged| chapter(judged, configs, &mut cited));
+        Ok(Self {
+            title: "Reproduction report".to_owned(),
+            opening,
+            claims,
+            experiments: chapters.collect(),
+            equations: equations::part(&cited),
+        })
+    }
+}
+
+/// Where the report comes from, and the preface.
+fn opening(configs: &str, preface: &str, cited: &mut Cited) -> Vec<Block> {
+    let mut origin = spans(
+        "Every picture, number and verdict here comes from the result files beside it. `liftsim figures` makes them again from the ",
     );
-    if !preface.trim().is_empty() {
-        text += &format!("{}\n\n", preface.trim());
-    }
-    text += &claims_tables(&sections, &judged, configs);
-    text += &contents(&sections);
-    for (section, (_, paragraph)) in sections.iter().zip(&judged) {
-        text += &chapter(section, paragraph, configs);
-    }
-    Ok(text.into_bytes())
+    origin.push(Span::Link(
+        Target::Elsewhere(configs.to_owned()),
+        plain("configs"),
+    ));
+    origin.extend(plain("."));
+    let paragraphs = preface.split("\n\n").map(str::trim);
+    let paragraphs = (paragraphs.filter(|it| !it.is_empty()))
+        .map(|it| Block::Paragraph(cite(spans(it), Paper::Raifeld, cited)));
+    [Block::Paragraph(origin)]
+        .into_iter()
+        .chain(paragraphs)
+        .collect()
 }
 
-/// A table of contents with one line per experiment.
-fn contents(sections: &[Section]) -> String {
-    let mut text = "## Experiments\n\n".to_owned();
-    for section in sections {
-        let Section { name, .. } = section;
-        writeln!(text, "- [{}](#{name})", section.title()).expect("a string takes every line");
-    }
-    text + "\n"
-}
-
-/// The paper's claims with a count of the verdicts, then this project's own comparisons.
-fn claims_tables(
-    sections: &[Section],
-    judged: &[(Vec<Judgement>, String)],
-    configs: &str,
-) -> String {
-    let (mut of_paper, mut own) = (String::new(), String::new());
-    let mut verdicts = Vec::new();
-    for (section, (judgements, _)) in sections.iter().zip(judged) {
-        for (claim, judgement) in section.narrative.claims.iter().zip(judgements) {
-            let row = claim_row(section, claim, judgement, configs);
-            match &claim.source {
-                Some(_) => {
-                    of_paper += &row;
-                    verdicts.push(&judgement.verdict);
-                }
-                None => own += &row,
-            }
-        }
-    }
-    let mut text = String::new();
-    if !of_paper.is_empty() {
-        text += &format!(
-            "## What the paper claims\n\n{} The rule behind a verdict stands in the config. *Holds* takes a \
-             test of superiority, non-inferiority or equivalence at the family-wise level. *Holds where* names \
-             for every curve the range of the axis in which the claim is shown, though it is refuted elsewhere: at \
-             least two neighbouring values of those that were tested, without a gap. Where the values at which it is \
-             shown lie apart, or there are none, a claim with a counter-example *does not hold*; the counter-examples \
-             are counted, and the worst is named. *Undecided* means that the \
-             trials were too few to tell. *α is held* means that no rate is above α beyond doubt and that each \
-             is surely at most the stated multiple of it. Points that share their noise are compared \
-             trial by trial (*paired*), others by their counts; the bands in the pictures are pointwise and no \
-             test.\n\n\
-             | claim | where the paper makes it | how it was tested | numbers | verdict |\n\
-             |---|---|---|---|---|\n{of_paper}\n",
-            summary(&verdicts),
-        );
-    }
-    if !own.is_empty() {
-        text += &format!(
-            "## Beyond the paper\n\n| comparison | how it was tested | numbers | verdict |\n\
-             |---|---|---|---|\n{own}\n"
-        );
-    }
-    text
-}
-
-/// The numbers of the paper's claims by verdict, in words.
-fn summary(verdicts: &[&Verdict]) -> String {
-    let count = |is_it: fn(&Verdict) -> bool| verdicts.iter().filter(|v| is_it(v)).count();
-    format!(
-        "Of {} claims {} hold, {} hold in part, {} do not hold and {} are undecided.",
-        verdicts.len(),
-        count(|verdict| matches!(verdict, Verdict::Holds)),
-        count(|verdict| matches!(verdict, Verdict::HoldsWhere(_))),
-        count(|verdict| matches!(verdict, Verdict::DoesNotHold)),
-        count(|verdict| matches!(verdict, Verdict::Undecided)),
-    )
-}
-
-fn claim_row(section: &Section, claim: &Claim, judgement: &Judgement, configs: &str) -> String {
-    let Section { name, config, .. } = section;
-    let trials = if section.evidence.outcomes.is_empty() {
-        String::new()
-    } else {
-        format!("; {} trials per point", thousands(section.trials))
-    };
-    let source = claim.source.as_deref().map(|source| cell(source) + " | ");
-    let (verdict, places) = verdict(&judgement.verdict);
-    format!(
-        "| [{}](#{name}) | {}{}{trials} ([{config}]({configs}/{config})) | {} | {} |\n",
-        cell(&claim.claim),
-        source.unwrap_or_default(),
-        cell(&judgement.how),
-        cell(&judgement.evidence),
-        cell(&format!("**{verdict}**{places}")),
-    )
-}
-
-/// A verdict in words, and where it holds if that is not everywhere.
-fn verdict(verdict: &Verdict) -> (&'static str, String) {
-    match verdict {
-        Verdict::Holds => ("holds", String::new()),
-        Verdict::HoldsWhere(places) => ("holds where", format!(" {places}")),
-        Verdict::DoesNotHold => ("does not hold", String::new()),
-        Verdict::Undecided => ("undecided", String::new()),
-    }
-}
-
-/// Escapes a text for a cell of a table.
-fn cell(text: &str) -> String {
-    text.replace('|', "\\|")
-}
-
-fn chapter(section: &Section, paragraph: &str, configs: &str) -> String {
+/// The picture of an experiment, its paragraph and its files.
+fn chapter(judged: &Judged, configs: &str, cited: &mut Cited) -> Part {
     let Section {
         name,
         config,
         evidence,
+        paper,
         ..
-    } = section;
-    let mut files = vec![format!("[points.csv]({name}/points.csv)")];
+    } = &judged.section;
+    let question: Vec<&str> = judged.section.question.split_whitespace().collect();
+    let question = question.join(" ");
+    let picture = Block::Picture {
+        name: name.clone(),
+        caption: cite(spans(&question), *paper, cited),
+        alternative: question,
+    };
+    let paragraph = (!judged.paragraph.is_empty())
+        .then(|| Block::Paragraph(cite(spans(&judged.paragraph), *paper, cited)));
+    let mut files = vec![(format!("{name}/points.csv"), "points.csv")];
     for (file, is_there) in [
         ("comparisons.csv", !evidence.comparisons.is_empty()),
         ("quantities.csv", !evidence.quantities.is_empty()),
     ] {
-        files.extend(is_there.then(|| format!("[{file}]({name}/{file})")));
+        files.extend(is_there.then(|| (format!("{name}/{file}"), file)));
     }
-    files.push(format!("[{config}]({configs}/{config})"));
-    let question: Vec<&str> = section.question.split_whitespace().collect();
-    let question = question.join(" ");
-    let paragraph = if paragraph.is_empty() {
-        String::new()
-    } else {
-        format!("{paragraph}\n\n")
-    };
-    format!(
-        "<a id=\"{name}\"></a>\n\n## {}\n\n![{}]({name}/figure.png)\n\n*{question}*\n\n{paragraph}{}\n\n",
-        section.title(),
-        question.replace(['[', ']'], ""),
-        files.join(" · "),
-    )
+    files.push((format!("{configs}/{config}"), config));
+    let links = files
+        .into_iter()
+        .map(|(path, file)| vec![Span::Link(Target::Elsewhere(path), plain(file))]);
+    let files: Vec<Text> = links.collect();
+    let files = Block::Paragraph(files.join(&Span::Plain(" · ".to_owned())));
+    Part {
+        id: name.clone(),
+        title: judged.section.title().to_owned(),
+        blocks: [picture]
+            .into_iter()
+            .chain(paragraph)
+            .chain([files])
+            .collect(),
+    }
 }

@@ -6,7 +6,7 @@ use crate::counts::Counts;
 use crate::experiment::Experiment;
 use crate::figure::{Drawing, FigureError, OVERLAY, render};
 use crate::plot::{Options, Overlay, OverlayError, Plot, layout};
-use crate::report::Section;
+use crate::report::{Paper, Section};
 use crate::results::{Comparison, Directory, Manifest, Origin, RESULTS, ResultsError, file_name};
 use crate::run::{AnyStudy, DrawError, Output, StudyError};
 
@@ -157,6 +157,7 @@ impl Loaded {
             name: name.to_owned(),
             config: self.origin.config_name.clone(),
             question: self.question.clone(),
+            paper: Paper::of_study(self.study.name()),
             narrative: self.narrative.clone(),
             trials: self.origin.trials,
             evidence,
