@@ -1,7 +1,7 @@
 //! The equations that a report cites: each as its paper prints it, and as it is meant where that is something else.
 
 use super::document::{Block, Part, Span, Text, plain};
-use super::words::spans;
+use super::words::{cite, spans};
 use std::collections::BTreeSet;
 
 /// A paper whose equations are cited by their numbers.
@@ -184,31 +184,33 @@ impl Paper {
     }
 }
 
-/// The part with the equations that are cited; none where none is.
-pub(super) fn part(cited: &Cited) -> Option<Part> {
-    let of = |paper| {
-        let rows = EQUATIONS
+/// The part with the equations that are cited, and with those that these cite; none where none is.
+pub(super) fn part(mut cited: Cited) -> Option<Part> {
+    let mut known = 0;
+    while cited.len() > known {
+        known = cited.len();
+        for equation in &EQUATIONS {
+            if equation.is_in(&cited) {
+                equation.row(&mut cited);
+            }
+        }
+    }
+    let mut blocks = Vec::new();
+    for paper in [Paper::Raifeld, Paper::Yang] {
+        let of_paper = EQUATIONS
             .iter()
-            .filter(|it| it.paper == paper && cited.contains(&(paper, it.number)));
-        let rows: Vec<Vec<Text>> = rows.map(row).collect();
-        let head = vec![
-            "equation",
-            "as it is printed",
-            "what it is, and what it should be",
-        ];
-        let blocks = [
-            Block::Paragraph(plain(paper.heading())),
-            Block::Table {
-                head,
-                rows: rows.clone(),
-            },
-        ];
-        blocks.into_iter().filter(move |_| !rows.is_empty())
-    };
-    let blocks: Vec<Block> = [Paper::Raifeld, Paper::Yang]
-        .into_iter()
-        .flat_map(of)
-        .collect();
+            .filter(|it| it.paper == paper && it.is_in(&cited));
+        let rows: Vec<Vec<Text>> = of_paper.map(|it| it.row(&mut Cited::new())).collect();
+        if !rows.is_empty() {
+            let head = vec![
+                "equation",
+                "as it is printed",
+                "what it is, and what it should be",
+            ];
+            blocks.push(Block::Paragraph(plain(paper.heading())));
+            blocks.push(Block::Table { head, rows });
+        }
+    }
     (!blocks.is_empty()).then(|| Part {
         id: "equations".to_owned(),
         title: "Equations".to_owned(),
@@ -216,25 +218,25 @@ pub(super) fn part(cited: &Cited) -> Option<Part> {
     })
 }
 
-fn row(equation: &Equation) -> Vec<Text> {
-    let &Equation {
-        paper,
-        number,
-        printed,
-        remark,
-    } = equation;
-    let formula = |span| match span {
-        Span::Code(formula) => Span::Formula(formula),
-        other => other,
-    };
-    let lost = || Span::Emphasis(plain("lost in the text at hand"));
-    let printed = printed.map_or_else(lost, |printed| Span::Formula(printed.to_owned()));
-    vec![
+impl Equation {
+    fn is_in(&self, cited: &Cited) -> bool {
+        cited.contains(&(self.paper, self.number))
+    }
+
+    fn row(&self, cited: &mut Cited) -> Vec<Text> {
+        let place = Span::Anchor(self.paper.place(self.number));
+        let number = Span::Plain(format!("({})", self.number));
+        let lost = || Span::Emphasis(plain("lost in the text at hand"));
+        let formula = |formula: &str| Span::Formula(formula.to_owned());
+        let remark = cite(spans(self.remark), self.paper, cited);
+        let remark = remark.into_iter().map(|span| match span {
+            Span::Code(formula) => Span::Formula(formula),
+            other => other,
+        });
         vec![
-            Span::Anchor(paper.place(number)),
-            Span::Plain(format!("({number})")),
-        ],
-        vec![printed],
-        spans(remark).into_iter().map(formula).collect(),
-    ]
+            vec![place, number],
+            vec![self.printed.map_or_else(lost, formula)],
+            remark.collect(),
+        ]
+    }
 }

@@ -158,7 +158,7 @@ impl Report {
             opening,
             claims,
             experiments: chapters.collect(),
-            equations: equations::part(&cited),
+            equations: equations::part(cited),
         })
     }
 }
