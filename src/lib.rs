@@ -39,7 +39,7 @@
 //! | 6 | [`chain`]: one trial, every stage · [`detection`]: what a recording holds · [`experiment`]: what the author wrote |
 //! | 7 | [`track`]: how far each trip went, and among which floors · [`schedule`]: blocks of trials in parallel |
 //! | 8 | [`figure`]: PNG and SVG · [`plan`]: every point with its scenario and region |
-//! | 9 | [`page`]: a recording as one HTML page · [`pilot`]: decisions that no law gives · [`gate`]: the false-alarm test · [`results`]: files |
+//! | 9 | [`page`]: a recording, or the report, as one HTML page · [`pilot`]: decisions that no law gives · [`gate`]: the false-alarm test · [`results`]: files |
 //! | 10 | [`run`]: what is wanted, what is there, what is missing |
 //! | 11 | [`study`]: what a config's table describes |
 //!

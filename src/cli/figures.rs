@@ -1,10 +1,12 @@
 //! `liftsim figures`: every config's results, and the report on all of them.
 
 use super::figure::{FigureFlags, folder, redraw};
+use super::output::Output;
 use super::progress::{self, Progress, Reporter};
 use super::{CommandResult, Failure, completions, print, say, store, sweep, table};
 use anyhow::anyhow;
 use clap::{Args, ValueHint};
+use liftsim::page::report::html;
 use liftsim::report::Report;
 use liftsim::results::Directory;
 use liftsim::run::{Overwrite, Session};
@@ -39,6 +41,13 @@ pub struct Figures {
     /// Simulate complete results again, too, and replace what is there.
     #[arg(long)]
     fresh: bool,
+    /// Write the report as one page too, with every picture in it, to be read, printed or sent. Without a FILE it is README.html
+    /// among the results.
+    #[arg(long, value_name = "FILE.html", num_args = 0..=1)]
+    html: Option<Option<PathBuf>>,
+    /// Replace the file of --html.
+    #[arg(long, requires = "html")]
+    force: bool,
     #[command(flatten)]
     figure: FigureFlags,
     #[command(flatten)]
@@ -62,6 +71,7 @@ impl Figures {
             .map(|(name, path)| self.entry(name, path))
             .collect::<Result<Vec<_>, _>>()?;
         // Everything that can be refused is refused before anything takes long.
+        let page = self.page()?;
         let sessions = chosen.iter().map(|entry| self.session(entry));
         let sessions = sessions.collect::<Result<Vec<_>, _>>()?;
         let work = sessions.iter().flatten().count();
@@ -86,8 +96,23 @@ impl Figures {
             lines.push(vec![entry.name.clone(), note.into(), seconds]);
         }
         print(&table(&["experiment", "results", "seconds"], &lines))?;
-        self.report(chosen, &others)?;
+        self.report(chosen, &others, page)?;
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// The file of --html, if it may be written.
+    fn page(&self) -> Result<Option<Output>, Failure> {
+        let Some(file) = &self.html else {
+            return Ok(None);
+        };
+        let path = match file {
+            Some(file) => file.clone(),
+            None => {
+                fs::create_dir_all(&self.results).map_err(Failure::run)?;
+                self.results.join("README.html")
+            }
+        };
+        Output::named(&path, self.force, "--html", &["html", "htm"]).map(Some)
     }
 
     /// The name and the file of every config, by name.
@@ -171,7 +196,12 @@ impl Figures {
     }
 
     /// Writes the report where every config has its results.
-    fn report(&self, chosen: Vec<Entry>, others: &[&(String, PathBuf)]) -> Result<(), Failure> {
+    fn report(
+        &self,
+        chosen: Vec<Entry>,
+        others: &[&(String, PathBuf)],
+        page: Option<Output>,
+    ) -> Result<(), Failure> {
         let mut entries = chosen;
         let mut missing: Vec<&str> = Vec::new();
         for (name, path) in others {
@@ -202,7 +232,16 @@ impl Figures {
         let text = report.markdown().into_bytes();
         let _lock = directory.lock().map_err(Failure::input)?;
         let is_new = directory.write("README.md", &text).map_err(Failure::run)?;
-        print(&store::line(&directory, "README.md", is_new))
+        print(&store::line(&directory, "README.md", is_new))?;
+        let Some(page) = page else { return Ok(()) };
+        let pictures = (entries.iter()).map(|entry| {
+            let svg = fs::read_to_string(entry.directory.path().join("figure.svg"));
+            Ok((entry.name.clone(), svg.map_err(Failure::run)?))
+        });
+        let html = html(&report, &pictures.collect::<Result<_, Failure>>()?);
+        let line = format!("{}  written\n", page.path().display());
+        page.write(html.as_bytes())?.publish()?;
+        print(&line)
     }
 
     /// The relative path from the results to the configs.

@@ -1,14 +1,15 @@
-//! A recording as one HTML page that stands for itself: read on a screen or a phone, or printed.
+//! HTML pages that stand for themselves, a recording or the [`report`]: read on a screen or a phone, or printed.
 //!
-//! It is a view of a [`TrackReport`] and a picture: nothing is measured or judged here. It asks for nothing: no script, font
-//! or picture from elsewhere, and a policy that lets none in. It holds no clock, host or path, so the same recording and
-//! flags give the same bytes. Everything that comes from a file is escaped.
+//! The page of a recording is a view of a [`TrackReport`] and a picture: nothing is measured or judged here. A page asks for
+//! nothing: no script, font or picture from elsewhere, and a policy that lets none in. It holds no clock, host or path, so the
+//! same recording and flags give the same bytes. Everything that comes from a file is escaped.
 
 mod alarms;
 mod judged;
 mod made;
 mod numbers;
 mod parts;
+pub mod report;
 mod rides;
 mod sensor;
 mod summary;
@@ -17,8 +18,8 @@ mod undecided;
 use crate::figure::{FigureError, inline, quality};
 use crate::plot::Plot;
 use crate::track::TrackReport;
-use maud::{DOCTYPE, Markup, PreEscaped, html};
-use parts::{section, sentence, wide};
+use maud::{Markup, PreEscaped, html};
+use parts::{section, sentence, shell, wide};
 
 /// What is read aloud in place of the picture.
 const PICTURE: &str = "The record over time, and the speed and the position of the car within two standard deviations. The \
@@ -27,10 +28,6 @@ const PICTURE: &str = "The record over time, and the speed and the position of t
 /// What is read aloud in place of that of the quality.
 const QUALITY: &str =
     "The figures of each ride beside their limits. The table above has the numbers.";
-
-/// Nothing but what is in the page.
-const POLICY: &str =
-    "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
 
 /// The page of a report, with the picture of its record.
 ///
@@ -42,34 +39,22 @@ pub fn html(report: &TrackReport, record: &Plot) -> Result<String, FigureError> 
     let quality = quality.and_then(|it| quality::plot(report.rides, it, &report.recording.file));
     let quality = quality.map(|it| inline(&it, QUALITY)).transpose()?;
     let file = &report.recording.file;
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light";
-                title { (file) " – lift recording" }
-                style { (PreEscaped(include_str!("page.css"))) }
-            }
-            body {
-                main {
-                    (summary::header(report))
-                    (warnings(report))
-                    (figure(report, &picture))
-                    (rides::section(report))
-                    (alarms::section(report))
-                    (judged::section(report))
-                    @if let Some(quality) = &quality { (judged::picture(quality)) }
-                    (undecided::section(report))
-                    (sensor::section(report))
-                    (made::section(report))
-                }
-            }
+    let body = html! {
+        main {
+            (summary::header(report))
+            (warnings(report))
+            (figure(report, &picture))
+            (rides::section(report))
+            (alarms::section(report))
+            (judged::section(report))
+            @if let Some(quality) = &quality { (judged::picture(quality)) }
+            (undecided::section(report))
+            (sensor::section(report))
+            (made::section(report))
         }
     };
-    Ok(page.into_string() + "\n")
+    let title = format!("{file} – lift recording");
+    Ok(shell(&title, "light", include_str!("page.css"), body))
 }
 
 fn warnings(report: &TrackReport) -> Markup {

@@ -1,9 +1,31 @@
-//! What the sections of a page have in common.
+//! What pages and their sections have in common.
 
-use maud::{Markup, html};
+use maud::{DOCTYPE, Markup, PreEscaped, Render, html};
+
+/// Nothing but what is in the page.
+const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
+
+/// A page that asks for nothing, in these colour schemes.
+pub(super) fn shell(title: &str, schemes: &str, style: &str, body: Markup) -> String {
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content=(schemes);
+                title { (title) }
+                style { (PreEscaped(style)) }
+            }
+            body { (body) }
+        }
+    };
+    page.into_string() + "\n"
+}
 
 /// A section with its title.
-pub(super) fn section(id: &str, title: &str, content: Markup) -> Markup {
+pub(super) fn section(id: &str, title: impl Render, content: Markup) -> Markup {
     html! { section id=(id) { h2 { (title) } (content) } }
 }
 

@@ -1,6 +1,7 @@
 //! The real binary, run the way users run it.
 
 mod bad_input;
+mod browser;
 mod commands;
 mod completions;
 mod figures;
@@ -15,6 +16,7 @@ mod per_hour;
 mod recordings;
 mod remedies;
 mod replay;
+mod report_page;
 mod results;
 mod service;
 mod shards;

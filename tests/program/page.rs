@@ -1,17 +1,13 @@
 //! `liftsim track --report`: one page that says all of it, asks for nothing, and fits a screen, a phone and paper.
-//!
-//! The last is seen in a real browser: `$CHROMIUM`, or one in its usual places. Where there is none the test prints that it
-//! is skipped.
 
+use super::browser::{Seen, browse, browser, look};
 use super::recordings::{Said, recorded, well};
 use super::{liftsim, outcome};
-use assert_cmd::Command;
 use quick_xml::Reader;
 use quick_xml::events::Event;
 use serde_json::Value;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::path::Path;
 
 fn track(directory: &Path, arguments: &[&str]) -> Said {
     let mut command = liftsim();
@@ -58,7 +54,7 @@ const SECTIONS: [&str; 8] = [
 ];
 
 /// Every element that is begun is ended, by a reader of XML; what HTML leaves open is a line of its own.
-fn assert_well_formed(page: &str) {
+pub fn assert_well_formed(page: &str) {
     let head = page.find("<title>").unwrap();
     let voids = page[..head].matches("<meta").count();
     assert_eq!(page.matches("<meta").count(), voids);
@@ -252,58 +248,6 @@ fn nothing_is_overwritten_unasked() {
     assert_eq!(track(path, &[&once[..], &["--force"]].concat()).0, 0);
 }
 
-/// A browser, if there is one.
-fn browser() -> Option<PathBuf> {
-    let usual = ["chromium", "chromium-browser", "google-chrome"];
-    let usual = usual.map(|name| Path::new("/usr/bin").join(name));
-    let told = std::env::var_os("CHROMIUM").map(PathBuf::from);
-    told.into_iter().chain(usual).find(|path| path.exists())
-}
-
-/// What the browser prints.
-fn browse(browser: &Path, directory: &Path, flags: &[&str], file: &str) -> String {
-    let profile = tempfile::tempdir().unwrap();
-    let mut command = Command::new(browser);
-    command.timeout(Duration::from_secs(180)).args([
-        "--headless",
-        "--no-sandbox",
-        "--disable-gpu",
-        "--disable-quic",
-        "--disable-dev-shm-usage",
-        "--no-first-run",
-        "--disable-background-networking",
-        "--disable-component-update",
-        "--disable-sync",
-        "--hide-scrollbars",
-    ]);
-    command.arg(format!("--user-data-dir={}", profile.path().display()));
-    command.args(flags);
-    command.arg(format!("file://{}", directory.join(file).display()));
-    let output = command.output().expect("the browser starts");
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    String::from_utf8_lossy(&output.stdout).into_owned()
-}
-
-/// A page with this one in a frame of a width, which says how wide it is, what runs over its edge, and what it has asked for.
-fn framed(page: &str, width: u32) -> String {
-    let page = page.replace('&', "&amp;").replace('"', "&quot;");
-    let look = "
-        const frame = document.querySelector('iframe'), inner = frame.contentDocument;
-        const over = [...inner.querySelectorAll('body *')].filter(it =>
-            !it.parentElement.closest('.wide') && it.getBoundingClientRect().right > frame.clientWidth + 0.5);
-        const asked = frame.contentWindow.performance.getEntriesByType('resource').length;
-        document.title = ['saw', inner.documentElement.scrollWidth, over.map(it => it.tagName).join(' ') || 'none', asked,
-            inner.querySelectorAll('section').length].join('|');";
-    format!(
-        "<!DOCTYPE html><meta charset=\"utf-8\"><title>-</title><style>body {{ margin: 0 }} iframe {{ border: 0; width: {width}px; \
-         height: 4200px }}</style><iframe srcdoc=\"{page}\"></iframe><script>onload = () => {{ {look} }}</script>"
-    )
-}
-
 /// On a screen and on a phone nothing runs over the edge and nothing is asked for, a long name and an alarm included; on paper
 /// every page begins with a section. Screenshots are left in `target/tmp`.
 #[test]
@@ -318,21 +262,16 @@ fn a_browser_shows_it_whole() {
     fs::rename(path.join("ride.csv"), path.join(&long)).unwrap();
     let page = page(path, &[&[&long[..]], &FLOORS[1..]].concat());
     for width in [1280, 390] {
-        fs::write(path.join("frame.html"), framed(&page, width)).unwrap();
-        let dom = browse(&browser, path, &["--dump-dom"], "frame.html");
-        let saw = dom
-            .split("<title>")
-            .nth(1)
-            .and_then(|rest| rest.split("</title>").next());
-        let expected = format!("saw|{width}|none|0|{}", SECTIONS.len());
-        assert_eq!(saw, Some(&*expected), "{width}");
-        let shot = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("report-{width}.png"));
-        let flags = [
-            format!("--screenshot={}", shot.display()),
-            format!("--window-size={},3600", width.max(500)),
-        ];
-        browse(&browser, path, &[&flags[0], &flags[1]], "frame.html");
-        assert!(fs::metadata(&shot).unwrap().len() > 20_000);
+        let seen = look(&browser, path, &page, width, "recording");
+        let expected = Seen {
+            width,
+            over: "none".to_owned(),
+            asked: 0,
+            pictures: 0,
+            blank: 0,
+            sections: SECTIONS.len() as u32,
+        };
+        assert_eq!(seen, expected, "{width}");
     }
     let pdf = path.join("page.pdf").display().to_string();
     let print = format!("--print-to-pdf={pdf}");
