@@ -1,9 +1,9 @@
 //! The tables of claims, and what they say of their verdicts.
 
 use super::document::{Block, Part, Span, Target, Text, plain};
-use super::equations::Cited;
+use super::published::Cited;
+use super::section::{Judged, Section};
 use super::words::{cite, spans};
-use super::{Judged, Section};
 use crate::claim::{Claim, Judgement, Verdict};
 use crate::format::thousands;
 

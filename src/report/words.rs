@@ -6,7 +6,7 @@
 //! no equation of the paper in question remains a number.
 
 use super::document::{Span, Target, Text};
-use super::equations::{Cited, Paper};
+use super::published::{Cited, Paper};
 
 /// A text with its marks; marks without an end are letters.
 pub(super) fn spans(text: &str) -> Text {
