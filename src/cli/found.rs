@@ -65,10 +65,14 @@ impl Shown for Found<'_> {
 /// How it was read.
 pub fn recording(it: &Recorded) -> String {
     let quantum = it.quantum.map(|step| format!(", step {step:.3e} m/s^2"));
+    let missing = match it.missing {
+        0 => String::new(),
+        count => format!(", {:.1} % missing ({count})", 100.0 * it.missing_share),
+    };
     let offset = (it.clock_offset).map(|offset| format!("; times count from {offset:.3} s"));
     format!(
         "{}: {}, time in \"{}\" ({}), acceleration in \"{}\" ({}), vertical {}\n\
-         {} samples in {:.2} s, {:.1} Hz with {:.1} % jitter{}{}\n",
+         {} samples in {:.2} s, {:.1} Hz with {:.1} % jitter{}{}{}\n",
         it.file,
         it.format,
         it.time,
@@ -80,6 +84,7 @@ pub fn recording(it: &Recorded) -> String {
         it.end - it.start,
         it.rate,
         100.0 * it.jitter,
+        missing,
         quantum.unwrap_or_default(),
         offset.unwrap_or_default(),
     )

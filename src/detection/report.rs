@@ -48,6 +48,10 @@ pub struct Recorded {
     pub rate: f64,
     pub jitter: f64,
     pub quantum: Option<f64>,
+    /// Samples that are missing between the first and the last.
+    pub missing: u64,
+    /// The same, of all that there would be.
+    pub missing_share: f64,
     /// Times without samples.
     pub gaps: u64,
     /// The longest time between two samples, s.
@@ -84,6 +88,8 @@ impl Recorded {
             rate: facts.rate,
             jitter: facts.jitter,
             quantum: facts.quantum,
+            missing: facts.missing,
+            missing_share: facts.missing_share(),
             gaps: facts.gaps,
             longest_interval: facts.longest_gap.length,
             has_gravity: facts.has_gravity,

@@ -62,9 +62,13 @@ fn shown(it: &Recorded, level: &Level) -> Vec<Fact> {
         "the longest interval is {} s",
         fixed(it.longest_interval, 3)
     );
-    let gaps = match it.gaps {
+    let missing = match it.missing {
         0 => format!("none; {longest}"),
-        gaps => format!("{gaps}; {longest}"),
+        count => format!(
+            "{} samples, {} %; {longest}",
+            thousands(count),
+            fixed(100.0 * it.missing_share, 1)
+        ),
     };
     vec![
         (
@@ -82,7 +86,7 @@ fn shown(it: &Recorded, level: &Level) -> Vec<Fact> {
                 fixed(100.0 * it.jitter, 1)
             ),
         ),
-        ("Gaps", gaps),
+        ("Missing", missing),
         ("Gravity", gravity.to_owned()),
         (
             "Reads at rest",

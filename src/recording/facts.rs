@@ -1,6 +1,7 @@
 //! Facts about a recording and its sensor.
 
 use super::error::RecordingProblem;
+use super::missing::missing;
 use super::sample::Sample;
 use super::steps::{LOOKED_AT, Steps};
 
@@ -30,6 +31,8 @@ pub struct Facts {
     /// The standard deviation of the intervals over their median, without intervals below 0.5 or above 1.5
     /// medians.
     pub jitter: f64,
+    /// How many samples are missing between the first and the last.
+    pub missing: u64,
     /// The longest interval.
     pub longest_gap: Gap,
     /// Intervals longer than five medians.
@@ -94,7 +97,7 @@ impl Facts {
         let count = samples.len() as f64;
         let usual = 0.5 * median..=1.5 * median;
         let usual = intervals.iter().filter(|length| usual.contains(length));
-        let ((mean, deviation), (_, jitter)) = rayon::join(
+        let ((mean, deviation), (period, jitter)) = rayon::join(
             || moments(accelerations()),
             || moments(usual.map(|length| length / median)),
         );
@@ -112,6 +115,7 @@ impl Facts {
             end: last.time,
             rate: rate.unwrap_or(1.0 / median),
             jitter,
+            missing: missing(samples, period * median, jitter / period),
             gaps: intervals.iter().filter(is_gap).count() as u64,
             longest_gap,
             quantum: steps.quantum,
@@ -130,6 +134,11 @@ impl Facts {
     /// The longest interval that is not a gap, s.
     pub fn gap(&self) -> f64 {
         GAP / self.rate
+    }
+
+    /// The share of the samples that are missing.
+    pub fn missing_share(&self) -> f64 {
+        self.missing as f64 / (self.missing + self.samples) as f64
     }
 
     /// s.

@@ -47,6 +47,7 @@ mod json;
 mod layout;
 mod line_reader;
 mod lines;
+mod missing;
 mod names;
 mod parser;
 mod pressure;

@@ -49,11 +49,17 @@ pub enum Warning {
     #[error("sampling is uneven: intervals deviate by {:.1} % (--resample HZ evens it out)", 100.0 * .jitter)]
     Uneven { jitter: f64 },
     #[error(
-        "samples are missing: {count} gaps, the longest {:.3} s after {:.3} s",
+        "{:.1} % of the samples are missing: {count}, the longest gap is {:.3} s, after {:.3} s (a lower rate of \
+         recording often helps)",
+        100.0 * .share,
         .longest.length,
         .longest.start
     )]
-    Gaps { count: u64, longest: Gap },
+    Missing {
+        count: u64,
+        share: f64,
+        longest: Gap,
+    },
     #[error("line {line}: time repeats {} (the first reading is kept)", repeats(*.count))]
     RepeatedTimes { count: u64, line: u64 },
     #[error(
@@ -96,6 +102,9 @@ fn repeats(count: u64) -> String {
 /// The smallest jitter with a warning. Sensors with their own clock stay below 0.1 %; apps that record the time
 /// of their call are above 10 %.
 const UNEVEN: f64 = 0.05;
+
+/// The smallest share of missing samples with a warning, unless some of them leave a gap.
+const MISSING: f64 = 0.01;
 
 /// The share of equal neighbours from which a step counts as coarse. For normal noise of standard deviation s
 /// and steps q the share is 0.28 q/s: here q is 0.7 s.
@@ -170,9 +179,14 @@ pub(super) fn of_signal(
         let jitter = facts.jitter;
         warnings.push(Warning::Uneven { jitter });
     }
-    if facts.gaps > 0 {
-        let (count, longest) = (facts.gaps, facts.longest_gap);
-        warnings.push(Warning::Gaps { count, longest });
+    let share = facts.missing_share();
+    if facts.gaps > 0 || share >= MISSING {
+        let (count, longest) = (facts.missing, facts.longest_gap);
+        warnings.push(Warning::Missing {
+            count,
+            share,
+            longest,
+        });
     }
     warnings.extend(facts.saturated.map(|share| Warning::Saturated {
         share,

@@ -236,10 +236,7 @@ fn what_is_only_warned_of() {
     let gap = warnings(text(&|i| {
         (even(i) + if i > 500 { 1.0 } else { 0.0 }, wave(i))
     }));
-    assert!(
-        matches!(gap[..], [Warning::Gaps { count: 1, .. }]),
-        "{gap:?}"
-    );
+    assert!(matches!(gap[..], [Warning::Missing { .. }]), "{gap:?}");
     let uneven = warnings(text(&|i| (even(i) + 0.002 * wave(97 * i), wave(i))));
     assert!(matches!(uneven[..], [Warning::Uneven { .. }]), "{uneven:?}");
     assert!(refused(text(&|i| (even(i), 700.0 + wave(i)))).contains("--unit counts --scale 1.40"));
