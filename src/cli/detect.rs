@@ -107,7 +107,8 @@ impl Detect {
         let mut written = Vec::new();
         if let Some(figure) = to.figure {
             let name = self.rides.name();
-            let plot = figure::detection::plot(detection, &name, report.recording.clock_offset);
+            let plot =
+                figure::detection::plot(detection, &name, report.recording.counts_from.as_deref());
             let plot = plot.map_err(|error| match error {
                 FigureError::Short => self.rides.refused(error.into()),
                 error => Failure::run(error),

@@ -69,7 +69,7 @@ pub fn recording(it: &Recorded) -> String {
         0 => String::new(),
         count => format!(", {:.1} % missing ({count})", 100.0 * it.missing_share),
     };
-    let offset = (it.clock_offset).map(|offset| format!("; times count from {offset:.3} s"));
+    let zero = (it.counts_from.as_ref()).map(|zero| format!("; times count from {zero}"));
     format!(
         "{}: {}, time in \"{}\" ({}), acceleration in \"{}\" ({}), vertical {}\n\
          {} samples in {:.2} s, {:.1} Hz with {:.1} % jitter{}{}{}\n",
@@ -86,7 +86,7 @@ pub fn recording(it: &Recorded) -> String {
         100.0 * it.jitter,
         missing,
         quantum.unwrap_or_default(),
-        offset.unwrap_or_default(),
+        zero.unwrap_or_default(),
     )
 }
 
@@ -142,11 +142,20 @@ fn trips(report: &DetectReport) -> String {
     if report.rides.is_empty() {
         return no_rides(report.undecided, report.events).to_owned() + "\n";
     }
-    let rows: Vec<_> = (report.rides.iter())
-        .map(|trip| TRIP.map(|name| cell(&trip.column(name))).to_vec())
+    let shown = [&TRIP[..], dated(&report.recording)].concat();
+    let rows: Vec<Vec<String>> = (report.rides.iter())
+        .map(|trip| shown.iter().map(|name| cell(&trip.column(name))).collect())
         .collect();
     let ends = report.rides.iter().map(other_ends).collect::<String>();
-    table(&TRIP, &rows) + "times in s of the recording's clock, speed in m/s\n" + &ends
+    table(&shown, &rows) + "times in s of the recording's clock, speed in m/s\n" + &ends
+}
+
+/// The column shown where the clock has dates.
+pub fn dated(recording: &Recorded) -> &'static [&'static str] {
+    match recording.clock_zero {
+        Some(_) => &["start_at"],
+        None => &[],
+    }
 }
 
 /// A line for every end that may be another.

@@ -16,8 +16,8 @@ use anyhow::{Context, anyhow};
 use clap::Args;
 use liftsim::detection::MonitorOptions;
 use liftsim::monitor::{Kind, Knowledge, Monitor, SavedState, State};
-use liftsim::recording::{self, LineReader, Sample};
-use liftsim::track::{Happened, Watch};
+use liftsim::recording::{self, LineReader, Moment, Sample};
+use liftsim::track::{Found, Happened, Watch};
 use serde::Serialize;
 use std::io::{self, BufReader};
 use std::path::PathBuf;
@@ -30,7 +30,7 @@ use std::time::Duration;
 ///
 /// A line is `acceleration` or `time,acceleration`, up positive, or what a header names: the columns, units and
 /// formats are those of `detect`, without a header m/s^2 and s. The output is one JSON object a line: the first state, every change of it with the time of the
-/// change (time), the time at which it became known (reported) and the decision behind it; and alarms.
+/// change (time; and at, its moment by RFC 3339, where the lines have dates), the time at which it became known (reported) and the decision behind it; and alarms.
 ///
 /// States are rest, acceleration, inertial, braking, levelling, and unknown, with its reason: beginning (too little was
 /// seen; say --begins rest if the cage stands), pulse (it may be a start, a stop or a disturbance), level (it may
@@ -198,9 +198,14 @@ impl MonitorCommand {
             running: None,
         });
         let saved = SavedState { rate, ..saved };
+        let reports = Reports {
+            zero: readings.zero(),
+            report,
+            is_read: true,
+        };
         let lift = match going {
-            Some(going) => self.go_on(going, heartbeat, report),
-            None => self.lift(&saved, known.is_none(), &first[0].0, heartbeat, report),
+            Some(going) => self.go_on(going, heartbeat, reports),
+            None => self.lift(&saved, known.is_none(), &first[0].0, heartbeat, reports),
         };
         let mut lift = lift?;
         let mut kept = self.save_state.as_ref().map(|path| Kept::new(path, &saved));
@@ -213,7 +218,7 @@ impl MonitorCommand {
         let read = loop {
             // Nobody may read what is reported any more.
             let next = match first.next() {
-                _ if !lift.is_read => break Ok(()),
+                _ if !lift.reports.is_read => break Ok(()),
                 None => readings.next(),
                 known => Ok(known),
             };
@@ -237,7 +242,7 @@ impl MonitorCommand {
         &self,
         going: Going,
         heartbeat: Option<&'a Heartbeat>,
-        report: R,
+        reports: Reports<R>,
     ) -> Result<Lift<'a, R>, Failure> {
         let building = self.floors.building(false)?;
         let measures = self.trips || building.is_some();
@@ -251,9 +256,8 @@ impl MonitorCommand {
             monitor: going.monitor,
             building,
             heartbeat,
-            report,
+            reports,
             is_warned: false,
-            is_read: true,
             first_second: FirstSecond::default(),
         })
     }
@@ -265,7 +269,7 @@ impl MonitorCommand {
         is_measured: bool,
         beginning: &Sample,
         heartbeat: Option<&'a Heartbeat>,
-        report: R,
+        reports: Reports<R>,
     ) -> Result<Lift<'a, R>, Failure> {
         let mut knowledge = saved.knowledge_of(beginning);
         if let Some(begins) = self.begins {
@@ -290,16 +294,15 @@ impl MonitorCommand {
             monitor: Monitor::new(design, knowledge),
             building,
             heartbeat,
-            report,
+            reports,
             is_warned: false,
-            is_read: true,
             first_second: FirstSecond::default(),
         };
         if self.begins == Some(Beginning::Motion) {
             lift.monitor.begin_in_motion();
         }
         let event = lift.monitor.beginning(beginning.time);
-        lift.say(&event)?;
+        lift.reports.say(event.time, &event)?;
         Ok(lift)
     }
 }
@@ -310,14 +313,30 @@ struct Lift<'a, R> {
     trips: Option<Watch>,
     building: Option<Building>,
     heartbeat: Option<&'a Heartbeat>,
-    report: R,
+    reports: Reports<R>,
     /// Whether the warning of [`Watch::warning`] was given.
     is_warned: bool,
-    /// Whether anybody reads what is reported.
-    is_read: bool,
     first_second: FirstSecond,
     /// The level that a saved state knows, m/s².
     level: Option<f64>,
+}
+
+/// Where events are reported.
+struct Reports<R> {
+    /// The moment of time 0, where the lines have dates.
+    zero: Option<Moment>,
+    report: R,
+    /// Whether anybody reads what is reported.
+    is_read: bool,
+}
+
+impl<R: FnMut(String) -> Result<bool, Failure>> Reports<R> {
+    /// Reports what happened at a time, s.
+    fn say(&mut self, time: f64, event: &impl Serialize) -> Result<(), Failure> {
+        let at = self.zero.map(|zero| zero.after(time));
+        self.is_read = self.is_read && (self.report)(line(&Dated { event, at }))?;
+        Ok(())
+    }
 }
 
 impl<R: FnMut(String) -> Result<bool, Failure>> Lift<'_, R> {
@@ -332,16 +351,16 @@ impl<R: FnMut(String) -> Result<bool, Failure>> Lift<'_, R> {
                     heartbeat.told(state);
                 }
             }
-            self.is_read = self.is_read && (self.report)(line(event))?;
+            self.reports.say(event.time, &event)?;
         }
         let Some(trips) = &mut self.trips else {
             return Ok(is_rest);
         };
         let floors = self.building.as_mut().map(|it| &mut it.floors);
         let (state, quiet) = (self.monitor.state(), self.monitor.quiet());
-        let told = trips.step(sample, state, quiet, floors);
+        let mut told = trips.step(sample, state, quiet, floors);
         if !told.is_empty() {
-            self.tell(&told)?;
+            self.tell(&mut told)?;
             self.building.as_ref().map_or(Ok(()), Building::keep)?;
         }
         Ok(is_rest)
@@ -355,25 +374,34 @@ impl<R: FnMut(String) -> Result<bool, Failure>> Lift<'_, R> {
     /// Reports what is left, and writes the map.
     fn end(mut self) -> Result<(), Failure> {
         if let Some(trips) = &mut self.trips {
-            let told = trips.end(self.building.as_mut().map(|it| &mut it.floors));
-            self.tell(&told)?;
+            let mut told = trips.end(self.building.as_mut().map(|it| &mut it.floors));
+            self.tell(&mut told)?;
         }
         self.building.map_or(Ok(()), |building| building.save())
     }
 
-    fn tell(&mut self, told: &[Happened]) -> Result<(), Failure> {
+    fn tell(&mut self, told: &mut [Happened]) -> Result<(), Failure> {
         let warning = self.trips.as_ref().and_then(Watch::warning);
         if let Some(warning) = warning.filter(|_| !self.is_warned) {
             warn(warning);
             self.is_warned = true;
         }
-        told.iter().try_for_each(|event| self.say(event))
+        told.iter_mut().try_for_each(|event| {
+            if let Found::Trip(it) = &mut event.what {
+                it.trip.date(self.reports.zero);
+            }
+            self.reports.say(event.time, event)
+        })
     }
+}
 
-    fn say(&mut self, event: &impl Serialize) -> Result<(), Failure> {
-        self.is_read = self.is_read && (self.report)(line(event))?;
-        Ok(())
-    }
+/// An event, and at what moment it happened, where that is known.
+#[derive(Serialize)]
+struct Dated<'a, E> {
+    #[serde(flatten)]
+    event: &'a E,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at: Option<Moment>,
 }
 
 /// An event as a line.

@@ -5,7 +5,7 @@ use super::monitor_options::check_strength;
 use super::{Failure, warn};
 use anyhow::{Context, anyhow};
 use liftsim::monitor::SET_BACK;
-use liftsim::recording::{LineReader, LineReading, Sample, StreamColumns};
+use liftsim::recording::{LineReader, LineReading, Moment, Sample, StreamColumns};
 use serde::{Deserialize, Serialize};
 use std::io;
 
@@ -90,6 +90,11 @@ impl<'a, R: io::BufRead> Readings<'a, R> {
             ))),
             (Some(rate), _) => Ok(Some((first, rate))),
         }
+    }
+
+    /// The moment of time 0, where the lines have dates.
+    pub fn zero(&self) -> Option<Moment> {
+        self.lines.zero()
     }
 
     /// Hz, by the median of the first intervals.

@@ -46,7 +46,9 @@ impl Rides {
     ) -> Result<Self, SettingsError> {
         let design = settings.0.at(settings.1)?;
         let (reference, begins_at_rest) = known.clone();
-        let detection = Detection::of(&design, recording.samples(), reference, begins_at_rest);
+        let mut detection = Detection::of(&design, recording.samples(), reference, begins_at_rest);
+        let zero = recording.facts().clock_zero;
+        (detection.trips.iter_mut()).for_each(|trip| trip.date(zero));
         Ok(Self {
             recording,
             detection,

@@ -210,7 +210,7 @@ impl TrackCommand {
         climbs: Option<&Climbs>,
     ) -> Result<Plot, Failure> {
         let name = self.rides.name();
-        let offset = rides.recording.facts().clock_offset;
+        let zero = rides.recording.facts().counts_from();
         let floors = floors.into_iter().flat_map(Floors::floors);
         let floors: Vec<f64> = floors.map(|floor| floor.height).collect();
         let barometer = climbs.map_or(&[][..], |climbs| &climbs.readings);
@@ -219,7 +219,7 @@ impl TrackCommand {
             floors: &floors,
             barometer,
         };
-        let plot = figure::track::plot(&rides.detection, track, &beside, (&name, offset));
+        let plot = figure::track::plot(&rides.detection, track, &beside, (&name, zero.as_deref()));
         plot.map_err(|error| match error {
             FigureError::Short => self.rides.refused(error.into()),
             error => Failure::run(error),
@@ -300,6 +300,7 @@ fn trips(report: &TrackReport) -> String {
     if report.barometer.is_some() {
         shown.splice(BESIDE..BESIDE, HEIGHT);
     }
+    shown.extend(found::dated(&report.recording));
     let row = |ride: &Tracked| {
         let cells = shown.iter().map(|name| cell(&ride.column(name)));
         cells.collect()

@@ -46,7 +46,7 @@ mod tests {
             columns,
             "ride,direction,start,inertial,braking,levelling,stop,speed,ended,or_start,or_stop,\
              start_rank_sum,start_exceedances,start_lower,start_upper,stop_rank_sum,stop_exceedances,\
-             stop_lower,stop_upper"
+             stop_lower,stop_upper,start_at,stop_at"
         );
     }
 }

@@ -5,7 +5,7 @@
 use super::{AtRest, Detection, Event, Trip, Undecided, What, columns};
 use crate::explain::SensorFilter;
 use crate::monitor::{Knowledge, Settings};
-use crate::recording::Recording;
+use crate::recording::{Moment, Recording};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -62,6 +62,11 @@ pub struct Recorded {
     pub is_up_known: bool,
     /// Subtracted from the times of the file, s.
     pub clock_offset: Option<f64>,
+    /// The moment of time 0, where the file has dates.
+    pub clock_zero: Option<Moment>,
+    /// What times count from, where that is not the zero of the file.
+    #[serde(skip)]
+    pub counts_from: Option<String>,
     /// The time constant of its high-pass filter, s, if it has one: the record was restored.
     pub high_pass: Option<f64>,
     /// Whether that filter was looked for.
@@ -95,6 +100,8 @@ impl Recorded {
             has_gravity: facts.has_gravity,
             is_up_known: recording.vertical().is_sign_known,
             clock_offset: facts.clock_offset,
+            clock_zero: facts.clock_zero,
+            counts_from: facts.counts_from(),
             high_pass: detection.filter.time_constant(),
             is_filter_sought: detection.filter != SensorFilter::NotSought,
         }

@@ -6,6 +6,7 @@
 use super::decisions::Decisions;
 use crate::explain::{self, Cause, Doubt, Explanation, Faults};
 use crate::monitor::{Decision, Direction};
+use crate::recording::Moment;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -34,6 +35,19 @@ pub struct Trip {
     pub or_stop: Option<f64>,
     pub start_decision: Option<Decision>,
     pub stop_decision: Option<Decision>,
+    /// The moments of its start and its stop, where the clock has dates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start_at: Option<Moment>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stop_at: Option<Moment>,
+}
+
+impl Trip {
+    /// Where time 0 is at this moment, if the clock has dates.
+    pub fn date(&mut self, zero: Option<Moment>) {
+        let at = |time: Option<f64>| Some(zero?.after(time?));
+        (self.start_at, self.stop_at) = (at(self.start), at(self.stop));
+    }
 }
 
 /// The end of a motion.
@@ -161,6 +175,8 @@ pub(super) fn trips(explanation: &Explanation, decisions: &Decisions) -> Vec<Tri
             stop_decision: trip
                 .stop
                 .and_then(|_| decisions.stop(pulse(braking(trip, explanation)))),
+            start_at: None,
+            stop_at: None,
         }
     });
     rows.collect()

@@ -13,16 +13,12 @@ const COURSE: f64 = 60.0;
 /// Room for the bars of the samples, as a share of the lower panel.
 const BARS: f64 = 0.34;
 
-/// The picture of a recording, whose name is `name` and whose times count from `clock_offset`, and what was found in
+/// The picture of a recording, whose name is `name` and whose times count from `zero`, and what was found in
 /// it.
 ///
 /// # Errors
 /// Where the recording has not even one block.
-pub fn plot(
-    detection: &Detection,
-    name: &str,
-    clock_offset: Option<f64>,
-) -> Result<Plot, FigureError> {
+pub fn plot(detection: &Detection, name: &str, zero: Option<&str>) -> Result<Plot, FigureError> {
     let recorded = Recorded::of(detection)?;
     let record = recorded.axis_where_known(0.08, |column| column.record);
     let whitened = recorded.axis_where_known(BARS, |column| column.whitened);
@@ -48,7 +44,7 @@ pub fn plot(
             add_decision(&mut plot, decision);
         }
     }
-    Ok(recorded.finish(plot, entries(), (name, clock_offset), settings(detection)))
+    Ok(recorded.finish(plot, entries(), (name, zero), settings(detection)))
 }
 
 /// A bar for each of X, Y₁ and Y₂.

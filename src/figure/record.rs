@@ -83,12 +83,12 @@ impl<'a> Recorded<'a> {
         Mark::Dense(points.collect(), Style::of(0))
     }
 
-    /// Completes a picture of the recording `name`, whose times count from `clock_offset`, s.
+    /// Completes a picture of the recording `name`, whose times count from `zero`, where that is not the zero of the file.
     pub fn finish(
         &self,
         mut plot: Plot,
         entries: impl IntoIterator<Item = Entry>,
-        (name, clock_offset): (&str, Option<f64>),
+        (name, zero): (&str, Option<&str>),
         more: impl IntoIterator<Item = String>,
     ) -> Plot {
         plot.add_to_all(&Mark::Axes);
@@ -101,7 +101,7 @@ impl<'a> Recorded<'a> {
             format!("{:.1} Hz", self.detection.design.rate),
         ];
         caption.extend(more);
-        caption.extend(clock_offset.map(|offset| format!("times count from {offset:.3} s")));
+        caption.extend(zero.map(|zero| format!("times count from {zero}")));
         if let Some(time_constant) = self.detection.filter.time_constant() {
             caption.push(format!("restored from a high pass of {time_constant:.2} s"));
         }

@@ -48,7 +48,7 @@ pub struct Beside<'a> {
     pub barometer: &'a [(f64, f64)],
 }
 
-/// The picture of a recording, whose name is `name` and whose times count from `clock_offset`, and its trips.
+/// The picture of a recording, whose name is `name` and whose times count from `zero`, and its trips.
 ///
 /// # Errors
 /// Where the recording has not even one block.
@@ -56,7 +56,7 @@ pub fn plot(
     detection: &Detection,
     track: &Track,
     beside: &Beside,
-    (name, clock_offset): (&str, Option<f64>),
+    (name, zero): (&str, Option<&str>),
 ) -> Result<Plot, FigureError> {
     let recorded = Recorded::of(detection)?;
     let record = recorded.axis_where_known(0.08, |column| column.record);
@@ -82,7 +82,7 @@ pub fn plot(
         plot.add(1, Mark::Dense(across, Style::of(0)));
     }
     if !is_measured {
-        return Ok(recorded.finish(plot, [], (name, clock_offset), []));
+        return Ok(recorded.finish(plot, [], (name, zero), []));
     }
     let (speed, position) = (panels.len() - 2, panels.len() - 1);
     plot.add(speed, Mark::Level(0.0, &[]));
@@ -100,7 +100,7 @@ pub fn plot(
     plot.add(position, Mark::Markers(readings, READING));
     let entries = entries(!beside.floors.is_empty(), has_readings);
     let trips = in_words(track);
-    Ok(recorded.finish(plot, entries, (name, clock_offset), trips))
+    Ok(recorded.finish(plot, entries, (name, zero), trips))
 }
 
 /// The first rides, and how many more there are: a sheet has room for so many.

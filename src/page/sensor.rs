@@ -33,10 +33,8 @@ type Fact = (&'static str, String);
 
 fn read(it: &Recorded) -> Vec<Fact> {
     let columns: Vec<String> = it.acceleration.iter().map(|it| format!("“{it}”")).collect();
-    let offset = it.clock_offset.map(|offset| {
-        let offset = format!("times count from {} s of the file", fixed(offset, 3));
-        ("Clock", offset)
-    });
+    let zero = it.counts_from.as_ref();
+    let zero = zero.map(|zero| ("Clock", format!("times count from {zero}")));
     let facts = vec![
         ("Format", it.format.clone()),
         ("Time", format!("“{}”, in {}", it.time, it.time_unit)),
@@ -46,7 +44,7 @@ fn read(it: &Recorded) -> Vec<Fact> {
         ),
         ("Vertical", it.vertical.clone()),
     ];
-    facts.into_iter().chain(offset).collect()
+    facts.into_iter().chain(zero).collect()
 }
 
 fn shown(it: &Recorded, level: &Level) -> Vec<Fact> {

@@ -2,6 +2,7 @@
 
 use super::error::RecordingProblem;
 use super::missing::missing;
+use super::moment::Moment;
 use super::sample::Sample;
 use super::steps::{LOOKED_AT, Steps};
 
@@ -57,6 +58,8 @@ pub struct Facts {
     pub has_gravity: bool,
     /// What was subtracted from the times of the file, s.
     pub clock_offset: Option<f64>,
+    /// The moment of time 0, where the file has dates.
+    pub clock_zero: Option<Moment>,
 }
 
 impl Facts {
@@ -128,6 +131,7 @@ impl Facts {
             greatest,
             has_gravity,
             clock_offset: None,
+            clock_zero: None,
         })
     }
 
@@ -139,6 +143,12 @@ impl Facts {
     /// The share of the samples that are missing.
     pub fn missing_share(&self) -> f64 {
         self.missing as f64 / (self.missing + self.samples) as f64
+    }
+
+    /// What times count from, where that is not the zero of the file.
+    pub fn counts_from(&self) -> Option<String> {
+        let seconds = self.clock_offset.map(|offset| format!("{offset:.3} s"));
+        self.clock_zero.map(|zero| zero.to_string()).or(seconds)
     }
 
     /// s.

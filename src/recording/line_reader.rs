@@ -5,6 +5,7 @@ use super::cell::shorten;
 use super::error::{Located, RecordingProblem};
 use super::layout::Input;
 use super::lines::Lines;
+use super::moment::Moment;
 use super::parser::Parser;
 use super::reading::Reading;
 use super::unit::Unit;
@@ -122,6 +123,11 @@ impl<R: BufRead> LineReader<R> {
     /// The number of the line read last, from 1.
     pub fn number(&self) -> u64 {
         self.number
+    }
+
+    /// The moment of time 0, where the lines have dates.
+    pub fn zero(&self) -> Option<Moment> {
+        self.parser.as_ref().and_then(|parser| parser.clock.zero())
     }
 
     /// The next reading; `None` at the end of the input.
@@ -302,8 +308,8 @@ mod tests {
             all("time,a\n1,2\nx,3\n4,nan\n5\n6,7,8\n9,\n10,11"),
             [
                 "1 2",
-                "line 3: column \"time\": must be a number, got \"x\" (write times as numbers, or as \
-                 2013-11-25 12:30:00.005)",
+                "line 3: column \"time\": must be a number, got \"x\" (write times as numbers, or all as \
+                 2013-11-25T12:30:00.005Z)",
                 "line 4: column \"a\": must be finite, got \"nan\" (leave the row out where nothing was read)",
                 "line 5: must have 2 cells as the first row has, got 1",
                 "line 6: must have 2 cells as the first row has, got 3 (write decimal points, or quote cells with \

@@ -13,7 +13,8 @@
 //! - a row whose time or acceleration is blank or NaN gives no sample, since apps write a row for every sensor;
 //! - of rows with equal times the first counts, unless each time stands for many rows, which are then spread; a
 //!   time that goes back is refused, unless a clock of 32 bits began again;
-//! - times since 1970 and dates count from the first row;
+//! - times since 1970 and dates count from the first row, whose [`Moment`] is kept; dates without a zone are those of
+//!   some clock on a wall;
 //! - a last row that is cut short is left out with a warning. A number that lost only some digits cannot be
 //!   distinguished from a complete one;
 //! - any other cell that is not a finite number is refused with its line;
@@ -48,6 +49,7 @@ mod layout;
 mod line_reader;
 mod lines;
 mod missing;
+mod moment;
 mod names;
 mod parser;
 mod pressure;
@@ -76,6 +78,7 @@ pub use facts::{Facts, Gap};
 
 pub use barometer::{Barometer, BarometerWarning};
 pub use line_reader::{LineError, LineReader, LineReading, StreamColumns};
+pub use moment::Moment;
 pub use pressure::{Pressure, PressureUnit};
 pub use reading::Reading;
 pub use sample::Sample;
@@ -168,6 +171,7 @@ impl Recording {
         let facts = Facts::of(&samples, windows.has_gravity(), reading.rate)?;
         let facts = Facts {
             clock_offset: columns.parser.clock.offset(),
+            clock_zero: columns.parser.clock.zero(),
             coarse_step: coarse_step.or(facts.coarse_step),
             ..facts
         };

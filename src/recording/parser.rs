@@ -18,7 +18,7 @@ type Rule = (&'static str, &'static str);
 const NUMBER: Rule = ("be a number", "correct it, or leave the row out");
 const TIME: Rule = (
     "be a number",
-    "write times as numbers, or as 2013-11-25 12:30:00.005",
+    "write times as numbers, or all as 2013-11-25T12:30:00.005Z",
 );
 const FINITE: Rule = ("be finite", "leave the row out where nothing was read");
 const LATEST: Rule = (

@@ -5,6 +5,7 @@
 //! number is a date.
 
 use super::error::{RecordingError, RecordingProblem};
+use super::moment::Moment;
 use super::reading::Reading;
 use super::source::{Member, Source};
 use super::text_table::{MOST_COLUMNS, TextTable, too_large};
@@ -117,6 +118,20 @@ impl Book<'_> {
         Ok(sheets)
     }
 
+    /// The number of 1970-01-01: days count from 1899-12-30, or on old Macs from 1904.
+    fn epoch(&self) -> Result<f64, String> {
+        let mut epoch = 25_569.0;
+        self.read(BOOK, |piece| {
+            if let Piece::Start("workbookPr", tag) = piece
+                && matches!(attribute(tag, "date1904")?.as_deref(), Some("1" | "true"))
+            {
+                epoch -= 1462.0;
+            }
+            Ok(())
+        })?;
+        Ok(epoch)
+    }
+
     /// The texts that cells share.
     fn shared(&self) -> Result<Vec<String>, String> {
         const PART: &str = "xl/sharedStrings.xml";
@@ -167,7 +182,7 @@ impl Book<'_> {
     /// A line for each row, cells separated by tabs; columns beyond those of the first row with several are left
     /// out, since people calculate beside their readings.
     fn text(&self, part: &str) -> Result<Vec<u8>, String> {
-        let (shared, dates) = (self.shared()?, self.dates()?);
+        let (shared, dates, epoch) = (self.shared()?, self.dates()?, self.epoch()?);
         let (mut table, mut words) = (TextTable::default(), Words::default());
         let (mut cell, mut widest) = (Cell::default(), None);
         self.read(part, |piece| {
@@ -191,7 +206,7 @@ impl Book<'_> {
                 Piece::End("c") => {
                     let column = cell.column.unwrap_or(column);
                     if column < widest.unwrap_or(MOST_COLUMNS) {
-                        table.cell(column, &cell.value(words.end(), &shared)?)?;
+                        table.cell(column, &cell.value(words.end(), &shared, epoch)?)?;
                     }
                 }
                 _ => {}
@@ -290,7 +305,7 @@ impl Cell {
         })
     }
 
-    fn value(&self, words: String, shared: &[String]) -> Result<String, String> {
+    fn value(&self, words: String, shared: &[String], epoch: f64) -> Result<String, String> {
         Ok(match &*self.kind {
             _ if words.is_empty() => words,
             "s" => {
@@ -303,6 +318,8 @@ impl Cell {
             "b" => if words.trim() == "0" { "FALSE" } else { "TRUE" }.to_owned(),
             "e" => String::new(),
             "" | "n" if self.is_date => match words.trim().parse::<f64>() {
+                Ok(days) if days >= 1.0 => Moment::of_days(days - epoch).to_string(),
+                // A time of day.
                 Ok(days) => (days * 86_400.0).to_string(),
                 Err(_) => words,
             },

@@ -271,6 +271,8 @@ impl Tracked {
             or_stop: None,
             start_decision: None,
             stop_decision: None,
+            start_at: None,
+            stop_at: None,
         };
         Self {
             distance: Some(distance),

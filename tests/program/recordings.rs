@@ -49,6 +49,99 @@ fn found(directory: &Path, arguments: &[&str]) -> Value {
     serde_json::from_str(&out).unwrap()
 }
 
+/// `ride.csv` as `name`, its times written by `stamp`.
+fn stamped(directory: &Path, name: &str, stamp: impl Fn(f64) -> String) {
+    let text = fs::read_to_string(directory.join("ride.csv")).unwrap();
+    let (header, rows) = text.split_once('\n').unwrap();
+    let row = |line: &str| {
+        let (time, rest) = line.split_once(',').unwrap();
+        format!("{},{rest}\n", stamp(time.parse().unwrap()))
+    };
+    let rows: String = rows.lines().map(row).collect();
+    let header = header.replace("Time (s)", "time");
+    fs::write(directory.join(name), format!("{header}\n{rows}")).unwrap();
+}
+
+/// A clock that goes from +02:00 to +01:00 after 2 s, and the same moments written otherwise.
+#[test]
+fn dates_in_and_out() {
+    let directory = recorded(&[]);
+    let path = directory.path();
+    let of_day = |ms: i64| {
+        let (s, ms) = (ms.div_euclid(1000), ms.rem_euclid(1000));
+        format!("{:02}:{:02}:{:02}.{ms:03}", s / 3600, s / 60 % 60, s % 60)
+    };
+    // 01:59:58 by UTC.
+    let ms = |time: f64| 7_198_000 + (1000.0 * time).round() as i64;
+    let utc = move |time: f64| format!("2026-10-25T{}Z", of_day(ms(time)));
+    stamped(path, "utc.csv", utc);
+    let paris = move |time: f64| {
+        let ms = ms(time);
+        let hours = if ms < 7_200_000 { 2 } else { 1 };
+        format!("2026-10-25 {}+0{hours}:00", of_day(ms + hours * 3_600_000))
+    };
+    stamped(path, "paris.csv", paris);
+    stamped(path, "wall.csv", move |time| {
+        format!("25.10.2026 {}", of_day(ms(time)))
+    });
+    stamped(path, "unix.csv", move |time| {
+        (1_792_886_400_000 + ms(time)).to_string()
+    });
+    let bare = found(path, &["ride.csv"]);
+    let start = bare["rides"][0]["start"].as_f64().unwrap();
+    assert!(bare["rides"][0].get("start_at").is_none());
+    for (file, zone, ahead) in [
+        ("utc.csv", "Z", 0),
+        ("paris.csv", "+02:00", 2),
+        ("wall.csv", "", 0),
+        ("unix.csv", "Z", 0),
+    ] {
+        let report = found(path, &[file]);
+        let recording = &report["recording"];
+        let hour = 1 + ahead;
+        let zero = format!("2026-10-25T{hour:02}:59:58.005{zone}");
+        assert_eq!(recording["clock_zero"], zero, "{file}");
+        // Times now count from the first row, at 0.005 s.
+        let ride = &report["rides"][0];
+        let since = ride["start"].as_f64().unwrap();
+        assert!((since + 0.005 - start).abs() < 0.06, "{file}: {since}");
+        let moment = of_day(ms(since + 0.005) + ahead * 3_600_000);
+        assert_eq!(
+            ride["start_at"],
+            format!("2026-10-25T{moment}{zone}"),
+            "{file}"
+        );
+        let table = well(detect(path, &[file]));
+        assert!(
+            table.contains(&format!("times count from {zero}\n")),
+            "{table}"
+        );
+        assert!(table.contains("start_at"), "{table}");
+        let csv = well(detect(path, &[file, "--csv", "rides.csv", "--force"]));
+        assert!(csv.contains("start_at"));
+        let csv = fs::read_to_string(path.join("rides.csv")).unwrap();
+        assert!(csv.contains(&moment), "{csv}");
+    }
+    let input: String = (rows(path).iter())
+        .map(|(time, z)| format!("{},{z}\n", paris(time.parse().unwrap())))
+        .collect();
+    let events = objects(&well(monitor(
+        path,
+        &["--begins", "rest", "--trips"],
+        input,
+    )));
+    assert_eq!(events[0]["at"], "2026-10-25T03:59:58.005+02:00");
+    assert!(events.iter().all(|event| event["at"].is_string()));
+    let trips: Vec<&Value> = events
+        .iter()
+        .filter_map(|event| event.get("trip"))
+        .collect();
+    assert!(!trips.is_empty());
+    assert!(trips.iter().all(|trip| trip["start_at"].is_string()));
+    let plain = monitor(path, &["--rate", "100"], "0\n0.1\n0\n");
+    assert!(!plain.1.contains("\"at\""), "{}", plain.1);
+}
+
 /// The times and the vertical acceleration of `ride.csv`, as written there.
 fn rows(directory: &Path) -> Vec<(String, String)> {
     let text = fs::read_to_string(directory.join("ride.csv")).unwrap();

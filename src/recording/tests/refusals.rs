@@ -82,7 +82,7 @@ fn cells_that_are_no_numbers() {
     for date in ["25.11.2013", "2013/11/25", "yesterday"] {
         let refused = refused(format!("time,acc\n{date},1\n"));
         assert!(
-            refused.contains("or as 2013-11-25 12:30:00.005)"),
+            refused.contains("all as 2013-11-25T12:30:00.005Z)"),
             "{refused}"
         );
     }

@@ -82,7 +82,10 @@ fn dates_are_days() {
         rows.collect::<String>()
     );
     let recording = open_sheet(with("xl/worksheets/one.xml", &sheet), None);
-    assert_eq!(recording.unwrap().facts().rate.round(), 10.0);
+    let facts = recording.unwrap().facts().clone();
+    assert_eq!(facts.rate.round(), 10.0);
+    let zero = facts.clock_zero.unwrap().to_string();
+    assert_eq!(zero, "2023-03-15T12:00:00.000");
 }
 
 #[test]

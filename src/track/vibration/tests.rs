@@ -62,6 +62,8 @@ fn the_ends_of_trips_are_left_out() {
         or_stop: None,
         start_decision: None,
         stop_decision: None,
+        start_at: None,
+        stop_at: None,
     };
     assert_eq!(part(&trip), Some(5.5..14.5));
     let levelling = Some(13.0);
