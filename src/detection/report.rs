@@ -122,7 +122,7 @@ pub enum Warning {
     Rate { learnt: f64, got: f64 },
     #[error(
         "rest reads {0:.3} m/s^2, neither 0 nor the 9.8 of gravity (check the unit: --unit g, mg, or counts \
-         with --scale)"
+         with --scale; or the sensor is tilted: lay it flat, or let all three axes be read)"
     )]
     Level(f64),
     #[error(

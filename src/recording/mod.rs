@@ -136,7 +136,9 @@ impl Recording {
         let source = container::table(source, reading, Quantity::Acceleration)?;
         let columns = Columns::read(&source, reading, Quantity::Acceleration)?;
         let recording = Self::of_columns(columns, source.part().map(str::to_owned), reading);
-        recording.map_err(|problem| source.error(None, problem))
+        let mut recording = recording.map_err(|problem| source.error(None, problem))?;
+        recording.warnings.extend(tilt(&source, reading));
+        Ok(recording)
     }
 
     fn of_columns(
@@ -281,6 +283,27 @@ impl Recording {
     pub fn vertical(&self) -> &Vertical {
         &self.vertical
     }
+}
+
+/// Whether an axis that was chosen is not the vertical, by all three, where the file has them.
+fn tilt(source: &Source, reading: &Reading) -> Option<Warning> {
+    let Axis::Along { index, .. } = reading.axis else {
+        return None;
+    };
+    if reading.acceleration.is_some() {
+        return None;
+    }
+    let all = Reading {
+        axis: Axis::Auto,
+        ..reading.clone()
+    };
+    let columns = Columns::read(source, &all, Quantity::Acceleration).ok()?;
+    let mut windows = Windows::of(&columns);
+    let unit = assumed::unit(&columns.parser.layout, &windows).ok()?.unit;
+    windows.convert(unit, columns.axes.len());
+    let shown = vertical::find(&columns, &windows, Axis::Auto, false).ok()?;
+    let is_whole = columns.axes.len() == 3;
+    is_whole.then(|| warning::of_axis(reading.axis, index, &shown))?
 }
 
 /// Checks that the grid is neither finer than the clock resolves nor much finer than the recording, nor too much

@@ -1,5 +1,6 @@
 //! Warnings about the quality of a recording, and about what was assumed in reading it.
 
+use super::axis::Axis;
 use super::facts::{Facts, Gap};
 use super::names::Role;
 use super::spread::Repeats;
@@ -38,10 +39,21 @@ pub enum Warning {
     #[error("vertical: {0}")]
     Vertical(Vertical),
     #[error(
-        "the vertical axis lies {0:.0} degrees from gravity, and the axes stand in different rows, so they \
-         cannot be turned"
+        "the sensor is tilted: the vertical lies {from:.0} degrees from the axis that is read, so that speeds and distances \
+         are {} % too small (lay it flat, or record all axes in every row)",
+        too_small(*.from)
     )]
-    Tilted(f64),
+    Tilted { from: f64 },
+    #[error(
+        "the sensor is tilted: the vertical lies {from:.0} degrees from {axis}, as {by} along all three axes show, so that \
+         speeds and distances are {} % too small (leave out --axis: then the three are projected)",
+        too_small(*.from)
+    )]
+    TiltedAxis {
+        axis: Axis,
+        from: f64,
+        by: &'static str,
+    },
     #[error("column \"{0}\" is a magnitude: it cannot tell up from down (--acceleration COLUMN)")]
     Magnitude(String),
     #[error("the mean is {0:.1} m/s^2, that of gravity 9.8 (give the unit with --unit)")]
@@ -92,6 +104,11 @@ pub enum Warning {
     Held { repeats: f64 },
 }
 
+/// By how much a reading along an axis is too small that lies so many degrees from the vertical, %.
+fn too_small(degrees: f64) -> f64 {
+    (100.0 * (1.0 - libm::cos(degrees.to_radians()))).round()
+}
+
 fn repeats(count: u64) -> String {
     match count {
         1 => "once".to_owned(),
@@ -110,8 +127,12 @@ const MISSING: f64 = 0.01;
 /// and steps q the share is 0.28 q/s: here q is 0.7 s.
 const COARSE: f64 = 0.2;
 
-/// Degrees.
+/// Degrees: a tenth is missing.
 const TILTED: f64 = 25.0;
+
+/// The same for an axis that was chosen where the vertical is known: 3 % are missing, a few times what the direction of
+/// pulses may be off by.
+const TILTED_AXIS: f64 = 15.0;
 
 /// A mean that no recording of a lift has, m/s²: twice gravity.
 pub(super) const BEYOND_GRAVITY: f64 = 20.0;
@@ -154,6 +175,17 @@ pub(super) fn of_rows(columns: &Columns, repeats: Repeats, samples: u64) -> Vec<
     warnings
 }
 
+/// The warning about an axis that was chosen, beside what all three show.
+pub(super) fn of_axis(axis: Axis, index: usize, shown: &Vertical) -> Option<Warning> {
+    let by = match shown.reason {
+        Reason::Gravity { .. } => "readings",
+        Reason::Pulses => "pulses",
+        _ => return None,
+    };
+    let from = libm::acos(shown.up[index].abs().min(1.0)).to_degrees();
+    (from > TILTED_AXIS).then_some(Warning::TiltedAxis { axis, from, by })
+}
+
 /// The warnings about the vertical and the signal, which will be resampled if it `is_even`.
 pub(super) fn of_signal(
     facts: &Facts,
@@ -168,7 +200,7 @@ pub(super) fn of_signal(
     }
     match (vertical.column, vertical.reason) {
         (Some(_), Reason::Gravity { from, .. }) if from > TILTED => {
-            warnings.push(Warning::Tilted(from));
+            warnings.push(Warning::Tilted { from });
         }
         _ => {}
     }

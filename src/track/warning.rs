@@ -101,7 +101,8 @@ impl Track {
         let coarse = self.step.map(|step| Warning::Coarse { step });
         // In motion every lift is noisier than the sensor.
         let noisy = self.noisier.map(|power| Warning::Noisy(power.sqrt()));
-        let of_record = coarse.into_iter().chain(noisy);
+        let of_axis = Warning::of_bias(self.level.bias);
+        let of_record = coarse.into_iter().chain(noisy).chain(of_axis);
         let of_record = of_record.filter(|_| has_distance);
         let filter = is_filtered.then_some(Warning::Filter).into_iter();
         let of_trips = self.trips.iter().flat_map(Tracked::warnings);
