@@ -4,8 +4,13 @@
 //! followed.
 
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Read, Seek, Write};
 use std::path::{Path, PathBuf};
+#[cfg(unix)]
+use std::{
+    thread,
+    time::{Duration, Instant},
+};
 use tempfile::{Builder, NamedTempFile};
 
 /// What the name of every draft begins with.
@@ -40,6 +45,16 @@ impl Draft {
         Ok(Self { part, path })
     }
 
+    /// Writes it to `out` instead.
+    ///
+    /// # Errors
+    /// Where it cannot be read again, or `out` refuses.
+    pub fn copy_to(mut self, out: &mut impl Write) -> io::Result<()> {
+        self.part.rewind()?;
+        io::copy(&mut self.part, out)?;
+        out.flush()
+    }
+
     /// Moves it to its path, over whatever is there.
     ///
     /// # Errors
@@ -56,6 +71,70 @@ impl Draft {
     pub fn create_new(self) -> io::Result<()> {
         self.part.persist_noclobber(&self.path)?;
         sync(folder(&self.path))
+    }
+}
+
+/// Opens a file to be read. To open a pipe would wait for somebody who writes to it: where nobody does for three
+/// seconds, reading it fails.
+///
+/// # Errors
+/// Where it cannot be opened.
+#[cfg(unix)]
+pub fn open(path: &Path) -> io::Result<Box<dyn Read>> {
+    use std::os::unix::fs::{FileTypeExt, OpenOptionsExt};
+    if !fs::metadata(path)?.file_type().is_fifo() {
+        return Ok(Box::new(File::open(path)?));
+    }
+    let mut options = File::options();
+    let without_waiting = rustix::fs::OFlags::NONBLOCK.bits() as i32;
+    let file = options
+        .read(true)
+        .custom_flags(without_waiting)
+        .open(path)?;
+    Ok(Box::new(Pipe {
+        file,
+        is_written: false,
+        until: Instant::now() + Duration::from_secs(3),
+    }))
+}
+
+/// Opens a file to be read.
+///
+/// # Errors
+/// Where it cannot be opened.
+#[cfg(not(unix))]
+pub fn open(path: &Path) -> io::Result<Box<dyn Read>> {
+    Ok(Box::new(File::open(path)?))
+}
+
+/// A pipe that is looked at every few milliseconds.
+#[cfg(unix)]
+struct Pipe {
+    file: File,
+    /// Whether there was anybody who writes.
+    is_written: bool,
+    until: Instant,
+}
+
+#[cfg(unix)]
+impl Read for Pipe {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        loop {
+            match self.file.read(buffer) {
+                Ok(0) if !self.is_written => {
+                    if Instant::now() > self.until {
+                        let nobody = "it is a pipe that nobody writes to";
+                        return Err(io::Error::new(io::ErrorKind::TimedOut, nobody));
+                    }
+                }
+                Err(error) if error.kind() == io::ErrorKind::WouldBlock => self.is_written = true,
+                read => {
+                    self.is_written = true;
+                    return read;
+                }
+            }
+            thread::sleep(Duration::from_millis(5));
+        }
     }
 }
 
@@ -169,6 +248,34 @@ mod tests {
         assert_eq!(fs::read(&path).unwrap(), b"new");
         let mode = |path| fs::symlink_metadata(path).unwrap().permissions().mode();
         assert_eq!(mode(&path), mode(&precious), "as any other file");
+    }
+
+    /// A pipe is read to its end, however late that is written; and one that nobody writes to does not hang.
+    #[cfg(unix)]
+    #[test]
+    fn pipes_do_not_hang() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&path).status();
+        assert!(made.unwrap().success());
+        let read = || {
+            let mut text = String::new();
+            open(&path)?.read_to_string(&mut text).map(|_| text)
+        };
+        let writer = thread::spawn({
+            let path = path.clone();
+            move || {
+                let mut pipe = File::options().write(true).open(path).unwrap();
+                for part in ["one ", "two"] {
+                    thread::sleep(Duration::from_millis(100));
+                    pipe.write_all(part.as_bytes()).unwrap();
+                }
+            }
+        });
+        assert_eq!(read().unwrap(), "one two");
+        writer.join().unwrap();
+        let nobody = read().unwrap_err().to_string();
+        assert_eq!(nobody, "it is a pipe that nobody writes to");
     }
 
     #[test]

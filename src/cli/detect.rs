@@ -1,10 +1,10 @@
 //! `liftsim detect RECORDING`: rest, rides and what decided them, in a recording.
 
 use super::found::Found;
-use super::output::{Output, Ready};
+use super::output::{self, Output, Ready};
 use super::rides::{RideArguments, Rides};
 use super::rows::{FormatArguments, Shown};
-use super::{CommandResult, Failure, print};
+use super::{CommandResult, Failure};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::detection::DetectReport;
@@ -83,7 +83,7 @@ impl Detect {
         let report = DetectReport::new(self.rides.name(), recording, detection);
         let found = Found { report, detection };
         self.write(outputs, &found, &saved)?;
-        print(&self.format.show(&found))?;
+        output::print_beside(self.files(), &self.format.show(&found))?;
         Ok(ExitCode::SUCCESS)
     }
 
@@ -96,9 +96,13 @@ impl Detect {
             state: self.save_state.as_ref().map(file).transpose()?,
             csv: self.csv.as_ref().map(file).transpose()?,
         };
-        let files = [&self.figure, &self.save_state, &self.csv];
-        self.rides.apart(files.into_iter().flatten())?;
+        self.rides.apart(self.files())?;
         Ok(outputs)
+    }
+
+    fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        let files = [&self.figure, &self.save_state, &self.csv];
+        files.into_iter().flatten()
     }
 
     /// All files or none.

@@ -55,7 +55,7 @@ impl FloorArguments {
                 None => Ok(None),
             };
         }
-        let map = self.map.as_ref().map(|map| Output::new(map, true));
+        let map = self.map.as_ref().map(|map| Output::kept("--map", map));
         let map = map.transpose()?;
         let floors = self.known(replaces)?;
         Ok(Some(Building { floors, map }))

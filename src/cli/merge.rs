@@ -2,7 +2,7 @@
 
 use super::figure::FigureFlags;
 use super::store::stored;
-use super::{CommandResult, Failure, print, sweep};
+use super::{CommandResult, Failure, output, print, sweep};
 use clap::{Args, ValueHint};
 use liftsim::results::{Directory, Shard};
 use liftsim::run::{self, Absent, MergeError};
@@ -27,6 +27,9 @@ pub struct Merge {
 impl Merge {
     /// Runs the command.
     pub fn run(self) -> CommandResult {
+        if let Some(out) = &self.out {
+            output::not_stdout("--out", output::DIRECTORY, out)?;
+        }
         let directories: Vec<Directory> =
             self.directories.into_iter().map(Directory::new).collect();
         let origin = run::part(&directories[0]).map_err(Failure::input)?.origin;

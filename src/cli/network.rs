@@ -1,6 +1,6 @@
 //! The flags that send what `monitor` prints over a network.
 
-use super::{Failure, say, warn};
+use super::{Failure, output, say, warn};
 use clap::Args;
 use liftsim::outbox::{Address, LARGEST, Notice, Outbox, Spool, Timing};
 use std::env;
@@ -76,6 +76,7 @@ impl NetworkArguments {
         let Some(address) = &self.tcp else {
             return Ok(None);
         };
+        output::not_stdout("--spool", output::KEPT, &self.spool)?;
         let (spool, cut) =
             Spool::open(&self.spool, self.spool_size * MIB).map_err(Failure::input)?;
         let name = self.spool.display().to_string();

@@ -1,6 +1,6 @@
 //! `liftsim new`: a config to start from.
 
-use super::output::Output;
+use super::output::{self, Output};
 use super::{CommandResult, Failure, completions, print, table};
 use anyhow::anyhow;
 use clap::Args;
@@ -14,8 +14,8 @@ use std::process::ExitCode;
 /// Write a config to start from.
 ///
 /// Without a name, lists the configs that the program carries. With the name of one, writes it to NAME.toml. With
-/// another name and --like, writes a copy of a config to NAME.toml, with all keys that one could add. No file is
-/// ever written over.
+/// another name and --like, writes a copy of a config to NAME.toml, with all keys that one could add. NAME - is
+/// standard output.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     liftsim new                         what there is\n  \
@@ -29,6 +29,9 @@ pub struct New {
     /// What to begin with: a shipped config or a file.
     #[arg(long, value_name = "CONFIG", requires = "name", add = completions::configs(&["sweep", "simulate"]))]
     like: Option<PathBuf>,
+    /// Replace a file that exists.
+    #[arg(long, requires = "name")]
+    force: bool,
 }
 
 impl New {
@@ -39,6 +42,7 @@ impl New {
             return Ok(ExitCode::SUCCESS);
         };
         let path = match name.extension() {
+            None if output::is_stdout(&name) => name,
             None => name.with_extension("toml"),
             Some(end) if end == "toml" => name,
             Some(_) => {
@@ -48,18 +52,15 @@ impl New {
                 )));
             }
         };
-        if path.symlink_metadata().is_ok() {
-            return Err(Failure::Input(anyhow!(
-                "{}: already exists (remove it, or give another name with --like)",
-                path.display()
-            )));
-        }
-        let output = Output::new(&path, false)?;
+        let output = Output::new(&path, self.force)?;
         let (text, command) = match &self.like {
             Some(like) => begun(&path, like)?,
             None => shipped(&path).map(|shipped| (shipped.text.to_owned(), shipped.command))?,
         };
         output.write(text.as_bytes())?.publish()?;
+        if output::is_stdout(&path) {
+            return Ok(ExitCode::SUCCESS);
+        }
         let path = path.display();
         print(&match command {
             "simulate" => format!(
@@ -132,7 +133,12 @@ fn begun(path: &Path, like: &Path) -> Result<(String, &'static str), Failure> {
     } else {
         "simulate"
     };
-    let (file, like) = (path.display(), like.display());
+    let file = if output::is_stdout(path) {
+        Path::new("NAME.toml")
+    } else {
+        path
+    };
+    let (file, like) = (file.display(), like.display());
     let mut text = format!("# {file}, begun as a copy of {like}.\n");
     if command == "sweep" {
         text += &format!(

@@ -10,7 +10,7 @@ use liftsim::stats::tally::MOST_TRIALS;
 use liftsim::study::Sweep;
 use std::io;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Trials that are printed at once.
 const AT_ONCE: usize = 1 << 20;
@@ -86,11 +86,11 @@ impl SavedTrials {
     }
 
     /// Simulates all trials and writes the file; returns its name.
-    pub fn write(self, reporter: &Reporter) -> Result<String, Failure> {
+    pub fn write(self, reporter: &Reporter) -> Result<PathBuf, Failure> {
         let plan = &self.sweep.plan;
         let all: Vec<usize> = (0..plan.points.len()).collect();
         let outcomes = trial_outcomes(&self.sweep, &all, &(0..plan.schedule.trials), reporter)?;
-        let name = self.file.path().display().to_string();
+        let path = self.file.path().clone();
         let written = self.file.write_with(|out| {
             let mut archive = Archive::new(out);
             archive.add("rank_sum", outcomes.iter().map(|of| &of.rank_sums[..]))?;
@@ -99,6 +99,6 @@ impl SavedTrials {
             archive.close()
         });
         written?.publish()?;
-        Ok(name)
+        Ok(path)
     }
 }

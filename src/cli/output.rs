@@ -1,21 +1,58 @@
 //! Files that a command writes. What is in the way is refused before anything takes long, and either all of
-//! them appear or none does.
+//! them appear or none does. A file that exists is replaced only with --force, and `-` is standard output.
 
-use super::Failure;
+use super::{Failure, print, say};
 use anyhow::anyhow;
 use liftsim::figure::{self, DPI, Kind};
 use liftsim::files::Draft;
 use liftsim::format::shorten;
 use liftsim::plot::Plot;
+use std::env;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// A file to be written.
+/// A file to be written, or standard output.
 #[derive(Clone, Debug)]
 pub struct Output {
     path: PathBuf,
     replaces: bool,
+}
+
+/// What is written to standard output.
+const STDOUT: &str = "-";
+
+/// Whether this is standard output.
+pub fn is_stdout(path: &Path) -> bool {
+    path == Path::new(STDOUT)
+}
+
+/// Refuses standard output for a flag that wants something else.
+pub fn not_stdout(flag: &str, wanted: &str, path: &Path) -> Result<(), Failure> {
+    if is_stdout(path) {
+        return Err(Failure::Input(anyhow!(
+            "{flag} must be {wanted}, got -, which is standard output (write ./- for one of that name)"
+        )));
+    }
+    Ok(())
+}
+
+/// What a flag must be whose file is read again.
+pub const KEPT: &str = "a file that is kept";
+
+/// What a flag must be that takes many files.
+pub const DIRECTORY: &str = "a directory";
+
+/// Prints the result of a command: to standard output, unless one of these files goes there.
+pub fn print_beside<'a>(
+    mut files: impl Iterator<Item = &'a PathBuf>,
+    text: &str,
+) -> Result<(), Failure> {
+    if files.any(|file| is_stdout(file)) {
+        say(text.trim_end());
+        return Ok(());
+    }
+    print(text)
 }
 
 /// Refuses an output that is the input, or another output, by whatever name.
@@ -54,6 +91,14 @@ fn place(path: &Path) -> PathBuf {
     })
 }
 
+/// Says that a file was written.
+pub fn print_written(path: &PathBuf) -> Result<(), Failure> {
+    print_beside(
+        [path].into_iter(),
+        &format!("{}  written\n", path.display()),
+    )
+}
+
 /// A file that is complete but not yet in its place.
 #[derive(Debug)]
 pub struct Ready {
@@ -68,10 +113,19 @@ impl Output {
             path: path.to_owned(),
             replaces,
         };
+        if is_stdout(path) {
+            return Ok(output);
+        }
         match output.obstacle() {
             None => Ok(output),
             Some(obstacle) => Err(Failure::Input(anyhow!("{}: {obstacle}", path.display()))),
         }
+    }
+
+    /// A file that is kept: read where it is there, and replaced by the same with more in it.
+    pub fn kept(flag: &str, path: &Path) -> Result<Self, Failure> {
+        not_stdout(flag, KEPT, path)?;
+        Self::new(path, true)
     }
 
     /// The same for the picture of a flag, whose name must end in .png or .svg.
@@ -87,7 +141,7 @@ impl Output {
     /// The same for a file of a flag, whose name must end in one of these.
     pub fn named(path: &Path, replaces: bool, flag: &str, ends: &[&str]) -> Result<Self, Failure> {
         let end = path.extension();
-        if end.is_some_and(|end| ends.iter().any(|it| end == *it)) {
+        if is_stdout(path) || end.is_some_and(|end| ends.iter().any(|it| end == *it)) {
             return Self::new(path, replaces);
         }
         Err(Failure::Input(anyhow!(
@@ -98,7 +152,7 @@ impl Output {
     }
 
     /// Where it goes.
-    pub fn path(&self) -> &Path {
+    pub fn path(&self) -> &PathBuf {
         &self.path
     }
 
@@ -137,7 +191,8 @@ impl Output {
 
     /// The same with dots per inch of a PNG; `provenance` says what made the picture.
     pub fn draw_at(self, plot: &Plot, provenance: &str, dpi: u32) -> Result<Ready, Failure> {
-        let kind = Kind::of(&self.path, dpi).expect("the name was checked");
+        // The name was checked, but standard output has none.
+        let kind = Kind::of(&self.path, dpi).unwrap_or(Kind::Svg);
         let bytes = figure::file(plot, provenance, kind).map_err(Failure::run)?;
         self.write(&bytes)
     }
@@ -147,7 +202,12 @@ impl Output {
         self,
         content: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
     ) -> Result<Ready, Failure> {
-        let draft = Draft::new(&self.path, content).map_err(|error| self.unwritable(&error))?;
+        let draft = if is_stdout(&self.path) {
+            Draft::new(&env::temp_dir().join("liftsim"), content)
+        } else {
+            Draft::new(&self.path, content)
+        };
+        let draft = draft.map_err(|error| self.unwritable(&error))?;
         let output = self;
         Ok(Ready { draft, output })
     }
@@ -164,7 +224,13 @@ impl Ready {
     /// Puts it in its place.
     pub fn publish(self) -> Result<(), Failure> {
         let Self { draft, output } = self;
-        let moved = if output.replaces {
+        let moved = if is_stdout(&output.path) {
+            match draft.copy_to(&mut io::stdout().lock()) {
+                // A reader that has seen enough is not an error.
+                Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+                copied => copied,
+            }
+        } else if output.replaces {
             draft.replace()
         } else {
             draft.create_new()

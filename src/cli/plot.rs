@@ -1,7 +1,7 @@
 //! `liftsim plot DIR`: draws the figure again from the stored rows.
 
 use super::figure::{FigureFlags, redraw, undrawn, warn_of_notes};
-use super::output::Output;
+use super::output::{self, Output};
 use super::store::stored;
 use super::{CommandResult, Failure, print, warn};
 use clap::{Args, ValueHint};
@@ -64,10 +64,10 @@ impl Plot {
         };
         let (plot, notes) = (study.plot(&points)).map_err(|error| undrawn(&directory, error))?;
         warn_of_notes(&notes);
-        let path = file.path().display().to_string();
+        let path = file.path().clone();
         let dpi = study.figure.dpi.map_or(DPI, |dpi| dpi.get() as u32);
         (file.draw_at(&plot, &manifest.provenance(), dpi)?).publish()?;
-        print(&format!("{path}  written\n"))?;
+        output::print_written(&path)?;
         Ok(ExitCode::SUCCESS)
     }
 }

@@ -2,9 +2,10 @@
 
 use super::figure::{FigureFlags, folder, redraw, told};
 use super::outcomes::SavedTrials;
+use super::output;
 use super::progress::{self, Progress, Reporter};
 use super::store::{Written, line, manifest, store};
-use super::{CommandResult, Counted, Failure, print, table};
+use super::{CommandResult, Counted, Failure, table};
 use clap::{Args, ValueHint};
 use liftsim::results::{Directory, Manifest, Shard};
 use liftsim::run::{Output, Overwrite, Session};
@@ -54,14 +55,13 @@ pub struct Sweep {
 impl Sweep {
     /// Runs the command.
     pub fn run(self, quiet: bool) -> CommandResult {
+        if let Some(out) = &self.out {
+            output::not_stdout("--out", output::DIRECTORY, out)?;
+        }
         let experiment = self.counted.config()?;
         let mut loaded = self.counted.simulation.plan(experiment.clone())?;
         self.figure
             .lay_over(&mut loaded, folder(&self.counted.simulation.config))?;
-        let saved = match &self.save_trials {
-            Some(path) => Some(SavedTrials::new(path, self.force, experiment)?),
-            None => None,
-        };
         let study = &*loaded.study;
         if self.shard.is_some() && study.trials().is_none() {
             return Err(Failure::Input(anyhow::anyhow!(
@@ -80,11 +80,17 @@ impl Sweep {
         };
         let mut session = Session::open(study, &loaded.origin, directory, self.shard, overwrite)
             .map_err(Failure::input)?;
+        // Now that the directory is there, in which it may be.
+        let saved = match &self.save_trials {
+            Some(path) => Some(SavedTrials::new(path, self.force, experiment)?),
+            None => None,
+        };
         let reporter = Reporter::new(quiet, &self.progress, "");
         progress::work_off(&mut session, &reporter)?;
-        print(&finish(&loaded, session, self.shard, &self.figure)?)?;
+        let text = finish(&loaded, session, self.shard, &self.figure)?;
+        output::print_beside(self.save_trials.iter(), &text)?;
         if let Some(saved) = saved {
-            print(&format!("{}  written\n", saved.write(&reporter)?))?;
+            output::print_written(&saved.write(&reporter)?)?;
         }
         Ok(ExitCode::SUCCESS)
     }

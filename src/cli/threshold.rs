@@ -1,9 +1,9 @@
 //! `liftsim threshold`: C_W(T) and the exact size of a rule, or the threshold of a rate of false alarms.
 
-use super::output::Output;
+use super::output::{self, Output};
 use super::per_hour::PerHour;
 use super::rows::{FormatArguments, Rows, Shown, pretty};
-use super::{CommandResult, Failure, print, table};
+use super::{CommandResult, Failure, table};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args};
 use liftsim::detect::{Alternative, Exceedances, NullLaws, Region, Rule, Samples};
@@ -134,7 +134,7 @@ impl Threshold {
             let origin = format!("rule {rule}, {}", title.join("; "));
             figure.draw(&plot, &origin)?.publish()?;
         }
-        print(&text)?;
+        output::print_beside(self.figure.iter(), &text)?;
         Ok(ExitCode::SUCCESS)
     }
 }

@@ -3,12 +3,12 @@
 use super::air::{self, AirArguments, Measured};
 use super::floors::{self, Building, FloorArguments};
 use super::found::{self, cell};
-use super::output::{Output, Ready};
+use super::output::{self, Output, Ready};
 use super::quality::{self, QualityArguments};
 use super::rides::{RideArguments, Rides};
 use super::rows::{FormatArguments, Rows, Shown};
 use super::vibration::{self, VibrationArguments};
-use super::{CommandResult, Failure, print, table, warn};
+use super::{CommandResult, Failure, table, warn};
 use anyhow::anyhow;
 use clap::{ArgGroup, Args};
 use liftsim::detection::no_rides;
@@ -105,14 +105,8 @@ impl TrackCommand {
         let figure = self.figure.as_ref().map(picture).transpose()?;
         let page = |path: &PathBuf| Output::page(path, self.force);
         let page = self.report.as_ref().map(page).transpose()?;
-        let outputs = || {
-            (self.figure.iter())
-                .chain(&self.report)
-                .chain(&self.floors.map)
-                .chain(self.vibration.outputs())
-        };
-        self.rides.apart(outputs())?;
-        self.air.apart(outputs())?;
+        self.rides.apart(self.files())?;
+        self.air.apart(self.files())?;
         let mut building = self.floors.building(self.force)?;
         let mut kept = self.vibration.kept(self.force)?;
         let is_judged = self.quality.is_wanted() || page.is_some();
@@ -178,10 +172,17 @@ impl TrackCommand {
         for it in ready? {
             it.publish()?;
         }
-        print(&self.format.show(&report))?;
+        output::print_beside(self.files(), &self.format.show(&report))?;
         building.map_or(Ok(()), |building| building.save())?;
         kept.map_or(Ok(()), |kept| kept.save())?;
         Ok(ExitCode::SUCCESS)
+    }
+
+    fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        (self.figure.iter())
+            .chain(&self.report)
+            .chain(&self.floors.map)
+            .chain(self.vibration.outputs())
     }
 
     fn land(

@@ -55,7 +55,7 @@ impl VibrationArguments {
         };
         let picture = |path: &PathBuf| Output::picture("--spectrum", path, replaces);
         let spectrum = self.spectrum.as_ref().map(picture).transpose()?;
-        let file = Output::new(path, true)?;
+        let file = Output::kept("--baseline", path)?;
         let known = path.exists().then(|| Baseline::load(path));
         Ok(Some(Kept {
             baseline: known.transpose().map_err(Failure::input)?,

@@ -11,6 +11,7 @@ mod installed;
 mod keys;
 mod network;
 mod order;
+mod outputs;
 mod page;
 mod per_hour;
 mod recordings;

@@ -937,7 +937,7 @@ fn published_rules_for_comparison() {
 }
 
 /// A baseline of trips whose windows are all below 0.0043 m²/s⁴, learnt at 100 Hz.
-fn with_a_baseline(directory: &Path) {
+pub(super) fn with_a_baseline(directory: &Path) {
     let trip = |trip: u32| {
         (0..40)
             .map(|at| 3e-3 + 1e-6 * f64::from(40 * trip + at))

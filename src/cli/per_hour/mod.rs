@@ -2,10 +2,10 @@
 
 mod words;
 
-use super::output::Output;
+use super::output::{self, Output};
 use super::rows::FormatArguments;
 use super::threshold::{Choice, one_of};
-use super::{CommandResult, Failure, print};
+use super::{CommandResult, Failure};
 use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Arg, Args, Command};
 use liftsim::detect::sequential::{Change, Chart, Rate, RunLength, Score, Side};
@@ -121,12 +121,13 @@ impl PerHour {
     ) -> CommandResult {
         let found = self.found(reference.unwrap_or(REFERENCE));
         let found = found.map_err(|error| Failure::input(flag(error)))?;
+        let path = figure.as_ref().map(|figure| figure.path().clone());
         if let Some(figure) = figure {
             let caption = found.caption();
             let plot = found.plot(&caption);
             figure.draw(&plot, &caption.join("; "))?.publish()?;
         }
-        print(&format.show(&found))?;
+        output::print_beside(path.iter(), &format.show(&found))?;
         Ok(ExitCode::SUCCESS)
     }
 

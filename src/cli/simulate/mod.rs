@@ -4,8 +4,8 @@ mod building;
 mod request;
 mod trips;
 
-use super::output::Output;
-use super::{CommandResult, Failure, completions, print};
+use super::output::{self, Output, Ready};
+use super::{CommandResult, Failure, completions};
 use anyhow::anyhow;
 use clap::Args;
 use liftsim::config::{Conflict, Source};
@@ -42,7 +42,8 @@ pub struct Simulate {
     /// precedence.
     #[arg(add = completions::configs(&["simulate"]))]
     config: Option<PathBuf>,
-    /// The file of the record; the truth is written to FILE.truth.csv.
+    /// The file of the record; the truth is written to FILE.truth.csv. With - the record goes to standard output, and the
+    /// truth nowhere.
     #[arg(long, value_name = "FILE.csv")]
     out: PathBuf,
     /// Replace files that exist.
@@ -137,29 +138,35 @@ pub fn reference() -> Chapter {
 impl Simulate {
     /// Runs the command.
     pub fn run(self) -> CommandResult {
-        if self.out.extension().is_none_or(|e| e != "csv") {
-            let out = self.out.display();
-            return Err(Failure::Input(anyhow!("--out must end in .csv, got {out}")));
-        }
-        let record = Output::new(&self.out, self.force)?;
-        let truth = Output::new(&self.out.with_extension("truth.csv"), self.force)?;
-        let paths = [&record, &truth].map(|output| output.path().display().to_string());
+        let record = Output::named(&self.out, self.force, "--out", &["csv"])?;
+        // Standard output takes one of both.
+        let truth = (!output::is_stdout(&self.out)).then(|| self.out.with_extension("truth.csv"));
+        let file = |path: &PathBuf| Output::new(path, self.force);
+        let truth = truth.as_ref().map(file).transpose()?;
         let (simulation, seed) = self.simulation()?;
         let record = record.write_with(|out| simulation.write(out, seed))?;
         let ride = &simulation.ride;
-        let truth = truth.write_with(|out| write_truth(out, ride, &simulation.stops))?;
-        record.publish()?;
-        truth.publish()?;
-        print(&format!(
-            "{}  {} samples, {:.1} s at {} Hz\n{}  {} trip{}\n",
-            paths[0],
+        let mut text = format!(
+            "{}  {} samples, {:.1} s at {} Hz\n",
+            self.out.display(),
             ride.samples(),
             ride.duration(),
             ride.rate(),
-            paths[1],
-            ride.trips().len(),
-            if ride.trips().len() == 1 { "" } else { "s" },
-        ))?;
+        );
+        let truth = truth.map(|truth| {
+            let (path, trips) = (truth.path().display(), ride.trips().len());
+            text += &format!(
+                "{path}  {trips} trip{}\n",
+                if trips == 1 { "" } else { "s" }
+            );
+            truth.write_with(|out| write_truth(out, ride, &simulation.stops))
+        });
+        let ready = [Ok(record)]
+            .into_iter()
+            .chain(truth)
+            .collect::<Result<Vec<_>, _>>()?;
+        ready.into_iter().try_for_each(Ready::publish)?;
+        output::print_beside([&self.out].into_iter(), &text)?;
         Ok(ExitCode::SUCCESS)
     }
 
