@@ -95,10 +95,7 @@ impl Directory {
         let is_new = !self.has(COUNTS, &json);
         // The same bytes are written again, so that a full disk is noticed before anything is counted.
         let saved = self.replace(COUNTS, &json);
-        (saved.map(|()| is_new)).map_err(|error| ResultsError::Unsaved {
-            path: self.path.join(COUNTS),
-            error,
-        })
+        (saved.map(|()| is_new)).map_err(|error| self.unsaved(COUNTS, error))
     }
 
     /// Checks that files can be created here, or the directory itself if it does not exist.
@@ -237,9 +234,12 @@ impl Directory {
             return Ok(false);
         }
         let replaced = self.replace(name, bytes);
-        replaced
-            .map(|()| true)
-            .map_err(|error| self.unwritable(error))
+        (replaced.map(|()| true)).map_err(|error| self.unsaved(name, error))
+    }
+
+    fn unsaved(&self, name: &str, error: io::Error) -> ResultsError {
+        let path = self.path.join(name);
+        ResultsError::Unsaved { path, error }
     }
 
     fn has(&self, name: &str, bytes: &[u8]) -> bool {

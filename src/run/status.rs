@@ -5,9 +5,9 @@ use crate::results::{Checkpoint, Directory, Manifest, Shard};
 /// The state of the run in a directory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
-    /// All trials are counted.
+    /// All trials are counted, and the files of a whole run are written.
     Finished,
-    /// Some trials are missing.
+    /// Some trials or files are missing.
     Unfinished,
     /// A run is using the directory.
     Running,
@@ -75,7 +75,8 @@ impl Status {
         let wanted = state.wanted();
         let wanted = wanted.end - wanted.start;
         Self {
-            state: if lacking == 0 {
+            // Of a whole run the counts are left only where its files are not written yet.
+            state: if lacking == 0 && state.shard.is_some() {
                 State::Finished
             } else {
                 State::Unfinished

@@ -361,6 +361,32 @@ fn a_stopped_run_says_how_to_go_on() {
     }
 }
 
+/// A disk that fills up once all is counted: the file that does not fit is named, the run is not finished without it, and
+/// the same command finishes it without counting anything.
+#[test]
+fn a_run_without_its_files_is_unfinished() {
+    let bench = Bench::new(TINY);
+    let program = assert_cmd::cargo::cargo_bin("liftsim");
+    let sweep = format!(
+        "trap '' XFSZ; ulimit -f 40; exec {} --quiet sweep tiny.toml --out out",
+        program.display()
+    );
+    let mut shell = Command::new("sh");
+    shell.args(["-c", &sweep]).current_dir(bench.path("."));
+    let output = shell.output().unwrap();
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{err}");
+    assert!(err.contains("out/figure.png: cannot be written"), "{err}");
+    assert!(err.contains("make room there"), "{err}");
+    let status = bench.run(&["status", "out"]).1;
+    assert!(status.contains("unfinished"), "{status}");
+    let counts = fs::read(bench.path("out/counts.json")).unwrap();
+    assert!(!counts.is_empty());
+    assert_eq!(bench.sweep("out", &[]), 0, "counts were lost");
+    let status = bench.run(&["status", "out"]).1;
+    assert!(status.contains(" finished"), "{status}");
+}
+
 /// A file system of its own, if this user may have one.
 struct Disk<'a>(&'a Path);
 
