@@ -25,6 +25,22 @@ pub fn brief(number: f64) -> String {
     shorten(&number.to_string()).into_owned()
 }
 
+/// A message in which the number that was got stands as it was written: `got 1.50`, not `got 1.5`.
+pub fn as_written(message: String, written: &str) -> String {
+    let number = written.replace('_', "").parse::<f64>();
+    let Some(number) = number.ok().filter(|number| number.is_finite()) else {
+        return message;
+    };
+    let got = format!("got {}", brief(number));
+    let is_whole = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '.');
+    match message.split_once(&got) {
+        Some((before, rest)) if is_whole(rest) => {
+            format!("{before}got {}{rest}", shorten(written))
+        }
+        _ => message,
+    }
+}
+
 /// Writes the hyphen of a number as a minus sign.
 pub fn minus(number: &str) -> String {
     number.replace('-', "−")
@@ -63,6 +79,22 @@ mod tests {
         assert_eq!(thousands(1_234_567), "1\u{2009}234\u{2009}567");
         assert_eq!(thousands(999), "999");
         assert_eq!(minus("-1e-7"), "−1e−7");
+    }
+
+    #[test]
+    fn numbers_stay_as_they_were_written() {
+        let said = |message: &str, written| as_written(message.to_owned(), written);
+        assert_eq!(
+            said("must be 1, got 1.5 (x)", "1.50"),
+            "must be 1, got 1.50 (x)"
+        );
+        assert_eq!(said("a, got 100000", "1e5"), "a, got 1e5");
+        assert_eq!(said("a, got 10", "1_0.00"), "a, got 1_0.00");
+        for other in ["a, got 1.55", "a, got 1.5e9", "a, got \"1.5\"", "1.5"] {
+            assert_eq!(said(other, "1.50"), other);
+        }
+        assert_eq!(said("a, got NaN", "nan"), "a, got NaN");
+        assert_eq!(said("a, got b", "b"), "a, got b");
     }
 
     #[test]

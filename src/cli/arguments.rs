@@ -7,7 +7,7 @@ use super::{
 };
 use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, Parser, Subcommand};
-use liftsim::format::shorten;
+use liftsim::format::{as_written, shorten};
 
 /// Does the lift move, and how sure can we be, from an accelerometer alone?
 ///
@@ -16,6 +16,8 @@ use liftsim::format::shorten;
 #[derive(Debug, Parser)]
 #[command(version, propagate_version = true, arg_required_else_help = true)]
 #[command(after_help = "Start with: liftsim sweep fig6\n\n\
+    A file that exists is replaced only with --force, and - is standard output. What is kept from run to run is replaced \
+    as it grows: a map, a baseline, a spool, a directory of results.\n\n\
     Exit codes: 0 done; 1 a run failed, or a gate did not hold; 2 bad usage, config or input; \
     3 a gate was inconclusive; 130 stopped by Ctrl-C, 143 by SIGTERM.")]
 pub struct Arguments {
@@ -94,7 +96,7 @@ fn without_long_arguments(mut error: clap::Error) -> clap::Error {
     error
 }
 
-/// A message in which no argument is repeated at more than some length.
+/// A message in which an argument is repeated as it was written, but at no more than some length.
 pub fn brief(message: String) -> String {
     let arguments = std::env::args_os().skip(1);
     arguments.fold(message, |message, argument| {
@@ -102,6 +104,6 @@ pub fn brief(message: String) -> String {
         let value = argument
             .split_once('=')
             .map_or(&*argument, |(_, value)| value);
-        message.replace(value, &shorten(value))
+        as_written(message.replace(value, &shorten(value)), value)
     })
 }

@@ -136,6 +136,9 @@ impl<'de> Deserializer<'de> for &'de Node {
             }
             _ => return Err(self.refused(&"a name, or a table with one key")),
         };
+        if choice.content.is_some() && !known.contains(&choice.name) {
+            return Err(Refusal::unknown_field(choice.name, known).at(choice.span));
+        }
         visitor
             .visit_enum(choice)
             .map_err(|refusal: Refusal| refusal.at(&self.span))
@@ -368,6 +371,11 @@ mod tests {
                 "size = 1\nlaw = [\"normal\", \"student_t\"]",
                 "law[1]: needs its parameters (write { student_t = ... })",
                 "\"student_t\"",
+            ),
+            (
+                "size = 1\nlaw = [{ quantum = 3 }]",
+                "law[0]: unknown key `quantum` (one of normal, student_t, contaminated)",
+                "quantum",
             ),
             (
                 "size = 1\nlaw = [{ student_t = \"3\" }]",

@@ -3,12 +3,13 @@
 use super::refusal::Refusal;
 use super::shipped::{SHIPPED, Shipped};
 use super::tree::Node;
+use crate::files;
+use crate::format::as_written;
 use crate::rule::OutOfRange;
 use crate::suggest::nearest;
 use serde::de::DeserializeOwned;
 use std::error::Error;
 use std::fmt;
-use std::fs::File;
 use std::io::{self, Read};
 use std::ops::Range;
 use std::path::Path;
@@ -23,7 +24,7 @@ pub struct ConfigError(Box<Report>);
 struct Report {
     file: String,
     place: Option<Place>,
-    error: Box<dyn Error + Send + Sync>,
+    message: String,
 }
 
 /// An error from checking values against each other, with its position or the keys to blame.
@@ -94,6 +95,10 @@ enum Unreadable {
     Elsewhere(&'static str),
     #[error("is not text in UTF-8 or UTF-16 (save it as UTF-8)")]
     NotText,
+    #[error("is empty (`liftsim new` has configs to begin with)")]
+    Empty,
+    #[error("holds a NUL, which no text does (save it as UTF-8)")]
+    Nul,
     #[error("is larger than {} kB, which no config is (check the path)", MOST_BYTES / 1000)]
     TooLarge,
 }
@@ -169,8 +174,14 @@ impl Source {
     /// Parses the text into a tree of keys and values.
     ///
     /// # Errors
-    /// If the text is not TOML.
+    /// If there is no text, or it is not TOML.
     pub fn parse(&self) -> Result<Node, ConfigError> {
+        if self.text.trim().is_empty() {
+            return Err(self.at(None, Unreadable::Empty));
+        }
+        if let Some(place) = self.text.find('\0') {
+            return Err(self.at(Some(place..place + 1), Unreadable::Nul));
+        }
         Node::parse(&self.text).map_err(|error| self.at(error.span(), first_line(error.message())))
     }
 
@@ -191,10 +202,12 @@ impl Source {
         span: Option<Range<usize>>,
         error: impl Into<Box<dyn Error + Send + Sync>>,
     ) -> ConfigError {
+        let message = error.into().to_string();
+        let written = span.clone().and_then(|span| self.text.get(span));
         ConfigError(Box::new(Report {
             file: self.name.clone(),
             place: span.map(|span| self.place(span)),
-            error: error.into(),
+            message: as_written(message, written.unwrap_or_default()),
         }))
     }
 
@@ -253,7 +266,7 @@ fn missing(path: &Path, command: &str) -> Unreadable {
 /// A file's text, in UTF-8 or, as its first bytes say, UTF-16.
 fn read(path: &Path) -> Result<String, Unreadable> {
     let mut bytes = Vec::new();
-    let file = File::open(path)?;
+    let file = files::open(path)?;
     file.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > MOST_BYTES {
         return Err(Unreadable::TooLarge);
@@ -279,7 +292,7 @@ fn first_line(message: &str) -> String {
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Some(place) = &self.place else {
-            return write!(f, "{}: {}", self.file, self.error);
+            return write!(f, "{}: {}", self.file, self.message);
         };
         let Place {
             line,
@@ -288,7 +301,7 @@ impl fmt::Display for Report {
             from,
             width,
         } = place;
-        writeln!(f, "{}:{line}:{column}: {}", self.file, self.error)?;
+        writeln!(f, "{}:{line}:{column}: {}", self.file, self.message)?;
         let number = line.to_string();
         let blank = " ".repeat(number.len());
         writeln!(f, " {blank} |")?;

@@ -211,6 +211,11 @@ impl Experiment {
         self.source.at(Some(self.table().span.clone()), error)
     }
 
+    /// The file.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
     /// The file's text.
     pub fn text(&self) -> &str {
         self.source.text()

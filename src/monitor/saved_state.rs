@@ -4,9 +4,9 @@ use super::reference::MOST_RANKED;
 use super::running::Running;
 use super::{DecisionRule, Design, Knowledge, MOST_ORDER, Settings, SettingsError};
 use crate::explain::STRONGEST;
+use crate::files;
 use crate::recording::Sample;
 use serde::{Deserialize, Serialize};
-use std::fs::File;
 use std::io::{self, Read};
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -77,7 +77,7 @@ impl SavedState {
     /// If it cannot be read, or its parts cannot be used together.
     pub fn load(path: &Path) -> Result<Self, SavedStateError> {
         let read = || {
-            let (file, mut text) = (File::open(path)?, String::new());
+            let (file, mut text) = (files::open(path)?, String::new());
             let length = file.take(LONGEST + 1).read_to_string(&mut text)?;
             if length as u64 > LONGEST {
                 return Err(Problem::TooLong);

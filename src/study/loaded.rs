@@ -2,10 +2,11 @@
 
 use super::kind::{Context, Study};
 use crate::claim::{Evidence, Narrative, Scope};
+use crate::config::Source;
 use crate::counts::Counts;
 use crate::experiment::Experiment;
 use crate::figure::{Drawing, FigureError, OVERLAY, render};
-use crate::plot::{Options, Overlay, OverlayError, Plot, layout};
+use crate::plot::{LayoutError, Options, Overlay, OverlayError, Plot, layout};
 use crate::report::{Paper, Section};
 use crate::results::{Comparison, Directory, Manifest, Origin, RESULTS, ResultsError, file_name};
 use crate::run::{AnyStudy, DrawError, Output, StudyError};
@@ -28,6 +29,7 @@ pub struct Loaded {
     overlay: Option<(Overlay, String)>,
     scope: Scope,
     narrative: Narrative,
+    source: Source,
 }
 
 impl Loaded {
@@ -47,6 +49,7 @@ impl Loaded {
             confidence: context.confidence,
             figure: config.header.figure.clone(),
             overlay: None,
+            source: config.source().clone(),
         })
     }
 
@@ -77,8 +80,22 @@ impl Loaded {
         let output = self.study.output(&Counts::default())?;
         self.judge(&output)?;
         let (plot, _) = self.plot(&output.points)?;
-        layout(&plot)?;
-        Ok(())
+        let laid = layout(&plot);
+        laid.map(drop).map_err(|error| self.blamed(error))
+    }
+
+    /// A text that does not fit is the config's, such as a label.
+    fn blamed(&self, error: LayoutError) -> StudyError {
+        let place = match &error {
+            LayoutError::Clipped(text) => {
+                (self.source.text().find(text.as_str())).map(|start| start..start + text.len())
+            }
+            _ => None,
+        };
+        match place {
+            Some(span) => self.source.at(Some(span), error).into(),
+            None => error.into(),
+        }
     }
 
     /// Judges the claims on the results of a study, and fills the text.

@@ -6,7 +6,6 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 use std::error::Error;
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -79,7 +78,7 @@ impl Kind {
     pub fn read(&self, path: &Path) -> Result<Vec<u8>, KeptError> {
         let mut text = Vec::new();
         let longest = self.longest + 1;
-        let read = File::open(path).and_then(|file| file.take(longest).read_to_end(&mut text));
+        let read = files::open(path).and_then(|file| file.take(longest).read_to_end(&mut text));
         match read {
             Ok(_) => Ok(text),
             Err(error) => {

@@ -18,6 +18,14 @@ pub const CONFIGS: &[(&str, &str)] = &[
         "steps that miss the end",
         "[axis]\ndelta = { from = 0.0, to = 1.0, step = 0.3 }\n",
     ),
+    (
+        "a key of another section",
+        "sensor = { quantum = 0.1 }\n[axis]\ndelta = [1.0]\n",
+    ),
+    (
+        "a number as it was written",
+        "[axis]\ndelta = [1.0]\n[impulses]\nnu = 1.50\n",
+    ),
     ("a value twice", "[axis]\ndelta = [0.0, 0.5, 0.50]\n"),
     (
         "an order of nothing",
@@ -728,7 +736,43 @@ fn arguments_and_places() {
     fs::write(directory.path().join("damaged/run.json"), "{}").unwrap();
     fs::create_dir(directory.path().join("foreign")).unwrap();
     fs::write(directory.path().join("foreign/points.csv"), "x\n").unwrap();
+    fs::write(directory.path().join("empty.toml"), " \n\n").unwrap();
+    fs::write(directory.path().join("nul.toml"), "question = \"?\"\n\0\0").unwrap();
+    let long = format!(
+        "{GOOD}[axis]\ndelta = [1.0]\n[[curve]]\nlabel = \"{}\"\n",
+        "x".repeat(300)
+    );
+    fs::write(directory.path().join("long.toml"), long).unwrap();
+    let made = std::process::Command::new("mkfifo")
+        .arg(directory.path().join("pipe"))
+        .status();
+    assert!(made.unwrap().success());
     for (about, arguments, expected) in [
+        (
+            "an empty config",
+            vec!["sweep", "empty.toml"],
+            "error: empty.toml: is empty (`liftsim new` has configs to begin with)",
+        ),
+        (
+            "bytes that are no text",
+            vec!["sweep", "nul.toml"],
+            "error: nul.toml:2:1: holds a NUL, which no text does (save it as UTF-8)",
+        ),
+        (
+            "a label that is too long",
+            vec!["plan", "long.toml"],
+            "error: long.toml:7:10: figure: \"xxx",
+        ),
+        (
+            "a pipe that nobody writes to",
+            vec!["sweep", "pipe"],
+            "error: pipe: cannot be read: it is a pipe that nobody writes to (check the path)",
+        ),
+        (
+            "a number of a flag",
+            vec!["check", "good.toml", "--nominal", "2.50"],
+            "--nominal must lie strictly between 0 and 1, got 2.50",
+        ),
         (
             "no config",
             vec!["sweep", "none.toml"],

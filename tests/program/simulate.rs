@@ -370,7 +370,7 @@ fn buildings_are_refused_at_their_place() {
         ),
         (
             "[building]\nfaults = [{ journey = 1, kind = { pitt = 1 } }]",
-            "unknown value `pitt`, did you mean `pit`?",
+            "unknown key `pitt`, did you mean `pit`?",
         ),
         (
             "[building]\nfaults = [{ journey = 1, kind = { between_floors = 1 } }]",
@@ -398,7 +398,7 @@ fn buildings_are_refused_at_their_place() {
         ),
         (
             "[building]\n[sensor]\nstep = 1e-9\ndensity = 1e6",
-            "b.toml:3:8: sensor.step: must be 1e-9 to 1e9 times the noise, got 0.000000001 (0 is none)",
+            "b.toml:3:8: sensor.step: must be 1e-9 to 1e9 times the noise, got 1e-9 (0 is none)",
         ),
         (
             "[building]\nfloors = [0, 0.9]\njourneys = [0, 1]\nfaults = [{ journey = 1, kind = { mis_levelling = -0.9 } }]",
