@@ -131,6 +131,20 @@ struct Counted {
 }
 
 impl Counted {
+    /// A flag that changes what is counted, if one is given.
+    fn flag(&self) -> Option<&'static str> {
+        let Simulation { pilot, seed, .. } = self.simulation;
+        let given = [
+            ("--trials", self.trials.is_some()),
+            ("--seed", seed.is_some()),
+            ("--pilot", pilot.is_some()),
+        ];
+        given
+            .iter()
+            .find(|(_, is_given)| *is_given)
+            .map(|(flag, _)| *flag)
+    }
+
     /// Reads the config, lays the command line over it, and plans it.
     fn study(&self) -> Result<Loaded, Failure> {
         self.simulation.plan(self.config()?)

@@ -5,7 +5,7 @@
 use super::{AtRest, Detection, Event, Trip, Undecided, What, columns};
 use crate::explain::SensorFilter;
 use crate::monitor::{Knowledge, Settings};
-use crate::recording::{Moment, Recording};
+use crate::recording::{GRAVITY, Moment, Recording};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -121,10 +121,11 @@ pub enum Warning {
     )]
     Rate { learnt: f64, got: f64 },
     #[error(
-        "rest reads {0:.3} m/s^2, neither 0 nor the 9.8 of gravity (check the unit: --unit g, mg, or counts \
-         with --scale; or the sensor is tilted: lay it flat, or let all three axes be read)"
+        "rest reads {level:.3} m/s^2, neither 0 nor the 9.8 of gravity (check the unit: --unit g, mg, or counts \
+         with --scale{})",
+        perhaps_tilted(*.level)
     )]
-    Level(f64),
+    Level { level: f64 },
     #[error(
         "too little rest to learn from: the decisions were not made (record a few seconds of rest before or \
          after the ride)"
@@ -288,7 +289,7 @@ impl Detection {
             ((rate / learnt - 1.0).abs() > 0.05).then_some(Warning::Rate { learnt, got: rate }),
             level
                 .filter(|level| !is_level_of_rest(*level))
-                .map(Warning::Level),
+                .map(|level| Warning::Level { level }),
             level.is_none().then_some(Warning::NoRest),
             self.contradicted.map(|at_rest| {
                 Warning::Contradicted(if at_rest { "at rest" } else { "in motion" })
@@ -343,6 +344,15 @@ const MOST_SAID: usize = 8;
 
 /// A record shaken for a larger share of the time shows little.
 const MOST_SHAKEN: f64 = 0.5;
+
+/// Tilted, a sensor reads less than gravity along an axis, and never more.
+fn perhaps_tilted(level: f64) -> &'static str {
+    if level.abs() < GRAVITY {
+        "; or the sensor is tilted: lay it flat, or let all three axes be read"
+    } else {
+        ""
+    }
+}
 
 /// Whether a level of rest, m/s², is near 0 or gravity, up to the sensor's offset.
 fn is_level_of_rest(level: f64) -> bool {

@@ -193,7 +193,7 @@ fn of_reading() -> Vec<Case> {
         case(
             scaled(0.5),
             &[],
-            "(check the unit: --unit g, mg, or counts with --scale)",
+            "(check the unit: --unit g, mg, or counts with --scale; or the sensor is tilted: lay it flat",
             &["--unit", "counts", "--scale", "2"],
         ),
         case(

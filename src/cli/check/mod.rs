@@ -1,20 +1,22 @@
-//! `liftsim check CONFIG`: the false-alarm gate.
+//! `liftsim check CONFIG|DIR`: the false-alarm gate, on trials of its own or on results.
 
 mod findings;
 mod format;
 
 use super::progress::{self, Progress, Reporter};
+use super::store::stored;
 use super::{CommandResult, Counted, Failure, print};
 use anyhow::anyhow;
 use clap::Args;
 use findings::Report;
 use format::Format;
+use liftsim::config::Shipped;
 use liftsim::experiment::{Experiment, SWEEP, SweepConfig};
 use liftsim::format::brief;
 use liftsim::gate::{self, Finding, Scenario, Verdict};
-use liftsim::results::Row;
+use liftsim::results::{Directory, Origin, Row};
 use liftsim::rule::OutOfRange;
-use liftsim::study::{Loaded, Study, Sweep};
+use liftsim::study::{self, Loaded, Study, Sweep};
 use std::process::ExitCode;
 
 /// Test that the false-alarm rate of every scenario at rest stays at or below its level.
@@ -24,7 +26,7 @@ use std::process::ExitCode;
 ///
 /// Each scenario gets an exact one-sided binomial test, all of them corrected together (Holm) at a
 /// family-wise level of 0.001. A scenario passes only where the run could have seen a rate of 1.2
-/// times nominal with probability 0.99. Exit 0: every scenario passes. 1: one fails. 3: none fails,
+/// times nominal with probability 0.99. Of a directory of results its counts are tested, and nothing is simulated. Exit 0: every scenario passes. 1: one fails. 3: none fails,
 /// but one is inconclusive, so more trials are needed.
 #[derive(Debug, Args)]
 pub struct Check {
@@ -51,18 +53,27 @@ impl Check {
                 brief(nominal)
             )));
         }
-        let experiment = self.counted.config()?;
+        let results = self.results()?;
+        let experiment = match &results {
+            Some((origin, _)) => {
+                study::parse(&origin.config_name, &origin.config).map_err(Failure::input)?
+            }
+            None => self.counted.config()?,
+        };
+        let points = results.map(|(_, points)| points);
         self.counted.simulation.start_threads()?;
         let reporter = Reporter::new(quiet, &self.progress, "");
         if experiment.study() != SWEEP {
             let loaded = Loaded::new(experiment.clone()).map_err(Failure::study)?;
             if let Some(nothing) = loaded.study.nothing_promised() {
-                return self.promises(&experiment, &loaded, nothing, &reporter);
+                return self.promises(&experiment, &loaded, points, nothing, &reporter);
             }
         }
         let sweep = sweep(experiment)?;
-        let counts = progress::count(&sweep, &reporter)?;
-        let rows = sweep.rows(&counts);
+        let rows = match points {
+            Some(points) => at_rest(&points).map_err(Failure::run)?,
+            None => sweep.rows(&progress::count(&sweep, &reporter)?),
+        };
         let nominal = |row: &Row| self.nominal.unwrap_or(row.alpha());
         let scenarios = rows.iter().map(|row| (nominal(row), row.tally));
         let findings = gate::judge(&scenarios.collect::<Vec<_>>());
@@ -79,17 +90,47 @@ impl Check {
         Ok(code(&findings))
     }
 
+    /// The origin and the rows of the results that are to be tested, if it is not a config.
+    fn results(&self) -> Result<Option<(Origin, Vec<u8>)>, Failure> {
+        let path = &self.counted.simulation.config;
+        let directory = Directory::new(path);
+        // A shipped config may have the name of a folder, too.
+        let is_shipped = path.to_str().and_then(Shipped::find).is_some();
+        if is_shipped || !directory.is_finished() {
+            return Ok(None);
+        }
+        if let Some(flag) = self.counted.flag() {
+            return Err(Failure::Input(anyhow!(
+                "{flag}: means nothing to results, whose trials are counted (leave it out, or give the config)"
+            )));
+        }
+        let manifest = directory.manifest().map_err(Failure::input)?;
+        let loaded = stored(&directory, &manifest.origin)?;
+        let points = directory.points(&manifest).map_err(Failure::input)?;
+        let comparisons = directory.comparisons(&manifest).map_err(Failure::input)?;
+        (loaded.verify(&points, &comparisons))
+            .map_err(|error| Failure::input(directory.impossible(&error)))?;
+        Ok(Some((manifest.origin, points)))
+    }
+
     /// Tests the rates that a study promises: of stops in simulated buildings, of blocks at rest.
     fn promises(
         &self,
         experiment: &Experiment,
         loaded: &Loaded,
+        points: Option<Vec<u8>>,
         nothing: OutOfRange,
         reporter: &Reporter,
     ) -> CommandResult {
-        let counts = progress::count_all(loaded, reporter)?;
-        let output = loaded.study.output(&counts).map_err(Failure::study)?;
-        let scenarios = loaded.study.false_alarms(&output.points);
+        let points = match points {
+            Some(points) => points,
+            None => {
+                let counts = progress::count_all(loaded, reporter)?;
+                let output = loaded.study.output(&counts);
+                output.map_err(Failure::study)?.points
+            }
+        };
+        let scenarios = loaded.study.false_alarms(&points);
         let scenarios = scenarios.map_err(Failure::run)?;
         let Some(Scenario { cases, .. }) = scenarios.first() else {
             return Err(Failure::input(experiment.conflict(nothing.into())));
@@ -116,6 +157,14 @@ fn sweep(mut experiment: Experiment) -> Result<Sweep, Failure> {
     let mut config = SweepConfig::new(experiment).map_err(Failure::input)?;
     config.narrative.claims.clear();
     Sweep::new(config).map_err(Failure::input)
+}
+
+/// The rows of a sweep that are at rest.
+fn at_rest(points: &[u8]) -> Result<Vec<Row>, csv::Error> {
+    let rows = csv::Reader::from_reader(points).into_deserialize();
+    let mut rows: Vec<Row> = rows.collect::<Result<_, _>>()?;
+    rows.retain(Row::is_at_rest);
+    Ok(rows)
 }
 
 fn code(findings: &[Finding]) -> ExitCode {
