@@ -107,22 +107,22 @@ impl Frame<'_> {
 
     /// The ticks of y whose words find room over each other.
     fn ticks_up(&self) -> impl Iterator<Item = &(f64, String)> {
-        spaced(&self.panel.y.ticks, SMALL + 1.0, |value| -self.y(value))
+        spaced(&self.panel.y.ticks, SMALL + 1.0, |value| self.y(value))
     }
 }
 
-/// The first tick and every one that is as far as it needs from the one before.
+/// The first tick and every one that is as far as it needs from those before, which may run up or down.
 fn spaced<'t>(
     ticks: &'t [(f64, String)],
     needed: f64,
     place: impl Fn(f64) -> f64,
 ) -> impl Iterator<Item = &'t (f64, String)> {
-    let mut last = f64::NEG_INFINITY;
+    let mut last: Option<f64> = None;
     ticks.iter().filter(move |(value, _)| {
         let at = place(*value);
-        let has_room = at >= last + needed - 0.01;
+        let has_room = last.is_none_or(|last| (at - last).abs() >= needed - 0.01);
         if has_room {
-            last = at;
+            last = Some(at);
         }
         has_room
     })

@@ -142,3 +142,29 @@ fn nothing_is_drawn_outside_its_panel() {
         Shape::Line(expected, 1.1, Style::of(0).colour)
     );
 }
+
+/// Ticks keep their words where there is room, whichever way they run.
+#[test]
+fn ticks_that_have_room_are_drawn() {
+    let drawn = |y: Axis| {
+        let mut plot = Plot::stack(&axis("x"), [(100.0, y)]);
+        plot.add(0, Mark::Axes);
+        let canvas = layout(&plot).unwrap();
+        let texts = canvas.shapes.into_iter().filter_map(|shape| match shape {
+            Shape::Text(text) => Some(text.text),
+            _ => None,
+        });
+        texts.collect::<Vec<_>>()
+    };
+    let texts = drawn(Axis::powers_of_ten(-4.5, 0.5, 6));
+    for label in ["10⁰", "10⁻¹", "10⁻²", "10⁻³", "10⁻⁴"] {
+        assert!(
+            texts.iter().any(|text| text == label),
+            "{label} in {texts:?}"
+        );
+    }
+    let names = (0..30).map(|name| format!("name {name}")).collect();
+    let texts = drawn(Axis::names(names));
+    let names = texts.iter().filter(|text| text.starts_with("name"));
+    assert!((8..=11).contains(&names.count()), "{texts:?}");
+}
