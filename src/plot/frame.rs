@@ -112,11 +112,11 @@ impl Frame<'_> {
 }
 
 /// The first tick and every one that is as far as it needs from those before, which may run up or down.
-fn spaced<'t>(
-    ticks: &'t [(f64, String)],
+fn spaced(
+    ticks: &[(f64, String)],
     needed: f64,
     place: impl Fn(f64) -> f64,
-) -> impl Iterator<Item = &'t (f64, String)> {
+) -> impl Iterator<Item = &(f64, String)> {
     let mut last: Option<f64> = None;
     ticks.iter().filter(move |(value, _)| {
         let at = place(*value);
