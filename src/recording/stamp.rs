@@ -94,6 +94,9 @@ fn time_of_day(text: &str) -> Option<i64> {
 /// Nothing, `Z`, `UTC`, `+02:00`, `+0200` or `+02`; the name of a place behind it says no more.
 fn zone(text: &str) -> Option<Zone> {
     let text = text.split_once('[').map_or(text, |(zone, _place)| zone);
+    if !text.is_ascii() {
+        return None;
+    }
     let sign = match text {
         "" => return Some(Zone::Local),
         "Z" | "z" | "UTC" | "GMT" => return Some(Zone::Utc),
