@@ -94,6 +94,7 @@ fn range(text: &str) -> Result<[f64; 2], String> {
     let ends = text
         .split_once("..")
         .and_then(|(from, to)| Some([from.parse().ok()?, to.parse().ok()?]));
+    let ends = ends.filter(|ends: &[f64; 2]| ends.iter().all(|end| end.abs() < 1e15));
     ends.ok_or_else(|| "must be two numbers, such as 0..2".to_owned())
 }
 

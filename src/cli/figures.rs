@@ -151,6 +151,7 @@ impl Figures {
         }
         let mut loaded = Loaded::new(config).map_err(Failure::study)?;
         self.figure.lay_over(&mut loaded, folder(path))?;
+        loaded.figure.keep_for_the_report();
         Ok(Entry {
             name: name.to_owned(),
             loaded,

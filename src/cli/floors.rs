@@ -45,6 +45,16 @@ fn height(text: &str) -> Result<f64, String> {
 }
 
 impl FloorArguments {
+    /// Refuses floors beside something that does not hold where the car is among them.
+    pub fn refuse(&self, beside: &str) -> Result<(), Failure> {
+        if self.floors.is_none() && self.map.is_none() {
+            return Ok(());
+        }
+        Err(Failure::Input(anyhow!(
+            "{beside} does not hold where the car is among the floors (leave --floors and --map out, or begin anew with --begins)"
+        )))
+    }
+
     /// What is known at first; none where floors are not asked for.
     pub fn building(&self, replaces: bool) -> Result<Option<Building>, Failure> {
         if self.floors.is_none() && self.map.is_none() {

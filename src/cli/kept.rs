@@ -1,7 +1,7 @@
 //! `monitor --save-state`: a running monitor in a file, from which another goes on.
 
 use super::readings::{Readings, Taken};
-use super::{Failure, warn};
+use super::{Failure, output, warn};
 use anyhow::anyhow;
 use liftsim::files;
 use liftsim::monitor::{Knowledge, Monitor, Running, RunningError, SavedState};
@@ -53,7 +53,18 @@ pub struct Kept {
 impl Kept {
     /// Refuses a file that is there, but for the one that the monitor goes on from.
     pub fn check(path: &Path, from: Option<&Path>) -> Result<(), Failure> {
-        if path.exists() && from != Some(path) {
+        output::not_stdout("--save-state", output::KEPT, path)?;
+        let folder = path
+            .parent()
+            .filter(|folder| !folder.as_os_str().is_empty());
+        if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+            let folder = folder.display();
+            return Err(Failure::Input(anyhow!(
+                "--save-state: {folder}: no such folder (make it first)"
+            )));
+        }
+        let from = from.map(output::place);
+        if path.exists() && from != Some(output::place(path)) {
             let path = path.display();
             return Err(Failure::Input(anyhow!(
                 "{path}: --save-state writes over no file but that of --state (go on from it with --state {path}, give another \

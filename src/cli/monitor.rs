@@ -77,7 +77,8 @@ pub struct MonitorCommand {
     #[arg(long, value_name = "SECONDS", value_parser = heartbeat::period)]
     heartbeat: Option<Duration>,
     /// Save the running monitor to this file at every stop and at a signal (SIGTERM, Ctrl-C), from which --state goes on as
-    /// if it had never stopped; it may be the file of --state.
+    /// if it had never stopped, at the same columns and units; it may be the file of --state. A trip that is under way waits
+    /// in it. Not with --floors or --map: it does not hold where the car is among them.
     #[arg(long, value_name = "FILE.json")]
     save_state: Option<PathBuf>,
     #[command(flatten)]
@@ -101,9 +102,10 @@ impl MonitorCommand {
         let Setup { config, saved } = self.options.setup()?;
         let reading = self.columns.over(&config.reading)?;
         if let Some(spool) = self.network.spool() {
-            output::apart(spool, self.floors.map.iter())?;
+            output::apart(spool, self.floors.map.iter().chain(&self.save_state))?;
         }
         if let Some(path) = &self.save_state {
+            self.floors.refuse("--save-state")?;
             Kept::check(path, self.options.state())?;
         }
         let network = self.network.open()?;
@@ -174,6 +176,17 @@ impl MonitorCommand {
             Some(saved) if self.begins.is_none() => Going::of(saved)?,
             _ => None,
         };
+        if going.is_some() {
+            self.floors.refuse("--state of a running monitor")?;
+        }
+        if let (Some(_), Some(rate), Some(saved)) = (&going, self.rate, &saved)
+            && rate != saved.rate
+        {
+            return Err(Failure::Input(anyhow!(
+                "--rate: must be {} Hz, at which the saved monitor ran, got {rate} (leave it out)",
+                saved.rate
+            )));
+        }
         if let Some(columns) = going.as_mut().and_then(|it| it.columns.take()) {
             lines = lines
                 .resume(columns)
@@ -229,9 +242,16 @@ impl MonitorCommand {
                 Err(failure) => break Err(failure),
             }
         };
-        save(&lift, &readings);
-        // What was read is told, also before a line that cannot be; at a signal it waits for the next monitor.
-        let ended = if is_told() { lift.keep() } else { lift.end() };
+        // What nobody has read is told again by the monitor that goes on.
+        if lift.reports.is_read {
+            save(&lift, &readings);
+        }
+        // What is left is told, also before a line that cannot be read, or waits in the saved state.
+        let ended = if kept.is_some() {
+            lift.keep()
+        } else {
+            lift.end()
+        };
         readings.say_counts();
         read.and(ended)?;
         Ok(true)

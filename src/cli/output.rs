@@ -75,7 +75,7 @@ pub fn apart<'a>(
 }
 
 /// Where a name leads, links followed as far as there is anything.
-fn place(path: &Path) -> PathBuf {
+pub fn place(path: &Path) -> PathBuf {
     let there = path.canonicalize();
     there.unwrap_or_else(|_| match (path.parent(), path.file_name()) {
         (Some(folder), Some(name)) => {

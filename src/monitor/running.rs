@@ -52,7 +52,8 @@ impl Running {
         if self.build != build {
             return Err(RunningError::Build(self.build.clone()));
         }
-        ron::from_str(&self.parts).map_err(|_| RunningError::Damaged)
+        // Builds of changed sources may have one name.
+        ron::from_str(&self.parts).map_err(|_| RunningError::Build(self.build.clone()))
     }
 }
 

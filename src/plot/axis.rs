@@ -114,10 +114,22 @@ impl Axis {
 
     /// Places of a scale, `from` to `to`, with about so many ticks.
     pub fn scaled(scale: Scale, from: f64, to: f64, count: usize) -> Self {
-        match scale {
-            Scale::Linear => Self::linear(from, to, count),
+        let axis = match scale {
+            Scale::Linear => return Self::linear(from, to, count),
             Scale::Log => Self::decades(from, to),
             Scale::Probit => Self::probits(from, to),
+        };
+        if axis.ticks.len() >= 3 {
+            return axis;
+        }
+        // Between two usual ticks, those of a linear axis.
+        let values = Self::linear(scale.value(from), scale.value(to), count);
+        let ticks = values.ticks.into_iter();
+        Self {
+            ticks: ticks
+                .map(|(value, label)| (scale.place(value), label))
+                .collect(),
+            ..axis
         }
     }
 

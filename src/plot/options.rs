@@ -178,9 +178,9 @@ pub enum OptionsError {
     #[error("figure.y_scale: means nothing to this picture, which has names along y (take it out)")]
     Names,
     #[error("figure.{0}")]
-    Window(#[from] WindowError),
+    Window(WindowError),
     #[error("figure.{0}")]
-    Overlay(#[from] OverlayError),
+    Overlay(OverlayError),
     #[error(transparent)]
     Layout(#[from] LayoutError),
     #[error("figure.height: must be at least {least:.0} mm for these panels, got {got}")]
@@ -188,6 +188,15 @@ pub enum OptionsError {
 }
 
 impl Options {
+    /// Adds the kinds of files that a report shows, where others are asked for.
+    pub fn keep_for_the_report(&mut self) {
+        if !self.format.is_empty() {
+            let shown = [Format::Png, Format::Svg].into_iter();
+            let missing: Vec<_> = shown.filter(|kind| !self.format.contains(kind)).collect();
+            self.format.extend(missing);
+        }
+    }
+
     /// Draws a plot that way, with curves of one's own. Returns what its reader must be told, too.
     ///
     /// # Errors
@@ -198,16 +207,25 @@ impl Options {
         overlay: Option<&Overlay>,
     ) -> Result<(Plot, Vec<String>), OptionsError> {
         let mut notes = Vec::new();
-        if let Some(scale) = self.y_scale
-            && !plot.rescale(scale)
-        {
-            return Err(OptionsError::Names);
+        if let Some(scale) = self.y_scale {
+            let before = plot.markers();
+            if !plot.rescale(scale) {
+                return Err(OptionsError::Names);
+            }
+            let lost = before - plot.markers();
+            if lost > 0 {
+                notes.push(format!("points without a place on this scale of y: {lost}"));
+            }
         }
         if let Some(overlay) = overlay {
-            plot.overlay(overlay)?;
+            let outside = plot.overlay(overlay).map_err(OptionsError::Overlay)?;
+            if outside > 0 {
+                notes.push(format!("points of the overlay outside the axes: {outside}"));
+            }
         }
         if self.x_range.or(self.y_range).is_some() {
-            let cut = plot.show(self.x_range, self.y_range)?;
+            let shown = plot.show(self.x_range, self.y_range);
+            let cut = shown.map_err(OptionsError::Window)?;
             if cut > 0 {
                 let points = if cut == 1 { "point lies" } else { "points lie" };
                 let note = format!("{cut} {points} outside the ranges of the axes");
@@ -248,6 +266,15 @@ impl Options {
 }
 
 impl Plot {
+    /// How many markers there are.
+    fn markers(&self) -> usize {
+        let of = |(_, mark): &(usize, Mark)| match mark {
+            Mark::Markers(points, _) | Mark::Points(points, _) => points.len(),
+            _ => 0,
+        };
+        self.marks.iter().map(of).sum()
+    }
+
     /// Widens the margin at the left until the words along y have room.
     fn make_room(&mut self) {
         let labels = self.panels.iter().flat_map(|panel| &panel.y.ticks);

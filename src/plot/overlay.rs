@@ -2,8 +2,9 @@
 
 use super::legend::{Entry, Key, Legend, Place};
 use super::mark::Mark;
-use super::picture::Plot;
+use super::picture::{Panel, Plot};
 use super::style::{Colour, Style};
+use super::window::inside;
 use serde::Deserialize;
 
 /// Curves as their table gives them.
@@ -124,11 +125,12 @@ impl OwnCurve {
 }
 
 impl Plot {
-    /// Draws curves of one's own over all others.
+    /// Draws curves of one's own over all others, as far as they lie within the axes; how many points do not.
     ///
     /// # Errors
     /// If there is no such panel, or a point has no place on its axes.
-    pub(super) fn overlay(&mut self, overlay: &Overlay) -> Result<(), OverlayError> {
+    pub(super) fn overlay(&mut self, overlay: &Overlay) -> Result<usize, OverlayError> {
+        let mut outside = 0;
         let mut names: Vec<&str> = Vec::new();
         for curve in &overlay.curves {
             let number = match names.iter().position(|name| *name == curve.name) {
@@ -138,8 +140,12 @@ impl Plot {
                     names.len() - 1
                 }
             };
-            let line = Mark::Line(curve.places(self)?, style(number));
-            self.add(curve.panel - 1, line);
+            let (places, panel) = (curve.places(self)?, curve.panel - 1);
+            let Panel { x, y, .. } = &self.panels[panel];
+            outside += places.iter().filter(|place| !inside(x, y, **place)).count();
+            for line in Mark::Line(places, style(number)).cut(x, y) {
+                self.marks.push((panel, line));
+            }
         }
         let named = names
             .iter()
@@ -153,7 +159,7 @@ impl Plot {
             None if !entries.is_empty() => self.add_legend(entries, Place::Free),
             None => {}
         }
-        Ok(())
+        Ok(outside)
     }
 }
 

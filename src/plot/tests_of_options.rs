@@ -189,6 +189,36 @@ fn curves_of_ones_own() {
     }
 }
 
+/// Where a curve of one's own leaves the axes it is cut where it does, not bent along their edge.
+#[test]
+fn curves_of_ones_own_end_at_the_axes() {
+    let own = Overlay::parse("x,y\n0,0\n10,2\n").unwrap();
+    let (plot, notes) = Options::default().apply(rates(), Some(&own)).unwrap();
+    assert_eq!(notes, ["points of the overlay outside the axes: 1"]);
+    let (_, last) = plot.marks.last().unwrap();
+    assert!(
+        matches!(last, Mark::Line(points, _) if points[..] == [(0.0, 0.0), (3.0, 0.6000000000000001)]),
+        "{last:?}"
+    );
+}
+
+/// However narrow, an axis says where it is.
+#[test]
+fn narrow_scales_have_ticks() {
+    for (scale, from, to) in [("log", 0.55, 0.9), ("probit", 0.55, 0.75)] {
+        let (plot, _) = changed(&format!("y_scale = '{scale}'\ny_range = [{from}, {to}]"));
+        let y = &plot.panels[0].y;
+        assert!(y.ticks.len() >= 3, "{y:?}");
+        for (place, label) in &y.ticks {
+            let value = y.scale.unwrap().value(*place);
+            assert!(
+                (label.parse::<f64>().unwrap() - value).abs() < 1e-9,
+                "{label}"
+            );
+        }
+    }
+}
+
 #[test]
 fn signs_that_the_font_lacks_are_named() {
     let mut plot = rates();

@@ -24,7 +24,8 @@ impl Plot {
             .collect();
         for (Panel { y, .. }, (low, high)) in self.panels.iter_mut().zip(ends) {
             if y.scale.is_some_and(|from| from != scale) {
-                let room = 0.04 * (high - low).max(0.1);
+                let least = if scale == Scale::Linear { 1e-12 } else { 0.1 };
+                let room = 0.04 * (high - low).max(least);
                 let axis = Axis::scaled(scale, low - room, high + room, TICKS);
                 *y = y.ticked_as(axis);
             }
@@ -134,10 +135,18 @@ impl Mark {
                 points.iter_mut().for_each(|point| point.1 = place(point.1));
                 points.retain(|point| point.1.is_finite());
             }
-            Self::Band(points, _)
-            | Self::Bars(points, _)
-            | Self::Markers(points, _)
-            | Self::Points(points, _) => {
+            Self::Band(points, _) => {
+                // Down to the edge where the lower end has no place.
+                for point in points.iter_mut() {
+                    let low = place(point.low);
+                    point.rescale(from, to);
+                    if !low.is_finite() {
+                        point.low = -1e9;
+                    }
+                }
+                points.retain(|point| point.y.is_finite());
+            }
+            Self::Bars(points, _) | Self::Markers(points, _) | Self::Points(points, _) => {
                 points.iter_mut().for_each(|point| point.rescale(from, to));
                 points.retain(|point| point.y.is_finite());
             }
@@ -153,7 +162,7 @@ impl Mark {
     }
 
     /// What of it lies between the ends of the axes.
-    fn cut(self, x: &Axis, y: &Axis) -> Vec<Self> {
+    pub(super) fn cut(self, x: &Axis, y: &Axis) -> Vec<Self> {
         match self {
             Self::Line(points, style) => (pieces(x, y, &points).into_iter())
                 .map(|piece| Self::Line(piece, style))
@@ -223,7 +232,7 @@ fn holds(axis: &Axis, at: f64) -> bool {
     (axis.from - room..=axis.to + room).contains(&at)
 }
 
-fn inside(x: &Axis, y: &Axis, (at, value): (f64, f64)) -> bool {
+pub(super) fn inside(x: &Axis, y: &Axis, (at, value): (f64, f64)) -> bool {
     holds(x, at) && holds(y, value)
 }
 

@@ -1,6 +1,6 @@
 //! The gate passes if the level holds, and fails or is inconclusive otherwise.
 
-use super::{config, liftsim, outcome};
+use super::{config, liftsim, outcome, project};
 
 fn check(arguments: &[&str]) -> (i32, String) {
     let (code, out, err) = outcome(liftsim().arg("check").args(arguments));
@@ -123,4 +123,34 @@ fn findings_are_told_to_machines() {
         }
     }
     assert_eq!(skipped, out.matches("<testcase ").count());
+}
+
+/// Of results the counts that are there are judged as those of the config, and rows that are lost are missed.
+#[test]
+fn results_are_gated_as_they_are() {
+    let (_, config) = check(&["configs/alpha.toml", "--trials", "400000"]);
+    let (code, results) = check(&["results/alpha"]);
+    assert_eq!((code, &results), (0, &config));
+
+    let folder = tempfile::tempdir().unwrap();
+    for name in [
+        "points.csv",
+        "run.json",
+        "figure.png",
+        "figure.svg",
+        "comparisons.csv",
+    ] {
+        let from = project().join("results/alpha").join(name);
+        if from.exists() {
+            std::fs::copy(from, folder.path().join(name)).unwrap();
+        }
+    }
+    let path = folder.path().to_str().unwrap();
+    assert_eq!(check(&[path]).0, 0);
+    let points = folder.path().join("points.csv");
+    let whole = std::fs::read_to_string(&points).unwrap();
+    let lines: Vec<&str> = whole.lines().collect();
+    std::fs::write(&points, lines[..lines.len() / 2].join("\n")).unwrap();
+    let (code, _, error) = outcome(liftsim().args(["check", path]));
+    assert!(code == 2 && error.contains("run.json"), "{code} {error}");
 }

@@ -1,7 +1,8 @@
 //! A monitor that is left alone: its heartbeat, and the unit of the README.
 
+use super::liftsim;
 #[cfg(unix)]
-use super::{liftsim, outcome, project};
+use super::{outcome, project};
 #[cfg(unix)]
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
@@ -131,7 +132,7 @@ fn a_monitor_goes_on_where_another_was_stopped() {
     let monitor = |input: File, state: &[&str]| {
         Command::new(env!("CARGO_BIN_EXE_liftsim"))
             .current_dir(folder.path())
-            .args(["monitor", "--save-state", "lift.json"])
+            .args(["monitor", "--trips", "--save-state", "lift.json"])
             .args(state)
             .stdin(input)
             .stdout(Stdio::piped())
@@ -182,4 +183,33 @@ fn a_monitor_goes_on_where_another_was_stopped() {
     drop(sensor);
     told += &String::from_utf8(monitor.wait_with_output().unwrap().stdout).unwrap();
     assert_eq!(told, whole);
+}
+
+/// What a saved state does not hold is not taken for known.
+#[test]
+fn a_saved_state_does_not_guess() {
+    let monitor = |flags: &[&str]| {
+        let run = liftsim()
+            .args(["monitor", "--rate", "100"])
+            .args(flags)
+            .write_stdin("0.0\n")
+            .output();
+        let output = run.unwrap();
+        (
+            output.status.code(),
+            String::from_utf8(output.stderr).unwrap(),
+        )
+    };
+    for (flags, said) in [
+        (
+            &["--save-state", "s.json", "--floors", "0,3"][..],
+            "among the floors",
+        ),
+        (&["--save-state", "-"], "standard output"),
+        (&["--save-state", "nowhere/s.json"], "no such folder"),
+    ] {
+        let (code, error) = monitor(flags);
+        assert_eq!(code, Some(2), "{error}");
+        assert!(error.contains(said), "{error}");
+    }
 }

@@ -11,6 +11,7 @@ use clap::Args;
 use findings::Report;
 use format::Format;
 use liftsim::config::Shipped;
+use liftsim::counts::Counts;
 use liftsim::experiment::{Experiment, SWEEP, SweepConfig};
 use liftsim::format::brief;
 use liftsim::gate::{self, Finding, Scenario, Verdict};
@@ -71,7 +72,11 @@ impl Check {
         }
         let sweep = sweep(experiment)?;
         let rows = match points {
-            Some(points) => at_rest(&points).map_err(Failure::run)?,
+            Some(points) => {
+                let rows = at_rest(&points).map_err(Failure::run)?;
+                whole(rows.len(), sweep.rows(&Counts::default()).len())?;
+                rows
+            }
             None => sweep.rows(&progress::count(&sweep, &reporter)?),
         };
         let nominal = |row: &Row| self.nominal.unwrap_or(row.alpha());
@@ -106,6 +111,13 @@ impl Check {
         }
         let manifest = directory.manifest().map_err(Failure::input)?;
         let loaded = stored(&directory, &manifest.origin)?;
+        if directory.complete(&manifest.origin).is_none() {
+            return Err(Failure::Input(anyhow!(
+                "{}: a run is unfinished there, or a file is not the one that run.json vouches for (run `{}` again)",
+                path.display(),
+                manifest.command
+            )));
+        }
         let points = directory.points(&manifest).map_err(Failure::input)?;
         let comparisons = directory.comparisons(&manifest).map_err(Failure::input)?;
         (loaded.verify(&points, &comparisons))
@@ -157,6 +169,16 @@ fn sweep(mut experiment: Experiment) -> Result<Sweep, Failure> {
     let mut config = SweepConfig::new(experiment).map_err(Failure::input)?;
     config.narrative.claims.clear();
     Sweep::new(config).map_err(Failure::input)
+}
+
+/// Refuses results that have lost rows.
+fn whole(rows: usize, expected: usize) -> Result<(), Failure> {
+    if rows == expected {
+        return Ok(());
+    }
+    Err(Failure::Input(anyhow!(
+        "points.csv: must have {expected} rows at rest as its config has, got {rows} (sweep it again)"
+    )))
 }
 
 /// The rows of a sweep that are at rest.
