@@ -7,6 +7,7 @@
 //! found by dynamic programming on a grid of 0.01 m/s². A window far from the path costs 1 however far it is, so
 //! that a pulse of acceleration does not draw the path to itself.
 
+use crate::simd;
 use std::ops::Range;
 
 /// The step of the grid, m/s², and the most points in it.
@@ -23,12 +24,15 @@ pub struct Costs {
 }
 
 impl Costs {
-    fn of(&self, from: usize, to: usize) -> f64 {
-        match from.abs_diff(to) {
-            0 => 0.0,
-            1 => self.step.min(self.most),
-            steps => (self.jump + self.step * steps as f64).min(self.most),
-        }
+    /// To the next point.
+    fn to_neighbour(self) -> f64 {
+        self.step.min(self.most)
+    }
+
+    /// To a point so many steps away.
+    #[inline(always)]
+    fn to_far(self, steps: f64) -> f64 {
+        simd::least(self.jump + self.step * steps, self.most)
     }
 }
 
@@ -51,20 +55,35 @@ pub fn path(
         .collect();
     let mut totals = vec![0.0; points];
     let mut origins: Vec<Vec<u16>> = Vec::new();
-    let mut off = vec![0.0; points];
+    let (mut off, mut before) = (vec![0.0; points], Before::new(points));
     for windows in means.chunks(group) {
-        // Window by window, so that neighbouring points are computed side by side.
         off.fill(0.0);
         for mean in windows {
-            for ((off, value), far) in off.iter_mut().zip(&values).zip(&far) {
+            // Points farther than the width pay for all of the window, whose distance is not computed.
+            let at = |to: f64| ((to - least) / step).clamp(0.0, points as f64) as usize;
+            let near = at(mean - width)..(at(mean + width) + 2).min(points);
+            let (below, rest) = off.split_at_mut(near.start);
+            let (beside, above) = rest.split_at_mut(near.len());
+            let all = |off: &mut [f64], far: &[f64]| {
+                off.iter_mut()
+                    .zip(far)
+                    .for_each(|(off, far)| *off += far + 1.0);
+            };
+            all(below, &far[..near.start]);
+            for ((off, far), value) in beside
+                .iter_mut()
+                .zip(&far[near.clone()])
+                .zip(&values[near.clone()])
+            {
                 *off += far + ((mean - value) / width).powi(2).min(1.0);
             }
+            all(above, &far[near.end..]);
         }
-        let (origin, before) = origins_of(&totals, costs);
-        for ((total, before), off) in totals.iter_mut().zip(before).zip(&off) {
+        before.find(&totals, costs);
+        for ((total, before), off) in totals.iter_mut().zip(&before.cost).zip(&off) {
             *total = before + off;
         }
-        origins.push(origin);
+        origins.push(before.point.iter().map(|point| *point as u16).collect());
     }
     let mut point = cheapest(&totals);
     let cost = totals[point];
@@ -76,38 +95,88 @@ pub fn path(
     (path, cost)
 }
 
-/// The cheapest point before each, and what it costs to come from there: itself or a neighbour, the best of those near
-/// enough for a jump by steps, or the cheapest of all.
-fn origins_of(totals: &[f64], costs: Costs) -> (Vec<u16>, Vec<f64>) {
-    let last = totals.len() - 1;
-    let cheapest = cheapest(totals);
-    let by_steps = |from: usize, to: usize| totals[from] + costs.step * from.abs_diff(to) as f64;
-    let mut stepped: Vec<usize> = (0..totals.len()).collect();
-    let mut spread = |point: usize, beside: usize| {
-        if by_steps(stepped[beside], point) < by_steps(stepped[point], point) {
-            stepped[point] = stepped[beside];
-        }
-    };
-    (1..=last).for_each(|point| spread(point, point - 1));
-    (1..=last).rev().for_each(|point| spread(point - 1, point));
-    let origin = |point: usize| {
-        let near = [point.saturating_sub(1), point, (point + 1).min(last)];
-        let mut best = (near[0] as u16, f64::INFINITY);
-        for from in near.into_iter().chain([stepped[point], cheapest]) {
-            let cost = totals[from] + costs.of(from, point);
-            if cost < best.1 {
-                best = (from as u16, cost);
-            }
-        }
-        best
-    };
-    (0..totals.len()).map(origin).unzip()
+/// The cheapest point before each, as a number, and what it costs to come from there.
+struct Before {
+    point: Vec<f64>,
+    cost: Vec<f64>,
+    /// The best for a jump by steps, and its total.
+    stepped: Vec<f64>,
+    totals: Vec<f64>,
+    /// All totals between two that are never the least.
+    padded: Vec<f64>,
 }
 
+impl Before {
+    fn new(points: usize) -> Self {
+        let none = || vec![0.0; points];
+        Self {
+            point: none(),
+            cost: none(),
+            stepped: none(),
+            totals: none(),
+            padded: vec![f64::INFINITY; points + 2],
+        }
+    }
+
+    /// For each point itself or a neighbour, the best of those near enough for a jump by steps, or the cheapest of all: of
+    /// equal ones the first of these.
+    fn find(&mut self, totals: &[f64], costs: Costs) {
+        self.step(totals, costs);
+        let (cheapest, beside) = (cheapest(totals), costs.to_neighbour());
+        let (place, total) = (cheapest as f64, totals[cheapest]);
+        self.padded[1..][..totals.len()].copy_from_slice(totals);
+        let all = 0..totals.len();
+        let (point, cost) = (&mut self.point[all.clone()], &mut self.cost[all.clone()]);
+        let (stepped, by_steps) = (&self.stepped[all.clone()], &self.totals[all.clone()]);
+        let [below, own, above] = [0, 1, 2].map(|from| &self.padded[from..][all.clone()]);
+        for i in all {
+            let at = i as f64;
+            let mut best = (at - 1.0, below[i] + beside);
+            // Without branches, so that several points are compared at once.
+            for (from, cost) in [
+                (at, own[i]),
+                (at + 1.0, above[i] + beside),
+                (
+                    stepped[i],
+                    by_steps[i] + costs.to_far((stepped[i] - at).abs()),
+                ),
+                (place, total + costs.to_far((place - at).abs())),
+            ] {
+                let is_better = cost < best.1;
+                best.0 = if is_better { from } else { best.0 };
+                best.1 = if is_better { cost } else { best.1 };
+            }
+            (point[i], cost[i]) = best;
+        }
+    }
+
+    /// The best for a jump to each point by steps.
+    fn step(&mut self, totals: &[f64], costs: Costs) {
+        self.totals.copy_from_slice(totals);
+        (self.stepped.iter_mut().zip(0..)).for_each(|(point, place)| *point = f64::from(place));
+        let mut spread = |point: usize, beside: usize| {
+            let to = |from: usize| {
+                let steps = (self.stepped[from] - point as f64).abs();
+                self.totals[from] + costs.step * steps
+            };
+            if to(beside) < to(point) {
+                self.stepped[point] = self.stepped[beside];
+                self.totals[point] = self.totals[beside];
+            }
+        };
+        for point in 1..totals.len() {
+            spread(point, point - 1);
+        }
+        for point in (1..totals.len()).rev() {
+            spread(point - 1, point);
+        }
+    }
+}
+
+/// The first of the least.
 fn cheapest(totals: &[f64]) -> usize {
-    (0..totals.len())
-        .min_by(|a, b| totals[*a].total_cmp(&totals[*b]))
-        .unwrap_or(0)
+    let least = totals.iter().copied().fold(f64::INFINITY, simd::least);
+    totals.iter().position(|total| *total == least).unwrap_or(0)
 }
 
 /// A part of a path without jumps.
@@ -176,5 +245,77 @@ fn edge(values: &[f64], before: f64, after: f64, doubt: f64) -> usize {
         other
     } else {
         best
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::{Stream, unit};
+
+    /// The least cost of all paths on the grid, each point reached from each.
+    fn least_of_all(means: &[f64], least: f64, points: usize, width: f64, costs: Costs) -> f64 {
+        let to = |from: usize, to: usize| match from.abs_diff(to) {
+            0 => 0.0,
+            1 => costs.step.min(costs.most),
+            steps => (costs.jump + costs.step * steps as f64).min(costs.most),
+        };
+        let off = |mean: f64, at: usize| {
+            let from_path = (mean - (least + at as f64 * STEP)) / width;
+            (from_path * from_path).min(1.0)
+        };
+        let mut totals = vec![0.0; points];
+        for mean in means {
+            let reached = (0..points).map(|at| {
+                let ways = (0..points).map(|from| totals[from] + to(from, at));
+                ways.fold(f64::INFINITY, f64::min) + off(*mean, at)
+            });
+            totals = reached.collect();
+        }
+        totals.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Of walks with steps, jumps and outliers, for costs of every kind, no path is cheaper than the one that is found, and its
+    /// own cost is the one that is told.
+    #[test]
+    fn no_path_is_cheaper() {
+        let mut draws = Stream::new(2026, "paths", "").at(0);
+        for trial in 0..60 {
+            let costs = Costs {
+                step: 4.0 * unit(&mut draws),
+                jump: 6.0 * unit(&mut draws) * f64::from(trial % 3),
+                most: 3.0 + 20.0 * unit(&mut draws),
+            };
+            let width = 0.01 + 0.06 * unit(&mut draws);
+            let mut level = 0.0;
+            let means: Vec<f64> = (0..80)
+                .map(|_| {
+                    let moves = unit(&mut draws);
+                    if moves < 0.1 {
+                        level = unit(&mut draws) - 0.5;
+                    }
+                    let outlier = if moves > 0.9 { 0.4 } else { 0.02 };
+                    (level + outlier * (unit(&mut draws) - 0.5)).clamp(-0.5, 0.5)
+                })
+                .collect();
+            let points = 101;
+            let (found, cost) = path(&means, (-0.5, 0.5), (1, width), 0.0, costs);
+            let best = least_of_all(&means, -0.5, points, width, costs);
+            assert!((cost - best).abs() < 1e-9, "{trial}: {cost} {best}");
+            let off = means.iter().zip(&found).map(|(mean, at)| {
+                let from_path = (mean - at) / width;
+                (from_path * from_path).min(1.0)
+            });
+            let moved = found.windows(2).map(|pair| {
+                let steps = ((pair[1] - pair[0]) / STEP).abs().round();
+                match steps as u64 {
+                    0 => 0.0,
+                    1 => costs.step.min(costs.most),
+                    _ => (costs.jump + costs.step * steps).min(costs.most),
+                }
+            });
+            let own = off.sum::<f64>() + moved.sum::<f64>();
+            assert!((own - cost).abs() < 1e-6, "{trial}: {own} {cost}");
+        }
     }
 }

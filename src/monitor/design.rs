@@ -26,13 +26,37 @@ pub struct Design {
     pub rate: f64,
 }
 
+impl Design {
+    /// The same settings at another rate, at which region and ranks are those that they are.
+    ///
+    /// # Errors
+    /// If the rate is too low.
+    pub fn at(&self, rate: f64) -> Result<Self, SettingsError> {
+        let (samples, block) = self.settings.blocks(rate)?;
+        Ok(Self {
+            samples,
+            block,
+            rate,
+            ..self.clone()
+        })
+    }
+}
+
 impl Settings {
     /// Checks the settings independently of the rate.
     ///
     /// # Errors
     /// Same as [`Settings::at`].
     pub fn check(&self) -> Result<(), SettingsError> {
-        self.at(1.0 / self.monitor.block.clamp(1e-6, 1.0)).map(drop)
+        self.nominal().map(drop)
+    }
+
+    /// The settings at the rate of one sample in each block.
+    ///
+    /// # Errors
+    /// Same as [`Settings::at`].
+    pub fn nominal(&self) -> Result<Design, SettingsError> {
+        self.at(1.0 / self.monitor.block.clamp(1e-6, 1.0))
     }
 
     /// The settings at `rate` samples per second.
@@ -49,6 +73,23 @@ impl Settings {
             let rule = format_args!("exceed least_acceleration = {least}");
             return Err(OutOfRange::new("monitor.most_acceleration", rule, most).into());
         }
+        let (samples, block) = self.blocks(rate)?;
+        let laws = NullLaws::new(Exceedances::Scale, Alternative::TwoSided, &samples)?;
+        Ok(Design {
+            region: laws.region(&Rule::Product, self.detector.alpha)?,
+            ranks: match self.detector.rule {
+                DecisionRule::ThreeSample => None,
+                DecisionRule::Sequential => Some(self.ranks()?),
+            },
+            block,
+            settings: self.clone(),
+            samples,
+            rate,
+        })
+    }
+
+    /// The sizes in blocks of whole samples, and the length of such a block, s.
+    fn blocks(&self, rate: f64) -> Result<(Samples, f64), OutOfRange> {
         let least = 1.0 / LONGEST_BLOCK;
         // A measured rate is hardly ever exact.
         if !(0.99 * least..least).contains(&rate) {
@@ -65,20 +106,9 @@ impl Settings {
             sizes.scale,
             sizes.gap,
             decimation,
-        )
-        .expect("each size has been checked");
-        let laws = NullLaws::new(Exceedances::Scale, Alternative::TwoSided, &samples)?;
-        Ok(Design {
-            region: laws.region(&Rule::Product, self.detector.alpha)?,
-            ranks: match self.detector.rule {
-                DecisionRule::ThreeSample => None,
-                DecisionRule::Sequential => Some(self.ranks()?),
-            },
-            block: decimation as f64 / rate,
-            settings: self.clone(),
-            samples,
-            rate,
-        })
+        );
+        let samples = samples.expect("each size has been checked");
+        Ok((samples, decimation as f64 / rate))
     }
 
     /// The detector that alarms at most once in 1/α blocks of rest, on average.

@@ -18,6 +18,7 @@
 //! | `false_slack` | records | `slack` while the drum does not turn or the cage moves, per record |
 //! | `false_rides` | hours | starts told while the cage stood, per hour for which it stood |
 //! | `false_records` | records | records with one |
+//! | `wrong_way` | records | a direction is told against that of a cage above 0.2 m/s |
 //! | `known` | hours | for which share of its rest it is told to rest |
 //! | `start_delay_…`, `stop_delay_…` | trips | quantiles of the time to when it is told, in tenths of a second |
 //!
@@ -63,7 +64,8 @@ impl Table {
     fn trial(&self, class: Class, seed: u64, trial: u64) -> Sums {
         let record = Record::new(class, seed, trial);
         let tolerance = self.tolerance.get();
-        let Ok(design) = self.settings.at(record.rate) else {
+        let design = self.design.as_ref().expect("a table is read with it");
+        let Ok(design) = design.at(record.rate) else {
             unreachable!("rates lie in 5 to 500 Hz, which every block fits")
         };
         match self.watch {
@@ -85,12 +87,12 @@ impl Outcomes for Table {
     type Row = Row;
 
     fn read(experiment: &Experiment) -> Result<Self, StudyError> {
-        let table: Self = experiment.read()?;
+        let mut table: Self = experiment.read()?;
         (table.check()).map_err(|error| experiment.conflict(error.into()))?;
-        let settings = table.settings.check();
-        settings.map_err(|error| {
+        let design = table.settings.nominal().map_err(|error| {
             experiment.refuse(error.called(|path| format!("records.settings.{path}")))
         })?;
+        table.design = Some(design);
         Ok(table)
     }
 

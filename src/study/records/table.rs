@@ -1,7 +1,7 @@
 //! `[records]`: which classes of records are drawn, and who watches them.
 
 use crate::lift::Class;
-use crate::monitor::Settings;
+use crate::monitor::{Design, Settings};
 use crate::rule::OutOfRange;
 use crate::run::Identity;
 use crate::values::Positive;
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Simulated records of every class, as found by `detect` or watched by `monitor`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Table {
     /// Who watches.
@@ -23,6 +23,9 @@ pub struct Table {
     /// Settings of the monitor, by the tables of `detect --config`.
     #[serde(default)]
     pub settings: Settings,
+    /// The settings at one rate, from which those at the rate of a record follow.
+    #[serde(skip)]
+    pub design: Option<Design>,
 }
 
 /// Who watches.

@@ -2,12 +2,13 @@
 
 use super::condition::Numbers;
 use crate::lift::Journey;
-use crate::monitor;
+use crate::monitor::{self, Design};
 use crate::recording::Sample;
 use crate::rng::{self, Generator};
 use crate::signal::white_noise;
 use crate::track::{Densities, Phases, Steps, Track, Uncertain, moments};
 use libm::{fabs, round};
+use std::sync::LazyLock;
 
 /// At rest before the trip and after it, s.
 const RESTS: [f64; 2] = [5.0, 5.0];
@@ -17,8 +18,9 @@ const MARGIN: f64 = 0.3;
 
 /// The trips of a record of so many samples a second, as `liftsim track` measures them.
 pub fn tracked(samples: &[Sample], rate: f64) -> Track {
-    let design = monitor::Settings::default().at(rate);
-    let design = design.expect("every rate here fits the defaults");
+    static NOMINAL: LazyLock<Design> =
+        LazyLock::new(|| monitor::Settings::default().nominal().expect("they fit"));
+    let design = NOMINAL.at(rate).expect("every rate here fits the defaults");
     Track::found(&design, samples, None).1
 }
 
