@@ -19,7 +19,8 @@ use liftsim::format::{as_written, shorten};
     A file that exists is replaced only with --force, and - is standard output. What is kept from run to run is replaced \
     as it grows: a map, a baseline, a spool, a directory of results.\n\n\
     Exit codes: 0 done; 1 a run failed, or a gate did not hold; 2 bad usage, config or input; \
-    3 a gate was inconclusive; 130 stopped by Ctrl-C, 143 by SIGTERM.")]
+    3 a gate was inconclusive; 130 stopped by Ctrl-C, 143 by SIGTERM (0 where `monitor --save-state` \
+    has saved its state).")]
 pub struct Arguments {
     /// Show no progress.
     #[arg(long, short, global = true)]

@@ -67,7 +67,17 @@ pub fn recording(it: &Recorded) -> String {
     let quantum = it.quantum.map(|step| format!(", step {step:.3e} m/s^2"));
     let missing = match it.missing {
         0 => String::new(),
-        count => format!(", {:.1} % missing ({count})", 100.0 * it.missing_share),
+        count => {
+            let least = if it.more_may_be_missing {
+                "at least "
+            } else {
+                ""
+            };
+            format!(
+                ", {least}{:.1} % missing ({count})",
+                100.0 * it.missing_share
+            )
+        }
     };
     let zero = (it.counts_from.as_ref()).map(|zero| format!("; times count from {zero}"));
     format!(

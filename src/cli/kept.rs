@@ -2,7 +2,7 @@
 
 use super::readings::{Readings, Taken};
 use super::{Failure, output, warn};
-use anyhow::anyhow;
+use anyhow::{Context, anyhow};
 use liftsim::files;
 use liftsim::monitor::{Knowledge, Monitor, Running, RunningError, SavedState};
 use liftsim::recording::StreamColumns;
@@ -86,13 +86,28 @@ impl Kept {
         }
     }
 
-    /// Writes it whole or not at all. Where that fails, it warns once, and the monitor goes on.
+    /// Writes it; where that fails, it warns once, and the monitor goes on.
     pub fn save<R: BufRead>(
         &mut self,
         monitor: &Monitor,
         trips: Option<&Watch>,
         readings: &Readings<R>,
     ) {
+        if let Err(error) = self.write(monitor, trips, readings)
+            && !self.is_warned
+        {
+            self.is_warned = true;
+            warn(format_args!("{error:#} (the monitor goes on)"));
+        }
+    }
+
+    /// Writes it whole or not at all.
+    pub fn write<R: BufRead>(
+        &self,
+        monitor: &Monitor,
+        trips: Option<&Watch>,
+        readings: &Readings<R>,
+    ) -> anyhow::Result<()> {
         let going = Going {
             monitor: monitor.clone(),
             trips: trips.cloned(),
@@ -107,15 +122,7 @@ impl Kept {
             running: Some(Running::new(BUILD, &going)),
             ..self.state.clone()
         };
-        let written = files::replace(&self.path, state.to_json().as_bytes());
-        if let Err(error) = written
-            && !self.is_warned
-        {
-            self.is_warned = true;
-            let path = self.path.display();
-            warn(format_args!(
-                "{path}: the state cannot be saved: {error} (the monitor goes on)"
-            ));
-        }
+        files::replace(&self.path, state.to_json().as_bytes())
+            .with_context(|| format!("{}: the state cannot be saved", self.path.display()))
     }
 }

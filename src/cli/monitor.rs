@@ -35,7 +35,8 @@ use std::time::Duration;
 /// States are rest, acceleration, inertial, braking, levelling, and unknown, with its reason: beginning (too little was
 /// seen; say --begins rest if the cage stands), pulse (it may be a start, a stop or a disturbance), level (it may
 /// have shifted, or the cage moves softly), creep (the cage may not stand yet), hole (samples are missing), sensor.
-/// A state is said if no plausible explanation of the record contradicts it.
+/// A state is said if no plausible explanation of the record contradicts it, and so is a direction: one motion starts as
+/// another, the other way, brakes. Until that is decided a cage that moves is `inertial` without a direction.
 ///
 /// The alarm `jam` says that a motion ended in a violent pulse, without the braking of a commanded stop;
 /// `slack`, with --expected-moving, that the drum pays out rope and the cage is not known to move, with
@@ -176,6 +177,11 @@ impl MonitorCommand {
             Some(saved) if self.begins.is_none() => Going::of(saved)?,
             _ => None,
         };
+        if self.begins.is_some() && saved.as_ref().is_some_and(|it| it.running.is_some()) {
+            warn(
+                "--begins: the monitor begins anew, and what the saved one knows of the cage is not used",
+            );
+        }
         if going.is_some() {
             self.floors.refuse("--state of a running monitor")?;
         }
@@ -188,6 +194,12 @@ impl MonitorCommand {
             )));
         }
         if let Some(columns) = going.as_mut().and_then(|it| it.columns.take()) {
+            if *reading != recording::Reading::default() && reading != columns.options() {
+                return Err(Failure::Input(anyhow!(
+                    "columns, units and axis are others than those with which the saved monitor ran (leave these flags out, \
+                     or begin anew with --begins)"
+                )));
+            }
             lines = lines
                 .resume(columns)
                 .context("standard input")
@@ -243,9 +255,12 @@ impl MonitorCommand {
             }
         };
         // What nobody has read is told again by the monitor that goes on.
-        if lift.reports.is_read {
-            save(&lift, &readings);
-        }
+        let written = match &kept {
+            Some(kept) if lift.reports.is_read => {
+                kept.write(&lift.monitor, lift.trips.as_ref(), &readings)
+            }
+            _ => Ok(()),
+        };
         // What is left is told, also before a line that cannot be read, or waits in the saved state.
         let ended = if kept.is_some() {
             lift.keep()
@@ -253,7 +268,7 @@ impl MonitorCommand {
             lift.end()
         };
         readings.say_counts();
-        read.and(ended)?;
+        read.and(ended).and(written.map_err(Failure::Run))?;
         Ok(true)
     }
 

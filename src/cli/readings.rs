@@ -29,9 +29,6 @@ pub struct Readings<'a, R> {
     /// The first intervals between samples with a time, s.
     intervals: Vec<f64>,
     keeps_going: bool,
-    /// How many lines were passed over since they came late, and how often the clock was set back.
-    late: u64,
-    set_back: u64,
 }
 
 /// How far a stream was read.
@@ -41,6 +38,9 @@ pub struct Taken {
     last: Option<f64>,
     /// The samples without times so far.
     count: u64,
+    /// How many lines were passed over since they came late, and how often the clock was set back.
+    late: u64,
+    set_back: u64,
 }
 
 impl<'a, R: io::BufRead> Readings<'a, R> {
@@ -52,8 +52,6 @@ impl<'a, R: io::BufRead> Readings<'a, R> {
             taken: Taken::default(),
             intervals: Vec::new(),
             keeps_going,
-            late: 0,
-            set_back: 0,
         }
     }
 
@@ -129,8 +127,11 @@ impl<'a, R: io::BufRead> Readings<'a, R> {
     /// Says how often it happened what was warned of only once.
     pub fn say_counts(&self) {
         for (count, what) in [
-            (self.late, "lines whose time does not increase, passed over"),
-            (self.set_back, "times that the clock was set back"),
+            (
+                self.taken.late,
+                "lines whose time does not increase, passed over",
+            ),
+            (self.taken.set_back, "times that the clock was set back"),
         ] {
             if count > 1 {
                 warn(format_args!("standard input: {what}: {count}"));
@@ -140,7 +141,7 @@ impl<'a, R: io::BufRead> Readings<'a, R> {
 
     pub fn next(&mut self) -> Result<Option<Reading>, Failure> {
         loop {
-            let late = self.late;
+            let late = self.taken.late;
             let refusal = match self.lines.next() {
                 Ok(None) => return Ok(None),
                 Ok(Some(reading)) => match self.timed(&reading)? {
@@ -160,7 +161,7 @@ impl<'a, R: io::BufRead> Readings<'a, R> {
                     .context("standard input")
                     .map_err(Failure::Input);
             }
-            if late == 0 || self.late == late {
+            if late == 0 || self.taken.late == late {
                 warn(format_args!("{refusal:#} (passed over)"));
             }
         }
@@ -189,8 +190,8 @@ impl<'a, R: io::BufRead> Readings<'a, R> {
                 "line {line}: times must lie within {LATEST:e} s, got {time:e} (give them in s)"
             ))),
             Some(last) if self.keeps_going && time < last - SET_BACK => {
-                self.set_back += 1;
-                if self.set_back == 1 {
+                self.taken.set_back += 1;
+                if self.taken.set_back == 1 {
                     warn(format_args!(
                         "standard input: line {line}: the clock was set back from {last} s to {time} s"
                     ));
@@ -199,7 +200,7 @@ impl<'a, R: io::BufRead> Readings<'a, R> {
                 Ok(Ok(Sample { time, acceleration }))
             }
             Some(last) if time <= last => {
-                self.late += 1;
+                self.taken.late += 1;
                 Ok(Err(anyhow!(
                     "line {line}: time must increase, got {time} s after {last} s (put lines in order, drop repeated \
                      ones, and write decimals with a point)"

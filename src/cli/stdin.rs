@@ -2,8 +2,12 @@
 
 use super::signals::Signals;
 use std::io::{self, Read};
+use std::time::{Duration, Instant};
 
-/// Standard input, which ends at the end of a line once a signal came.
+/// For how long a signal waits for the end of a line.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Standard input, which ends at the end of a line once a signal came, or fails if that does not.
 pub struct Stdin<'a> {
     input: Source,
     signals: Option<&'a Signals>,
@@ -31,12 +35,19 @@ impl Read for Stdin<'_> {
         let Some(signals) = self.signals else {
             return self.input.read(buffer);
         };
+        let mut told_at = None;
         loop {
             let is_told = signals.came().is_some();
             if is_told && self.is_at_line_end {
                 return Ok(0);
             }
             if !is_ready(&self.input)? {
+                if is_told && told_at.get_or_insert_with(Instant::now).elapsed() > PATIENCE {
+                    return Err(io::Error::new(
+                        io::ErrorKind::TimedOut,
+                        "ends in the middle of a line, which is lost (a signal came, and the rest of the line did not)",
+                    ));
+                }
                 continue;
             }
             // No more than the rest of the line, once it was told.

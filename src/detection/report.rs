@@ -52,6 +52,8 @@ pub struct Recorded {
     pub missing: u64,
     /// The same, of all that there would be.
     pub missing_share: f64,
+    /// Whether more may be: the clock is too uneven to show each.
+    pub more_may_be_missing: bool,
     /// Times without samples.
     pub gaps: u64,
     /// The longest time between two samples, s.
@@ -95,6 +97,7 @@ impl Recorded {
             quantum: facts.quantum,
             missing: facts.missing,
             missing_share: facts.missing_share(),
+            more_may_be_missing: facts.may_lack_more(),
             gaps: facts.gaps,
             longest_interval: facts.longest_gap.length,
             has_gravity: facts.has_gravity,

@@ -53,6 +53,8 @@ pub(super) struct Belief {
     pub motion: Option<(Hypothesis, f64)>,
     /// The cost of the cheapest in motion, where faster ones count as cheaper: an error about them is worse.
     pub threat: f64,
+    /// The cost of the cheapest in motion that may go another way than the cheapest does.
+    pub otherwise: f64,
     /// The cost of the cheapest of all.
     pub least: f64,
     /// The current pulse, where it changes the speed of the motion: its beginning, s, and its sign.
@@ -293,6 +295,7 @@ impl Live {
         let is_open = belief.motion.is_some_and(|(it, _)| it.cage == Cage::Open);
         if is_calm == Some(true) {
             belief.threat += CALM;
+            belief.otherwise += CALM;
             belief.motion.iter_mut().for_each(|best| best.1 += CALM);
         } else if is_calm == Some(false) && is_open {
             belief.rest.iter_mut().for_each(|best| best.1 += CALM);
@@ -319,6 +322,8 @@ impl Live {
             return belief;
         };
         let mut levels = [0.0; 2];
+        // Up, down, and unknown.
+        let mut ways = [f64::INFINITY; 3];
         for track in &self.tracks {
             let pulse = track.current(&self.known);
             let take = |it: &Hypothesis, cost: f64, changes: bool| {
@@ -326,6 +331,8 @@ impl Live {
                 if !is_rest {
                     let danger = it.danger(&self.known, self.strain > STRAINED);
                     belief.threat = belief.threat.min(cost - danger);
+                    let way = way(it);
+                    ways[way] = ways[way].min(cost);
                 }
                 let best = if is_rest {
                     &mut belief.rest
@@ -348,6 +355,10 @@ impl Live {
         }
         let least = |best: Option<(Hypothesis, f64)>| best.map_or(f64::INFINITY, |best| best.1);
         belief.least = least(belief.rest).min(least(belief.motion));
+        if let Some((it, _)) = &belief.motion {
+            ways[way(it)] = f64::INFINITY;
+        }
+        belief.otherwise = ways.into_iter().fold(f64::INFINITY, f64::min);
         belief.noise = self.recent.noise();
         belief.is_shifted = levels[0] != levels[1];
         if let Some(first) = self.tracks.first() {
@@ -355,4 +366,9 @@ impl Live {
         }
         belief
     }
+}
+
+/// The way of a motion among all ways: up, down, unknown.
+fn way(motion: &Hypothesis) -> usize {
+    motion.direction().map_or(2, |direction| direction as usize)
 }

@@ -112,6 +112,8 @@ pub struct Monitor {
     /// Whether motions of this cage look different from rest.
     motion_shows: bool,
     said: Statement,
+    /// When a motion was last told with its direction, s.
+    moved: f64,
     /// The level when it was last certain, m/s².
     level: Option<f64>,
     /// Time of the last sample, s.
@@ -170,6 +172,7 @@ impl Monitor {
             is_noisy: false,
             motion_shows: knowledge.motion_shows && knowledge.reference.is_some(),
             said: Statement::unknown(0.0, Doubt::Beginning),
+            moved: f64::NEG_INFINITY,
             level: None,
             last: None,
             newest: None,
@@ -197,7 +200,7 @@ impl Monitor {
 
     /// The event before the first sample, which is taken at `time`.
     pub fn beginning(&self, time: f64) -> Event {
-        Statement::unknown(time, Doubt::Beginning).event(time)
+        Statement::unknown(time, Doubt::Beginning).event(None, time)
     }
 
     /// The current state of the cage.
@@ -252,7 +255,8 @@ impl Monitor {
         self.sensor.cross();
         self.forget(now, (now - from).max(0.0));
         if fault == Fault::Clock {
-            (self.drum, self.jam) = (Drum::default(), f64::NEG_INFINITY);
+            self.drum = Drum::default();
+            (self.jam, self.moved) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
         }
         self.say(Statement::unknown(now, Doubt::Hole), now);
     }
@@ -339,23 +343,27 @@ impl Monitor {
     fn say(&mut self, statement: Statement, now: f64) {
         let was = self.said;
         self.said = statement;
-        if was.state == statement.state {
+        if (was.state, was.direction) == (statement.state, statement.direction) {
             return;
         }
         if was.state.moves() && !statement.state.moves() {
             self.decisions.begin_again();
         }
-        let mut event = statement.event(now);
-        if let Kind::Change { decision, .. } = &mut event.kind {
-            *decision = match statement.braking {
-                Some(braking) if statement.state == State::REST => self.decisions.at_stop(braking),
-                _ if !was.state.moves() && statement.state.moves() => {
-                    self.decisions.at_start(statement.start)
-                }
-                _ => None,
-            };
+        let mut decision = match statement.braking {
+            Some(braking) if statement.state == State::REST => self.decisions.at_stop(braking),
+            _ if !was.state.moves() && statement.state.moves() => {
+                self.decisions.at_start(statement.start)
+            }
+            _ => None,
+        };
+        let start = (statement.start_of_motion()).filter(|start| start.since > self.moved);
+        if let Some(start) = start {
+            self.events.push(start.event(decision.take(), now));
         }
-        self.events.push(event);
+        if statement.direction.is_some() {
+            self.moved = now;
+        }
+        self.events.push(statement.event(decision, now));
     }
 
     /// Raises the alarm if a shock has ended the motion, or may have.

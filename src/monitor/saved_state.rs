@@ -43,7 +43,7 @@ pub struct SavedStateError {
 enum Problem {
     #[error("cannot be read: {0} (`liftsim detect RECORDING --save-state FILE` writes one)")]
     Unreadable(#[from] io::Error),
-    #[error("not what `liftsim detect --save-state` writes: {0}")]
+    #[error("not what `--save-state` of detect or monitor writes: {0}")]
     Format(#[from] serde_json::Error),
     #[error(transparent)]
     Settings(#[from] SettingsError),

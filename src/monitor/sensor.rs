@@ -11,6 +11,10 @@ const LONGER: f64 = 4.0;
 /// How a sensor repeats itself is known after so many changes of its value.
 const PROVEN: u32 = 10;
 
+/// One sample that differs by more than this many steps of the sensor, or by this, m/s², between equal ones is a glitch,
+/// which a dead sensor has too: no change of its value.
+const GLITCH: (f64, f64) = (1.5, 0.5);
+
 /// A value far from the median that comes so often in a row is the end of the range, m/s².
 const SATURATED: (u32, f64) = (3, 12.0);
 
@@ -28,9 +32,15 @@ pub(super) struct Sensor {
     period: f64,
     slowness: f64,
     last: Option<Sample>,
-    /// Since when the value is repeated, s, and how often.
+    /// The value that is repeated, m/s², since when and until when, s, and how often.
+    value: f64,
     since: f64,
+    until: f64,
     repeats: u32,
+    /// The latest value, if it is another and comes for the first time, m/s².
+    stray: Option<f64>,
+    /// The smallest change of the value, m/s².
+    step: f64,
     /// The longest run before, s, and how many changes there were.
     longest: f64,
     changes: u32,
@@ -59,8 +69,12 @@ impl Sensor {
             period,
             slowness: 1.0,
             last: None,
+            value: 0.0,
             since: 0.0,
+            until: 0.0,
             repeats: 0,
+            stray: None,
+            step: f64::INFINITY,
             longest: 0.0,
             changes: 0,
             middle: 0.0,
@@ -76,27 +90,11 @@ impl Sensor {
     /// Takes a sample.
     #[inline]
     pub fn step(&mut self, sample: Sample) -> Health {
-        let is_repeated = self
-            .last
-            .is_some_and(|last| last.acceleration == sample.acceleration);
         if let Some(last) = self.last {
             let times = ((sample.time - last.time) / self.period).clamp(0.0, SLOW.3);
             self.slowness += (times - self.slowness) / SLOW.2;
         }
-        if !is_repeated {
-            if let Some(last) = self.last {
-                // Until then a long run may as well be that of a coarse sensor at rest.
-                if self.fault.is_none() || !self.is_proven() {
-                    self.longest = self.longest.max(last.time - self.since);
-                }
-                self.changes = self.changes.saturating_add(1);
-                self.middle +=
-                    (last.acceleration - self.middle) / f64::from(self.changes.min(1000));
-            }
-            self.since = sample.time;
-            self.repeats = 0;
-        }
-        self.repeats += 1;
+        self.compare(sample);
         self.last = Some(sample);
         let was = self.fault;
         self.fault = self.judge(sample);
@@ -112,6 +110,47 @@ impl Sensor {
             ends: was.is_some() && self.fault.is_none(),
             is_proven: self.is_proven(),
         }
+    }
+
+    /// Compares a sample with the value that is repeated.
+    fn compare(&mut self, sample: Sample) {
+        let Some(last) = self.last else {
+            self.hold(sample.acceleration, sample.time);
+            return;
+        };
+        if let Some(stray) = self.stray.take() {
+            let by = (stray - self.value).abs();
+            let is_glitch = by > GLITCH.1.min(GLITCH.0 * self.step);
+            if sample.acceleration != self.value || !is_glitch {
+                self.change(stray, last.time);
+            }
+        }
+        if sample.acceleration == self.value {
+            self.repeats += 1;
+            self.until = sample.time;
+        } else if self.repeats == 1 && self.value == last.acceleration {
+            // No run is broken by it.
+            self.change(sample.acceleration, sample.time);
+        } else {
+            self.stray = Some(sample.acceleration);
+        }
+    }
+
+    /// The value becomes another.
+    fn change(&mut self, value: f64, time: f64) {
+        // Until then a long run may as well be that of a coarse sensor at rest.
+        if self.fault.is_none() || !self.is_proven() {
+            self.longest = self.longest.max(self.until - self.since);
+        }
+        self.changes = self.changes.saturating_add(1);
+        self.middle += (self.value - self.middle) / f64::from(self.changes.min(1000));
+        self.step = self.step.min((value - self.value).abs());
+        self.hold(value, time);
+    }
+
+    fn hold(&mut self, value: f64, time: f64) {
+        (self.value, self.repeats) = (value, 1);
+        (self.since, self.until) = (time, time);
     }
 
     fn judge(&self, sample: Sample) -> Option<Fault> {
@@ -137,7 +176,7 @@ impl Sensor {
 
     /// Forgets the time, not the scatter.
     pub fn cross(&mut self) {
-        self.last = None;
+        (self.last, self.stray) = (None, None);
         self.repeats = 0;
         self.fault = None;
     }

@@ -63,7 +63,12 @@ fn shown(it: &Recorded, level: &Level) -> Vec<Fact> {
     let missing = match it.missing {
         0 => format!("none; {longest}"),
         count => format!(
-            "{} samples, {} %; {longest}",
+            "{}{} samples, {} %; {longest}",
+            if it.more_may_be_missing {
+                "at least "
+            } else {
+                ""
+            },
             thousands(count),
             fixed(100.0 * it.missing_share, 1)
         ),

@@ -1,10 +1,11 @@
 //! The choice of the vertical axis.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
 /// The vertical axis of a sensor.
-#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq, Serialize, Deserialize)]
 pub enum Axis {
     /// Along gravity; without gravity, along the pulses of the ride.
     #[default]

@@ -1,7 +1,7 @@
 //! Facts about a recording and its sensor.
 
 use super::error::RecordingProblem;
-use super::missing::missing;
+use super::missing::{SURE, missing};
 use super::moment::Moment;
 use super::sample::Sample;
 use super::steps::{LOOKED_AT, Steps};
@@ -138,6 +138,11 @@ impl Facts {
     /// The longest interval that is not a gap, s.
     pub fn gap(&self) -> f64 {
         GAP / self.rate
+    }
+
+    /// Whether more may be missing: intervals vary so much that one with a lost sample may be usual.
+    pub fn may_lack_more(&self) -> bool {
+        self.jitter > SURE
     }
 
     /// The share of the samples that are missing.

@@ -40,7 +40,17 @@ pub struct LineReader<R> {
 
 /// The columns of a stream, and what its earlier lines have shown of them.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct StreamColumns(Parser);
+pub struct StreamColumns {
+    parser: Parser,
+    options: Reading,
+}
+
+impl StreamColumns {
+    /// The options with which they were found.
+    pub fn options(&self) -> &Reading {
+        &self.options
+    }
+}
 
 /// The reading of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,25 +100,19 @@ impl<R: BufRead> LineReader<R> {
         }
     }
 
-    /// Goes on with a stream whose columns another reader has found; a line that they do not fit begins a table of its own.
+    /// Goes on with a stream whose columns another reader has found, unless it begins with a header.
     ///
     /// # Errors
     /// If the reader fails.
     pub fn resume(mut self, columns: StreamColumns) -> Result<Self, LineError> {
-        let parser = columns.0;
+        self.options = columns.options;
         let first = self.lines.next().map_err(|(line, problem)| LineError {
             line: line.unwrap_or(0),
             problem,
         })?;
         if let Some(line) = first.map(|line| line.keep()) {
-            let read = reading(
-                &mut parser.clone(),
-                &line.bytes,
-                self.has_drum,
-                &self.options,
-            );
-            if read.is_ok() {
-                self.parser = Some(parser);
+            if !begins_with_a_word(&line.bytes) {
+                self.parser = Some(columns.parser);
             }
             self.lines.give_back(vec![line]);
         }
@@ -117,7 +121,10 @@ impl<R: BufRead> LineReader<R> {
 
     /// The columns of the stream, once its first line was read.
     pub fn columns(&self) -> Option<StreamColumns> {
-        self.parser.clone().map(StreamColumns)
+        self.parser.clone().map(|parser| StreamColumns {
+            parser,
+            options: self.options.clone(),
+        })
     }
 
     /// The number of the line read last, from 1.
@@ -164,6 +171,12 @@ impl<R: BufRead> LineReader<R> {
         read.map(Some)
             .map_err(|problem| (Some(line.number), problem))
     }
+}
+
+/// Whether this is a header. Half a line of a stream that was left in its middle is none.
+fn begins_with_a_word(line: &[u8]) -> bool {
+    let first = line.trim_ascii_start().first();
+    first.is_some_and(|c| c.is_ascii_alphabetic() || b"\"#%".contains(c))
 }
 
 #[inline]

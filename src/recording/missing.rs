@@ -11,9 +11,12 @@
 
 use super::sample::Sample;
 
+/// The deviation of an interval, in periods, up to which every one with a lost sample is unusual.
+pub(super) const SURE: f64 = 0.05;
+
 /// How many samples are missing among these, whose period, s, has a deviation of `jitter` periods.
 pub(super) fn missing(samples: &[Sample], period: f64, jitter: f64) -> u64 {
-    let usual = 0.5..=1.0 + f64::max(0.5, 10.0 * jitter);
+    let usual = 0.5..=1.0 + f64::max(10.0 * SURE, 10.0 * jitter);
     let (mut missing, mut surplus) = (0.0, 0.0);
     for pair in samples.windows(2) {
         let periods = (pair[1].time - pair[0].time) / period;
@@ -62,6 +65,21 @@ mod tests {
         let kept: Vec<usize> = (0..SAMPLES).filter(|i| !lost(*i)).collect();
         let between = kept[kept.len() - 1] - kept[0] + 1 - kept.len();
         (kept.iter().map(|i| times[*i]).collect(), between as u64)
+    }
+
+    /// On a clock that strays by more some are not told from late stamps: their number is said to be a least one.
+    #[test]
+    fn what_may_be_more_is_said_to_be_a_least_number() {
+        for jitter in [0.1, 0.15, 0.2] {
+            let mut draw = draws("lost");
+            let (times, lost) = clock(100.0, jitter, |_| draw() < 0.1);
+            let recording = recorded(&times);
+            assert!((1..=lost).contains(&recording.facts().missing), "{jitter}");
+            let mut warnings = recording.warnings().iter();
+            let said = warnings.find(|it| matches!(it, Warning::Missing { .. }));
+            let said = said.map_or(String::new(), ToString::to_string);
+            assert!(said.starts_with("at least "), "{jitter}: {said}");
+        }
     }
 
     /// At every rate of loss, evenly or in bursts, on exact clocks and on those that stray by 5 % of a period.

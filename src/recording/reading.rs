@@ -2,9 +2,10 @@
 
 use super::axis::Axis;
 use super::unit::{TimeUnit, Unit};
+use serde::{Deserialize, Serialize};
 
 /// Options for reading a file. By default all are found from the file.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Reading {
     /// The name of the time column. Columns of a file without a header are named "1", "2", ….
     pub time: Option<String>,

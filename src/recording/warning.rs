@@ -61,8 +61,9 @@ pub enum Warning {
     #[error("sampling is uneven: intervals deviate by {:.1} % (--resample HZ evens it out)", 100.0 * .jitter)]
     Uneven { jitter: f64 },
     #[error(
-        "{:.1} % of the samples are missing: {count}, the longest gap is {:.3} s, after {:.3} s (a lower rate of \
+        "{}{:.1} % of the samples are missing: {count}, the longest gap is {:.3} s, after {:.3} s (a lower rate of \
          recording often helps)",
+        if *.may_be_more { "at least " } else { "" },
         100.0 * .share,
         .longest.length,
         .longest.start
@@ -71,6 +72,7 @@ pub enum Warning {
         count: u64,
         share: f64,
         longest: Gap,
+        may_be_more: bool,
     },
     #[error("line {line}: time repeats {} (the first reading is kept)", repeats(*.count))]
     RepeatedTimes { count: u64, line: u64 },
@@ -218,6 +220,7 @@ pub(super) fn of_signal(
             count,
             share,
             longest,
+            may_be_more: facts.may_lack_more(),
         });
     }
     warnings.extend(facts.saturated.map(|share| Warning::Saturated {

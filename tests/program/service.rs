@@ -213,3 +213,85 @@ fn a_saved_state_does_not_guess() {
         assert!(error.contains(said), "{error}");
     }
 }
+
+/// What was saved is used as it was, or it is said why not.
+#[test]
+fn a_saved_monitor_goes_on_as_it_was_or_says_why_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let lines: String = (0..400).map(|i| format!("0.0{}\n", i % 3)).collect();
+    let monitor = |flags: &[&str], input: &str| {
+        let mut run = liftsim();
+        let run = run.current_dir(folder.path()).arg("monitor").args(flags);
+        outcome(run.write_stdin(input.to_owned()))
+    };
+    let save = ["--save-state", "lift.json"];
+    let begins = ["--rate", "100", "--begins", "rest"];
+    let (code, _, error) = monitor(&[&save[..], &begins].concat(), &lines);
+    assert_eq!(code, 0, "{error}");
+    let state = ["--state", "lift.json"];
+    let (code, _, error) = monitor(&[&state[..], &["--unit", "g"]].concat(), &lines);
+    assert_eq!(code, 2);
+    assert!(error.contains("leave these flags out"), "{error}");
+    let (code, _, error) = monitor(&[&state[..], &["--begins", "rest"]].concat(), &lines);
+    assert_eq!(code, 0);
+    assert!(error.contains("begins anew"), "{error}");
+    // The rest of a line whose beginning another has read is no header.
+    let (code, _, error) = monitor(&state, &format!(".01 x\n{lines}"));
+    assert_eq!(code, 2);
+    assert!(error.contains("line 1"), "{error}");
+    // The state cannot be kept where its folder is gone.
+    let gone = folder.path().join("gone");
+    fs::create_dir(&gone).unwrap();
+    let mut run = Command::new(env!("CARGO_BIN_EXE_liftsim"))
+        .current_dir(folder.path())
+        .args(["monitor", "--save-state", "gone/lift.json"])
+        .args(begins)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut first = String::new();
+    let mut out = BufReader::new(run.stdout.take().unwrap());
+    let mut sensor = run.stdin.take().unwrap();
+    sensor.write_all(lines.as_bytes()).unwrap();
+    out.read_line(&mut first).unwrap();
+    fs::remove_dir_all(&gone).unwrap();
+    drop(sensor);
+    let output = run.wait_with_output().unwrap();
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert!(error.contains("the state cannot be saved"), "{error}");
+}
+
+/// A sensor that hangs in the middle of a line keeps no monitor from ending.
+#[cfg(unix)]
+#[test]
+fn half_a_line_is_not_waited_for_for_ever() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut run = Command::new(env!("CARGO_BIN_EXE_liftsim"))
+        .current_dir(folder.path())
+        .args(["monitor", "--rate", "100", "--begins", "rest"])
+        .args(["--save-state", "lift.json"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let lines: String = (0..400).map(|i| format!("0.0{}\n", i % 3)).collect();
+    let mut sensor = run.stdin.take().unwrap();
+    sensor.write_all(format!("{lines}0.0").as_bytes()).unwrap();
+    let mut out = BufReader::new(run.stdout.take().unwrap());
+    // Its second event comes after some seconds of the record: it has read what was there.
+    for _ in 0..2 {
+        out.read_line(&mut String::new()).unwrap();
+    }
+    let stop = ["-TERM".to_owned(), run.id().to_string()];
+    assert!(Command::new("kill").args(stop).status().unwrap().success());
+    let output = run.wait_with_output().unwrap();
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert!(error.contains("in the middle of a line"), "{error}");
+    assert!(folder.path().join("lift.json").exists());
+    drop(sensor);
+}

@@ -85,6 +85,32 @@ fn a_sensor_stuck_from_its_first_sample_tells_nothing() {
     }
 }
 
+/// Nor does one that is dead but for a glitch now and then, from its first sample on or later, the same one or others.
+#[test]
+fn glitches_are_no_sign_of_life() {
+    for (alive, level) in [(0.0, 0.0), (0.0, 9.81), (12.0, 0.003)] {
+        for (every, most) in [(20, 9.0), (80, 9.0), (80, 0.4), (80, -2.0), (250, 0.4)] {
+            let lived = Record::quiet().rest(alive);
+            let from = lived.samples.len();
+            let mut record = lived.with(90.0, level, 0.0);
+            record.samples[from..].fill(level);
+            for (place, i) in (from..record.samples.len()).step_by(every).enumerate() {
+                // Of sizes up to this, or all of one.
+                let size = if most < 0.0 {
+                    1.0
+                } else {
+                    (place * 37 % 100) as f64 / 100.0
+                };
+                record.samples[i] += size * most;
+            }
+            let mut monitor = standing();
+            record.watch(&mut monitor);
+            let state = monitor.state();
+            assert_eq!(state, State::Unknown, "{alive} {level} {every} {most}");
+        }
+    }
+}
+
 /// A sensor whose steps hide its noise does not scatter at rest either. Its first trip shows that it is not stuck.
 #[test]
 fn a_coarse_sensor_shows_the_trips() {
@@ -205,6 +231,41 @@ fn a_jump_before_a_ride_hides_no_ride() {
         let events = record.watch(&mut monitor);
         assert!(known(&events).contains(&INERTIAL), "{pause}: {events:?}");
         assert_eq!(monitor.state(), REST, "{pause}");
+    }
+}
+
+/// Wherever a hole lies in a ride, what comes after it is never told the wrong way round: a braking may as well be a start.
+#[test]
+fn after_a_hole_no_direction_is_guessed() {
+    for sign in [1.0, -1.0] {
+        let record = Record::quiet().rest(10.0).trip(sign).rest(10.0);
+        let record = record.trip(-sign).rest(10.0);
+        for hole in (0..40).flat_map(|i| [0.6, 1.5, 3.0, 6.0, 12.0, 20.0].map(|it| (i, it))) {
+            let from = 8.0 + f64::from(hole.0) / 2.0;
+            let [first, after] = [from, from + hole.1].map(|it| (it * RATE) as usize);
+            let mut monitor = standing();
+            let readings = record.samples.iter().enumerate();
+            for (i, acceleration) in readings.filter(|(i, _)| !(first..after).contains(i)) {
+                let time = i as f64 / RATE;
+                let sample = Sample {
+                    time,
+                    acceleration: *acceleration,
+                };
+                for event in monitor.step(sample, None) {
+                    let Some(told) = event.kind.direction() else {
+                        continue;
+                    };
+                    let goes = if (10.0..23.0).contains(&time) {
+                        sign
+                    } else if (32.0..45.0).contains(&time) {
+                        -sign
+                    } else {
+                        told.sign()
+                    };
+                    assert_eq!(told.sign(), goes, "{from} for {}: {event:?}", hole.1);
+                }
+            }
+        }
     }
 }
 
