@@ -99,12 +99,6 @@ fn range(text: &str) -> Result<[f64; 2], String> {
 }
 
 impl FigureFlags {
-    /// Whether no flag is given.
-    fn is_empty(&self) -> bool {
-        let flags = [self.no_markers, self.no_caption, self.overlay.is_some()];
-        self.written().is_empty() && flags == [false; 3]
-    }
-
     /// The keys that are given and have a value.
     fn written(&self) -> serde_json::Map<String, Value> {
         match serde_json::to_value(self) {
@@ -140,15 +134,24 @@ impl FigureFlags {
         }
         Ok(())
     }
+}
 
-    /// Whether complete results are to be drawn again: flags are given, or the curves of one's own have changed.
-    pub fn redraws(&self, loaded: &Loaded, directory: &Directory) -> bool {
-        let stored = || directory.overlay(&directory.manifest().ok()?).ok();
-        !self.is_empty()
-            || loaded
-                .overlay()
-                .is_some_and(|own| stored().as_deref() != Some(own))
-    }
+/// How a figure is drawn, but for curves of one's own, which lie beside it.
+pub fn drawn(loaded: &Loaded) -> Option<Value> {
+    let options = Options {
+        overlay: None,
+        ..loaded.figure.clone()
+    };
+    let keys = serde_json::to_value(options).expect("options are plain data");
+    Some(keys).filter(|keys| keys.as_object().is_some_and(|keys| !keys.is_empty()))
+}
+
+/// Whether the figure of complete results is another than this one.
+pub fn differs(loaded: &Loaded, directory: &Directory) -> bool {
+    directory.manifest().is_ok_and(|manifest| {
+        let own = directory.overlay(&manifest).ok();
+        manifest.figure != drawn(loaded) || own.as_deref() != loaded.overlay()
+    })
 }
 
 /// The folder of a config, from which paths in it count.
@@ -167,6 +170,7 @@ pub fn redraw(loaded: &Loaded, directory: &Directory) -> Result<String, Failure>
     manifest
         .files
         .retain(|name, _| !Drawing::NAMES.contains(&&name[..]));
+    manifest.figure = drawn(loaded);
     let mut lines = String::new();
     for (name, bytes) in told(drawing) {
         let is_new = store(directory, &mut manifest, name, &bytes)?;

@@ -1,6 +1,6 @@
 //! `liftsim figures`: every config's results, and the report on all of them.
 
-use super::figure::{FigureFlags, folder, redraw};
+use super::figure::{FigureFlags, differs, folder, redraw};
 use super::output::Output;
 use super::progress::{self, Progress, Reporter};
 use super::{CommandResult, Failure, completions, print, say, store, sweep, table};
@@ -78,7 +78,7 @@ impl Figures {
         let (mut lines, mut done) = (Vec::new(), 0);
         for (entry, session) in chosen.iter().zip(sessions) {
             let Some(session) = session else {
-                let note = if self.figure.redraws(&entry.loaded, &entry.directory) {
+                let note = if differs(&entry.loaded, &entry.directory) {
                     redraw(&entry.loaded, &entry.directory)?;
                     "redrawn"
                 } else {

@@ -1,6 +1,5 @@
 //! `liftsim merge DIR…`: merges shards into one result.
 
-use super::figure::FigureFlags;
 use super::store::stored;
 use super::{CommandResult, Failure, output, print, sweep};
 use clap::{Args, ValueHint};
@@ -39,12 +38,7 @@ impl Merge {
         let merged = run::merge(&*loaded.study, &origin, &directories, Directory::new(&out));
         let (session, absent) = merged.map_err(failure)?;
         if session.missing().is_none() {
-            print(&sweep::finish(
-                &loaded,
-                session,
-                None,
-                &FigureFlags::default(),
-            )?)?;
+            print(&sweep::finish(&loaded, session, None)?)?;
             return Ok(ExitCode::SUCCESS);
         }
         print(&incomplete(&absent, &origin.command_line(), &out))?;

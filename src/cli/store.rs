@@ -16,6 +16,7 @@ pub fn manifest(origin: &Origin, seconds: f64) -> Manifest {
         seconds,
         threads: rayon::current_num_threads(),
         architecture: architecture(),
+        figure: None,
         files: BTreeMap::new(),
     }
 }

@@ -1,6 +1,6 @@
 //! `liftsim sweep CONFIG`: counts or computes what a config describes, and writes results and figure.
 
-use super::figure::{FigureFlags, folder, redraw, told};
+use super::figure::{FigureFlags, differs, drawn, folder, redraw, told};
 use super::outcomes::SavedTrials;
 use super::output;
 use super::progress::{self, Progress, Reporter};
@@ -87,7 +87,7 @@ impl Sweep {
         };
         let reporter = Reporter::new(quiet, &self.progress, "");
         progress::work_off(&mut session, &reporter)?;
-        let text = finish(&loaded, session, self.shard, &self.figure)?;
+        let text = finish(&loaded, session, self.shard)?;
         output::print_beside(self.save_trials.iter(), &text)?;
         if let Some(saved) = saved {
             output::print_written(&saved.write(&reporter)?)?;
@@ -115,7 +115,6 @@ pub(super) fn finish(
     loaded: &Loaded,
     mut session: Session,
     shard: Option<Shard>,
-    figure: &FigureFlags,
 ) -> Result<String, Failure> {
     let directory = session.directory().clone();
     let what = match loaded.study.trials() {
@@ -132,12 +131,12 @@ pub(super) fn finish(
     let done = if session.is_complete() {
         let place = directory.path().display();
         drop(session);
-        let drawn = if figure.redraws(loaded, &directory) {
+        let redrawn = if differs(loaded, &directory) {
             redraw(loaded, &directory)?
         } else {
             String::new()
         };
-        format!("{what} are complete in {place}: nothing to simulate\n{drawn}")
+        format!("{what} are complete in {place}: nothing to simulate\n{redrawn}")
     } else {
         let (output, written) = write(loaded, session)?;
         let findings = match output.findings {
@@ -169,7 +168,10 @@ pub(super) fn write(loaded: &Loaded, mut session: Session) -> Result<(Output, Wr
     // Save the counts first, so that a run interrupted before the manifest is written continues from them.
     session.save().map_err(Failure::run)?;
     let directory = session.directory().clone();
-    let mut manifest = made_by(&session, manifest(&loaded.origin, seconds));
+    let mut manifest = Manifest {
+        figure: drawn(loaded),
+        ..made_by(&session, manifest(&loaded.origin, seconds))
+    };
     let mut written = Written::new(seconds);
     let mut put = |name: &str, bytes: &[u8], manifest: &mut Manifest| {
         let is_new = store(&directory, manifest, name, bytes)?;

@@ -234,7 +234,13 @@ impl Options {
             }
         }
         plot.make_room();
-        plot.recolour(&self.colours);
+        let curves = plot.recolour(&self.colours);
+        if !self.colours.is_empty() && self.colours.len() < curves {
+            let names = self.colours.len();
+            notes.push(format!(
+                "{curves} curves share {names} colours (name as many)"
+            ));
+        }
         if self.markers == Some(false) {
             plot.drop_markers();
         }
@@ -284,14 +290,16 @@ impl Plot {
         self.margins.left = self.margins.left.max(widest + BESIDE_LABELS);
     }
 
-    /// Gives the curves these colours in place of the usual ones.
-    fn recolour(&mut self, names: &[ColourName]) {
+    /// Gives the curves these colours in place of the usual ones, of which so many are in use.
+    fn recolour(&mut self, names: &[ColourName]) -> usize {
         if names.is_empty() {
-            return;
+            return 0;
         }
+        let mut used = 0;
         let usual: Vec<Colour> = (0..Style::COLOURS).map(|at| Style::of(at).colour).collect();
-        let change = |colour: &mut Colour| {
+        let mut change = |colour: &mut Colour| {
             if let Some(at) = usual.iter().position(|usual| usual.rgb == colour.rgb) {
+                used = used.max(at + 1);
                 colour.rgb = names[at % names.len()].colour().rgb;
             }
         };
@@ -300,6 +308,7 @@ impl Plot {
         }
         let entries = self.legend.iter_mut().flat_map(|it| &mut it.entries);
         entries.for_each(|entry| change(&mut entry.style.colour));
+        used
     }
 
     /// Leaves out the markers of curves that have a line in their panel; limits stay.

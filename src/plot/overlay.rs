@@ -6,6 +6,7 @@ use super::picture::{Panel, Plot};
 use super::style::{Colour, Style};
 use super::window::inside;
 use serde::Deserialize;
+use std::collections::BTreeSet;
 
 /// Curves as their table gives them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -40,6 +41,8 @@ pub enum OverlayError {
     Table(#[from] csv::Error),
     #[error("overlay: holds no point (write the columns x, y and name)")]
     Empty,
+    #[error("overlay: must have at most {most} names, which dashes tell apart, got {0} (draw fewer at once)", most = DASHES.len())]
+    Many(usize),
     #[error("overlay: line {line}: panel must be 1 to {panels}, got {panel}")]
     NoPanel {
         line: u64,
@@ -73,7 +76,8 @@ impl Overlay {
         let header = reader.headers()?.clone();
         let mut record = csv::StringRecord::new();
         while reader.read_record(&mut record)? {
-            let row: Row = record.deserialize(Some(&header))?;
+            let mut row: Row = record.deserialize(Some(&header))?;
+            row.name = row.name.split_whitespace().collect::<Vec<_>>().join(" ");
             let line = record.position().map_or(0, csv::Position::line);
             let (panel, point) = (row.panel.unwrap_or(1), (line, row.x, row.y));
             let known = |curve: &&mut OwnCurve| curve.name == row.name && curve.panel == panel;
@@ -86,10 +90,12 @@ impl Overlay {
                 }),
             }
         }
-        if curves.is_empty() {
-            return Err(OverlayError::Empty);
+        let names: BTreeSet<&str> = curves.iter().map(|curve| &curve.name[..]).collect();
+        match names.len() {
+            0 => Err(OverlayError::Empty),
+            many if many > DASHES.len() => Err(OverlayError::Many(many)),
+            _ => Ok(Self { curves }),
         }
-        Ok(Self { curves })
     }
 }
 

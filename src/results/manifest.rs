@@ -2,6 +2,7 @@
 
 use super::Origin;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
@@ -23,6 +24,9 @@ pub struct Manifest {
     pub threads: usize,
     /// Processor family and the features that change code paths.
     pub architecture: String,
+    /// How the figure is drawn, by the keys of `[figure]`, unless as any is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub figure: Option<Value>,
     /// SHA-256 of the files beside this one.
     pub files: BTreeMap<String, String>,
 }

@@ -17,6 +17,8 @@ pub struct Report<'a> {
     pub findings: &'a [Finding],
     /// What is counted.
     pub cases: &'a str,
+    /// The flag that asks for more of them, if one does.
+    pub more: &'a str,
     pub seed: u64,
     pub confidence: f64,
 }
@@ -102,7 +104,10 @@ impl Report<'_> {
         let power = self.findings.iter().map(|f| f.power).fold(1.0, f64::min);
         let advice = match gate::trials_for_power(self.findings) {
             Some(trials) if power < gate::POWER => {
-                let flag = self.flag(trials);
+                let flag = match self.more {
+                    "" => String::new(),
+                    more => format!(" ({more} {trials})"),
+                };
                 format!("{trials} {} would be enough{flag}\n", self.cases)
             }
             _ => String::new(),
@@ -118,15 +123,6 @@ impl Report<'_> {
             self.count(Verdict::Fail),
             self.confidence * 100.0,
         )
-    }
-
-    /// The flag that asks for more cases, where they are trials.
-    fn flag(&self, trials: u64) -> String {
-        if self.regions.is_some() {
-            format!(" (--trials {trials})")
-        } else {
-            String::new()
-        }
     }
 
     /// The scenario with what tells it from others of its name, in one line.

@@ -62,6 +62,7 @@ impl Check {
             None => self.counted.config()?,
         };
         let points = results.map(|(_, points)| points);
+        let is_counted = points.is_some();
         self.counted.simulation.start_threads()?;
         let reporter = Reporter::new(quiet, &self.progress, "");
         if experiment.study() != SWEEP {
@@ -88,6 +89,11 @@ impl Check {
             regions: Some(rows.iter().map(region).collect()),
             findings: &findings,
             cases: "trials per point",
+            more: if is_counted {
+                "with the config: --trials"
+            } else {
+                "--trials"
+            },
             seed: config.header().seed,
             confidence: config.header().confidence.get(),
         };
@@ -101,8 +107,14 @@ impl Check {
         let directory = Directory::new(path);
         // A shipped config may have the name of a folder, too.
         let is_shipped = path.to_str().and_then(Shipped::find).is_some();
-        if is_shipped || !directory.is_finished() {
+        if is_shipped || !path.is_dir() {
             return Ok(None);
+        }
+        if !directory.is_finished() {
+            return Err(Failure::Input(anyhow!(
+                "{}: holds no finished results to be tested (give a config, or a folder that `liftsim sweep` has made)",
+                path.display()
+            )));
         }
         if let Some(flag) = self.counted.flag() {
             return Err(Failure::Input(anyhow!(
@@ -155,6 +167,7 @@ impl Check {
             regions: None,
             findings: &findings,
             cases,
+            more: "",
             seed: experiment.header.seed,
             confidence: experiment.header.confidence.get(),
         };
