@@ -36,7 +36,8 @@ use std::time::Duration;
 /// seen; say --begins rest if the cage stands), pulse (it may be a start, a stop or a disturbance), level (it may
 /// have shifted, or the cage moves softly), creep (the cage may not stand yet), hole (samples are missing), sensor.
 /// A state is said if no plausible explanation of the record contradicts it, and so is a direction: one motion starts as
-/// another, the other way, brakes. Until that is decided a cage that moves is `inertial` without a direction.
+/// another, the other way, brakes. Until that is decided, and after a hole until rest was told, a cage that moves is
+/// `inertial` without a direction.
 ///
 /// The alarm `jam` says that a motion ended in a violent pulse, without the braking of a commanded stop;
 /// `slack`, with --expected-moving, that the drum pays out rope and the cage is not known to move, with
@@ -94,6 +95,9 @@ pub struct MonitorCommand {
     #[command(flatten)]
     network: NetworkArguments,
 }
+
+/// By how much a rate may differ from the one of the saved state.
+const UNEVEN: f64 = 0.05;
 
 const NO_READING: &str = "standard input: holds no reading (check that the sensor sends any)";
 
@@ -179,14 +183,14 @@ impl MonitorCommand {
         };
         if self.begins.is_some() && saved.as_ref().is_some_and(|it| it.running.is_some()) {
             warn(
-                "--begins: the monitor begins anew, and what the saved one knows of the cage is not used",
+                "--begins: the monitor begins anew: what the saved one knows of rest is used, not what the cage has done",
             );
         }
         if going.is_some() {
             self.floors.refuse("--state of a running monitor")?;
         }
         if let (Some(_), Some(rate), Some(saved)) = (&going, self.rate, &saved)
-            && rate != saved.rate
+            && (rate / saved.rate - 1.0).abs() > UNEVEN
         {
             return Err(Failure::Input(anyhow!(
                 "--rate: must be {} Hz, at which the saved monitor ran, got {rate} (leave it out)",
@@ -194,14 +198,26 @@ impl MonitorCommand {
             )));
         }
         if let Some(columns) = going.as_mut().and_then(|it| it.columns.take()) {
-            if *reading != recording::Reading::default() && reading != columns.options() {
+            let is_told = *reading != recording::Reading::default();
+            if is_told && reading != columns.options() {
                 return Err(Failure::Input(anyhow!(
-                    "columns, units and axis are others than those with which the saved monitor ran (leave these flags out, \
-                     or begin anew with --begins)"
+                    "the flags for columns, units and axis are not those with which the saved monitor ran (leave them out, or \
+                     begin anew with --begins)"
                 )));
             }
+            if self.expected_moving != columns.has_drum() {
+                let with = if columns.has_drum() {
+                    "with"
+                } else {
+                    "without"
+                };
+                return Err(Failure::Input(anyhow!(
+                    "the saved monitor ran {with} --expected-moving (do so again, or begin anew with --begins)"
+                )));
+            }
+            let within_line = going.as_ref().is_some_and(|it| it.taken.within_line);
             lines = lines
-                .resume(columns)
+                .resume(columns, within_line)
                 .context("standard input")
                 .map_err(Failure::Input)?;
         }
@@ -268,6 +284,9 @@ impl MonitorCommand {
             lift.end()
         };
         readings.say_counts();
+        if let (Err(_), Err(error)) = (&read, &written) {
+            warn(format_args!("{error:#}"));
+        }
         read.and(ended).and(written.map_err(Failure::Run))?;
         Ok(true)
     }

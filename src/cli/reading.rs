@@ -3,7 +3,7 @@
 use super::Failure;
 use super::completions::words;
 use clap::Args;
-use liftsim::recording::{Axis, Reading, TimeUnit, Unit};
+use liftsim::recording::{Axis, Reading, TimeUnit, Unit, When};
 
 /// How the recording is read. What is left out is found in the file.
 #[derive(Debug, Args)]
@@ -11,12 +11,12 @@ use liftsim::recording::{Axis, Reading, TimeUnit, Unit};
 pub struct ReadingArguments {
     #[command(flatten)]
     columns: ColumnArguments,
-    /// Read from this time on, s, as times are printed.
+    /// Read from this time on: s as times are printed, or of a recording with dates a moment such as 2026-11-30T14:05:00.
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
-    from: Option<f64>,
-    /// Read up to this time, s, as times are printed.
+    from: Option<When>,
+    /// Read up to this time.
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
-    to: Option<f64>,
+    to: Option<When>,
     /// Rows per second, where they are evenly spaced; their times are then not read.
     #[arg(long, value_name = "HZ")]
     rate: Option<f64>,

@@ -41,6 +41,8 @@ pub struct Taken {
     /// How many lines were passed over since they came late, and how often the clock was set back.
     late: u64,
     set_back: u64,
+    /// Whether it was left within a line.
+    pub within_line: bool,
 }
 
 impl<'a, R: io::BufRead> Readings<'a, R> {
@@ -57,7 +59,10 @@ impl<'a, R: io::BufRead> Readings<'a, R> {
 
     /// Goes on where another reader has stopped.
     pub fn go_on(&mut self, taken: Taken) {
-        self.taken = taken;
+        self.taken = Taken {
+            within_line: false,
+            ..taken
+        };
     }
 
     /// How far it has read.
@@ -153,7 +158,10 @@ impl<'a, R: io::BufRead> Readings<'a, R> {
                     }
                     Err(refusal) => refusal,
                 },
-                Err(error) if error.is_io() => return Err(Failure::run(error)),
+                Err(error) if error.is_io() => {
+                    self.taken.within_line = true;
+                    return Err(Failure::run(error));
+                }
                 Err(error) => anyhow::Error::from(error),
             };
             if !self.keeps_going {

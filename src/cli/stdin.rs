@@ -12,6 +12,8 @@ pub struct Stdin<'a> {
     input: Source,
     signals: Option<&'a Signals>,
     is_at_line_end: bool,
+    /// When it saw that a signal came.
+    told: Option<Instant>,
 }
 
 #[cfg(unix)]
@@ -26,6 +28,7 @@ impl<'a> Stdin<'a> {
             input: source()?,
             signals,
             is_at_line_end: true,
+            told: None,
         })
     }
 }
@@ -35,19 +38,18 @@ impl Read for Stdin<'_> {
         let Some(signals) = self.signals else {
             return self.input.read(buffer);
         };
-        let mut told_at = None;
         loop {
             let is_told = signals.came().is_some();
             if is_told && self.is_at_line_end {
                 return Ok(0);
             }
+            if is_told && self.told.get_or_insert_with(Instant::now).elapsed() > PATIENCE {
+                return Err(io::Error::new(
+                    io::ErrorKind::TimedOut,
+                    "ends in the middle of a line, which is lost (a signal came, and the rest of the line did not)",
+                ));
+            }
             if !is_ready(&self.input)? {
-                if is_told && told_at.get_or_insert_with(Instant::now).elapsed() > PATIENCE {
-                    return Err(io::Error::new(
-                        io::ErrorKind::TimedOut,
-                        "ends in the middle of a line, which is lost (a signal came, and the rest of the line did not)",
-                    ));
-                }
                 continue;
             }
             // No more than the rest of the line, once it was told.

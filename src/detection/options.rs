@@ -5,8 +5,8 @@
 use crate::config::{ConfigError, Node, Source};
 use crate::fields::names;
 use crate::monitor::Settings;
-use crate::recording::{Axis, Reading, TimeUnit, Unit};
-use schemars::JsonSchema;
+use crate::recording::{Axis, Reading, TimeUnit, Unit, When};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, Error};
 use std::fmt::Display;
@@ -48,10 +48,12 @@ pub struct RecordingTable {
     axis: Option<Axis>,
     /// Whether to turn the vertical upside down.
     invert: Option<bool>,
-    /// The time to begin at, s, as printed.
-    from: Option<f64>,
-    /// The time to end at, s, as printed.
-    to: Option<f64>,
+    /// The time to begin at, s as printed, or a moment where the recording has dates.
+    #[schemars(schema_with = "time")]
+    from: Option<When>,
+    /// The time to end at.
+    #[schemars(schema_with = "time")]
+    to: Option<When>,
     /// Rows per second, where they are evenly spaced; their times are then not read.
     rate: Option<f64>,
     /// Samples per second to resample to.
@@ -123,6 +125,11 @@ impl RecordingTable {
             ..Reading::default()
         })
     }
+}
+
+/// Seconds, or a moment as text.
+fn time(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({ "type": ["number", "string", "null"] })
 }
 
 /// What its own type reads from a name.

@@ -6,6 +6,7 @@
 //! hypotheses from before, dearer by the cost of a shift. So motion and shift are both followed until the
 //! evidence decides.
 
+use super::event::Direction;
 use super::hypothesis::{Cage, Hypothesis};
 use super::noise::Noises;
 use super::prices::Known;
@@ -316,13 +317,13 @@ impl Live {
     fn cheapest(&self) -> Belief {
         let mut belief = Belief {
             threat: f64::INFINITY,
+            otherwise: f64::INFINITY,
             ..Belief::default()
         };
         let Some(now) = self.recent.now() else {
             return belief;
         };
         let mut levels = [0.0; 2];
-        // Up, down, and unknown.
         let mut ways = [f64::INFINITY; 3];
         for track in &self.tracks {
             let pulse = track.current(&self.known);
@@ -331,8 +332,8 @@ impl Live {
                 if !is_rest {
                     let danger = it.danger(&self.known, self.strain > STRAINED);
                     belief.threat = belief.threat.min(cost - danger);
-                    let way = way(it);
-                    ways[way] = ways[way].min(cost);
+                    let least = &mut ways[way(it)];
+                    *least = least.min(cost);
                 }
                 let best = if is_rest {
                     &mut belief.rest
@@ -357,8 +358,8 @@ impl Live {
         belief.least = least(belief.rest).min(least(belief.motion));
         if let Some((it, _)) = &belief.motion {
             ways[way(it)] = f64::INFINITY;
+            belief.otherwise = ways.into_iter().fold(f64::INFINITY, f64::min);
         }
-        belief.otherwise = ways.into_iter().fold(f64::INFINITY, f64::min);
         belief.noise = self.recent.noise();
         belief.is_shifted = levels[0] != levels[1];
         if let Some(first) = self.tracks.first() {
@@ -370,5 +371,9 @@ impl Live {
 
 /// The way of a motion among all ways: up, down, unknown.
 fn way(motion: &Hypothesis) -> usize {
-    motion.direction().map_or(2, |direction| direction as usize)
+    match motion.direction() {
+        Some(Direction::Up) => 0,
+        Some(Direction::Down) => 1,
+        None => 2,
+    }
 }

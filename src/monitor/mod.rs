@@ -112,8 +112,13 @@ pub struct Monitor {
     /// Whether motions of this cage look different from rest.
     motion_shows: bool,
     said: Statement,
+    /// Whether rest was told since the record began, or went on after a hole. Before, a trip that is read backwards looks as
+    /// good for as long as nothing says otherwise.
+    knows_rest: bool,
+    /// When the record began, or went on after a hole, s.
+    begun: f64,
     /// When a motion was last told with its direction, s.
-    moved: f64,
+    moved: (f64, Option<Direction>),
     /// The level when it was last certain, m/s².
     level: Option<f64>,
     /// Time of the last sample, s.
@@ -172,7 +177,9 @@ impl Monitor {
             is_noisy: false,
             motion_shows: knowledge.motion_shows && knowledge.reference.is_some(),
             said: Statement::unknown(0.0, Doubt::Beginning),
-            moved: f64::NEG_INFINITY,
+            knows_rest: knowledge.begins_at_rest,
+            begun: f64::NEG_INFINITY,
+            moved: (f64::NEG_INFINITY, None),
             level: None,
             last: None,
             newest: None,
@@ -234,7 +241,9 @@ impl Monitor {
         } else if self.blocks.is_gap(now) {
             self.cross(self.last.unwrap_or(now), now, Fault::Silent);
         }
-        self.last = Some(now);
+        if self.last.replace(now).is_none() {
+            self.begun = now + self.design().block;
+        }
         let health = self.sensor.step(sample);
         if health.begins.is_some() || health.ends {
             self.take_health(health, now);
@@ -255,22 +264,22 @@ impl Monitor {
         self.sensor.cross();
         self.forget(now, (now - from).max(0.0));
         if fault == Fault::Clock {
-            self.drum = Drum::default();
-            (self.jam, self.moved) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+            (self.drum, self.jam) = (Drum::default(), f64::NEG_INFINITY);
+            self.moved = (f64::NEG_INFINITY, None);
         }
+        self.begun = now + self.design().block;
         self.say(Statement::unknown(now, Doubt::Hole), now);
     }
 
     fn forget(&mut self, now: f64, seconds: f64) {
         // A clock that was set back hides a hole of unknown length.
-        self.live.cross(
-            now,
-            if seconds > 0.0 {
-                seconds
-            } else {
-                f64::INFINITY
-            },
-        );
+        let seconds = if seconds > 0.0 {
+            seconds
+        } else {
+            f64::INFINITY
+        };
+        self.live.cross(now, seconds);
+        self.knows_rest = false;
         self.decisions.forget();
     }
 
@@ -310,6 +319,11 @@ impl Monitor {
         } else {
             self.confirmed(Statement::of(&belief, now), now)
         };
+        let statement = if self.knows_rest {
+            statement
+        } else {
+            statement.without_direction(now)
+        };
         self.alarm_of_jam(&statement, now);
         self.say(
             if health.is_proven {
@@ -343,6 +357,7 @@ impl Monitor {
     fn say(&mut self, statement: Statement, now: f64) {
         let was = self.said;
         self.said = statement;
+        self.knows_rest |= statement.state == State::REST;
         if (was.state, was.direction) == (statement.state, statement.direction) {
             return;
         }
@@ -356,12 +371,15 @@ impl Monitor {
             }
             _ => None,
         };
-        let start = (statement.start_of_motion()).filter(|start| start.since > self.moved);
-        if let Some(start) = start {
+        let (told, way) = self.moved;
+        let is_new = |start: &Statement| start.since > told || start.direction != way;
+        let has_begun = |start: &Statement| start.since > self.begun;
+        let start = statement.start_of_motion().filter(has_begun);
+        if let Some(start) = start.filter(is_new) {
             self.events.push(start.event(decision.take(), now));
         }
         if statement.direction.is_some() {
-            self.moved = now;
+            self.moved = (now, statement.direction);
         }
         self.events.push(statement.event(decision, now));
     }

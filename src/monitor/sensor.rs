@@ -11,9 +11,11 @@ const LONGER: f64 = 4.0;
 /// How a sensor repeats itself is known after so many changes of its value.
 const PROVEN: u32 = 10;
 
-/// One sample that differs by more than this many steps of the sensor, or by this, m/s², between equal ones is a glitch,
-/// which a dead sensor has too: no change of its value.
-const GLITCH: (f64, f64) = (1.5, 0.5);
+/// As many samples between equal ones, as long as no step of the sensor is known or if they differ by more than this many
+/// of them, or by this, m/s², are a glitch. A dead sensor has them, too: they are no change of its value.
+const GLITCH: usize = 2;
+const STEPS_OF_GLITCH: f64 = 1.5;
+const GREAT: f64 = 0.5;
 
 /// A value far from the median that comes so often in a row is the end of the range, m/s².
 const SATURATED: (u32, f64) = (3, 12.0);
@@ -37,9 +39,9 @@ pub(super) struct Sensor {
     since: f64,
     until: f64,
     repeats: u32,
-    /// The latest value, if it is another and comes for the first time, m/s².
-    stray: Option<f64>,
-    /// The smallest change of the value, m/s².
+    /// The latest samples, if they are off the value, and no more than a glitch has.
+    strays: Vec<Sample>,
+    /// The smallest change of a value that was there for longer than a glitch, m/s².
     step: f64,
     /// The longest run before, s, and how many changes there were.
     longest: f64,
@@ -73,7 +75,7 @@ impl Sensor {
             since: 0.0,
             until: 0.0,
             repeats: 0,
-            stray: None,
+            strays: Vec::with_capacity(GLITCH + 1),
             step: f64::INFINITY,
             longest: 0.0,
             changes: 0,
@@ -114,49 +116,71 @@ impl Sensor {
 
     /// Compares a sample with the value that is repeated.
     fn compare(&mut self, sample: Sample) {
-        let Some(last) = self.last else {
-            self.hold(sample.acceleration, sample.time);
-            return;
-        };
-        if let Some(stray) = self.stray.take() {
-            let by = (stray - self.value).abs();
-            let is_glitch = by > GLITCH.1.min(GLITCH.0 * self.step);
-            if sample.acceleration != self.value || !is_glitch {
-                self.change(stray, last.time);
+        if self.last.is_none() {
+            return self.hold(sample);
+        }
+        let is_back = sample.acceleration == self.value;
+        if !is_back {
+            self.strays.push(sample);
+            if self.strays.len() <= GLITCH {
+                return;
             }
         }
+        if !is_back && self.repeats as usize > GLITCH {
+            // Neither what was nor what comes is a glitch.
+            let by = |it: &Sample| (it.acceleration - self.value).abs();
+            self.step = self.strays.iter().map(by).fold(self.step, f64::min);
+        }
+        if !(is_back && self.are_glitches()) {
+            for stray in std::mem::take(&mut self.strays) {
+                self.take(stray);
+            }
+        }
+        self.strays.clear();
+        if is_back {
+            self.take(sample);
+        }
+    }
+
+    /// Whether the samples off the value are nothing else, now that it is back.
+    fn are_glitches(&self) -> bool {
+        let most = GREAT.min(STEPS_OF_GLITCH * self.step);
+        let is_far = |it: &Sample| (it.acceleration - self.value).abs() > most;
+        self.step.is_infinite() || self.strays.iter().all(is_far)
+    }
+
+    /// Takes a sample that is no glitch.
+    fn take(&mut self, sample: Sample) {
         if sample.acceleration == self.value {
             self.repeats += 1;
             self.until = sample.time;
-        } else if self.repeats == 1 && self.value == last.acceleration {
-            // No run is broken by it.
-            self.change(sample.acceleration, sample.time);
         } else {
-            self.stray = Some(sample.acceleration);
+            self.change(sample);
         }
     }
 
     /// The value becomes another.
-    fn change(&mut self, value: f64, time: f64) {
+    fn change(&mut self, sample: Sample) {
         // Until then a long run may as well be that of a coarse sensor at rest.
         if self.fault.is_none() || !self.is_proven() {
             self.longest = self.longest.max(self.until - self.since);
         }
         self.changes = self.changes.saturating_add(1);
         self.middle += (self.value - self.middle) / f64::from(self.changes.min(1000));
-        self.step = self.step.min((value - self.value).abs());
-        self.hold(value, time);
+        self.hold(sample);
     }
 
-    fn hold(&mut self, value: f64, time: f64) {
-        (self.value, self.repeats) = (value, 1);
-        (self.since, self.until) = (time, time);
+    /// A run of equal samples begins.
+    fn hold(&mut self, first: Sample) {
+        (self.value, self.repeats) = (first.acceleration, 1);
+        (self.since, self.until) = (first.time, first.time);
     }
 
     fn judge(&self, sample: Sample) -> Option<Fault> {
         let lasts = sample.time - self.since;
         let far = (sample.acceleration - self.middle).abs();
-        if self.repeats >= SATURATED.0 && far > SATURATED.1 && self.changes > 0 {
+        let is_repeated = self.strays.is_empty() && self.repeats >= SATURATED.0;
+        if is_repeated && far > SATURATED.1 && self.changes > 0 {
             return Some(Fault::Saturated);
         }
         if self.repeats >= 8 && lasts > STUCK.max(LONGER * self.longest) {
@@ -176,7 +200,8 @@ impl Sensor {
 
     /// Forgets the time, not the scatter.
     pub fn cross(&mut self) {
-        (self.last, self.stray) = (None, None);
+        self.last = None;
+        self.strays.clear();
         self.repeats = 0;
         self.fault = None;
     }

@@ -66,8 +66,12 @@ impl Statement {
                 }
             }
             (_, Some((it, _))) if rest > motion + MARGIN => {
-                let is_one_way = belief.otherwise > motion + MARGIN;
-                Self::moving(&it, belief, is_one_way, now)
+                let moving = Self::moving(&it, belief, now);
+                if belief.otherwise > motion + MARGIN {
+                    moving
+                } else {
+                    moving.without_direction(now)
+                }
             }
             (_, Some((it, _))) => Self::unknown(now, doubt(&it, belief)),
             _ => Self::unknown(now, Doubt::Beginning),
@@ -79,11 +83,8 @@ impl Statement {
         }
     }
 
-    /// Of a cage that moves. Where it may as well go the other way, one starts as the other brakes: nothing is said but that
-    /// it moves now.
-    fn moving(motion: &Hypothesis, belief: &Belief, is_one_way: bool, now: f64) -> Self {
+    fn moving(motion: &Hypothesis, belief: &Belief, now: f64) -> Self {
         let (phase, since, speed) = match (motion.cage, belief.change) {
-            _ if !is_one_way => (Phase::Inertial, now, None),
             (Cage::Moves(progress), Some((from, change))) => {
                 let gains = change * progress.speed > 0.0;
                 let speed = progress.speed + if motion.since < from { change } else { 0.0 };
@@ -109,10 +110,25 @@ impl Statement {
             state: State::Known(phase),
             since: since.min(now),
             start: matches!(motion.cage, Cage::Moves(_)).then_some(motion.since),
-            direction: motion.direction().filter(|_| is_one_way),
+            direction: motion.direction(),
             speed: speed.map(f64::abs),
             reason: None,
             ..Self::unknown(now, Doubt::Beginning)
+        }
+    }
+
+    /// The same of a cage that may as well go the other way: one starts as the other brakes, and all that is known is that it
+    /// moves now.
+    pub fn without_direction(self, now: f64) -> Self {
+        if !self.state.moves() {
+            return self;
+        }
+        Self {
+            state: State::Known(Phase::Inertial),
+            since: now,
+            direction: None,
+            speed: None,
+            ..self
         }
     }
 

@@ -43,9 +43,15 @@ pub struct LineReader<R> {
 pub struct StreamColumns {
     parser: Parser,
     options: Reading,
+    has_drum: bool,
 }
 
 impl StreamColumns {
+    /// Whether the last cell is the drum.
+    pub fn has_drum(&self) -> bool {
+        self.has_drum
+    }
+
     /// The options with which they were found.
     pub fn options(&self) -> &Reading {
         &self.options
@@ -100,19 +106,32 @@ impl<R: BufRead> LineReader<R> {
         }
     }
 
-    /// Goes on with a stream whose columns another reader has found, unless it begins with a header.
+    /// Goes on with a stream whose columns another reader has found, unless it begins with a header that they do not fit.
+    /// Where that reader left it within a line, what is left of that is passed over.
     ///
     /// # Errors
     /// If the reader fails.
-    pub fn resume(mut self, columns: StreamColumns) -> Result<Self, LineError> {
-        self.options = columns.options;
-        let first = self.lines.next().map_err(|(line, problem)| LineError {
+    pub fn resume(mut self, columns: StreamColumns, within_line: bool) -> Result<Self, LineError> {
+        let unread = |(line, problem): Located| LineError {
             line: line.unwrap_or(0),
             problem,
-        })?;
+        };
+        self.options = columns.options;
+        self.has_drum = columns.has_drum;
+        if within_line {
+            self.lines.next().map_err(unread)?;
+        }
+        let first = self.lines.next().map_err(unread)?;
         if let Some(line) = first.map(|line| line.keep()) {
-            if !begins_with_a_word(&line.bytes) {
-                self.parser = Some(columns.parser);
+            let parser = columns.parser;
+            let read = reading(
+                &mut parser.clone(),
+                &line.bytes,
+                self.has_drum,
+                &self.options,
+            );
+            if read.is_ok() || !may_be_header(&line.bytes) {
+                self.parser = Some(parser);
             }
             self.lines.give_back(vec![line]);
         }
@@ -124,6 +143,7 @@ impl<R: BufRead> LineReader<R> {
         self.parser.clone().map(|parser| StreamColumns {
             parser,
             options: self.options.clone(),
+            has_drum: self.has_drum,
         })
     }
 
@@ -173,10 +193,12 @@ impl<R: BufRead> LineReader<R> {
     }
 }
 
-/// Whether this is a header. Half a line of a stream that was left in its middle is none.
-fn begins_with_a_word(line: &[u8]) -> bool {
-    let first = line.trim_ascii_start().first();
-    first.is_some_and(|c| c.is_ascii_alphabetic() || b"\"#%".contains(c))
+/// Whether a line begins with a word.
+fn may_be_header(line: &[u8]) -> bool {
+    let line = line.strip_prefix("\u{feff}".as_bytes()).unwrap_or(line);
+    let mut word = line.iter().skip_while(|c| b" \t\"'".contains(c));
+    word.next()
+        .is_some_and(|c| !(c.is_ascii_digit() || b"+-.,;".contains(c)))
 }
 
 #[inline]

@@ -16,7 +16,7 @@ pub(super) const SURE: f64 = 0.05;
 
 /// How many samples are missing among these, whose period, s, has a deviation of `jitter` periods.
 pub(super) fn missing(samples: &[Sample], period: f64, jitter: f64) -> u64 {
-    let usual = 0.5..=1.0 + f64::max(10.0 * SURE, 10.0 * jitter);
+    let usual = 0.5..=1.0 + 10.0 * SURE.max(jitter);
     let (mut missing, mut surplus) = (0.0, 0.0);
     for pair in samples.windows(2) {
         let periods = (pair[1].time - pair[0].time) / period;

@@ -78,7 +78,7 @@ pub use facts::{Facts, Gap};
 
 pub use barometer::{Barometer, BarometerWarning};
 pub use line_reader::{LineError, LineReader, LineReading, StreamColumns};
-pub use moment::Moment;
+pub use moment::{Moment, When};
 pub use pressure::{Pressure, PressureUnit};
 pub use reading::Reading;
 pub use sample::Sample;

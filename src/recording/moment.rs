@@ -1,11 +1,13 @@
 //! Moments of the calendar, as RFC 3339 writes them.
 
+use super::error::RecordingProblem;
 use super::stamp::{self, Zone};
 use jiff::Timestamp;
 use jiff::fmt::temporal::DateTimePrinter;
 use jiff::tz::Offset;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use std::fmt;
+use std::str::FromStr;
 
 /// A moment, to the millisecond, or as fine as it was read.
 ///
@@ -50,6 +52,98 @@ impl Moment {
             (later.saturating_add(MILLISECOND / 2)).rem_euclid(MILLISECOND) - MILLISECOND / 2;
         Self::new(later - past, self.zone)
     }
+
+    /// How long after `zero` it is, s. Without a zone it is read on the clock of `zero`; `None` if only that has none.
+    fn since(self, zero: Self) -> Option<f64> {
+        let ahead = match (self.zone, zero.zone) {
+            (Zone::Local, Zone::Offset(offset)) => offset.seconds(),
+            (Zone::Local, _) | (Zone::Utc | Zone::Offset(_), Zone::Utc | Zone::Offset(_)) => 0,
+            (_, Zone::Local) => return None,
+        };
+        let nanoseconds = self.nanoseconds.saturating_sub(zero.nanoseconds);
+        Some(nanoseconds as f64 / 1e9 - f64::from(ahead))
+    }
+
+    fn read(text: &str) -> Option<Self> {
+        let stamp = stamp::read(text.as_bytes()).filter(|stamp| stamp.has_date)?;
+        Some(Self::new(stamp.nanoseconds, stamp.zone))
+    }
+}
+
+/// A time of a record: as it is printed, or by the calendar.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum When {
+    /// s.
+    Seconds(f64),
+    /// Of a record that has dates.
+    At(Moment),
+}
+
+impl When {
+    /// As it is printed, s, where `zero` is the moment of time 0.
+    pub(super) fn seconds(self, zero: Option<Moment>) -> Result<f64, RecordingProblem> {
+        let (rule, remedy) = match (self, zero) {
+            (Self::Seconds(seconds), _) => return Ok(seconds),
+            (Self::At(_), None) => (
+                "--from and --to must be in s: the times of this record have no date",
+                "as times are printed",
+            ),
+            (Self::At(moment), Some(zero)) => match moment.since(zero) {
+                Some(seconds) => return Ok(seconds),
+                None => (
+                    "--from and --to must have no zone: the times of this record have none",
+                    "leave Z or the offset out",
+                ),
+            },
+        };
+        Err(RecordingProblem::must(rule, self, remedy))
+    }
+}
+
+impl fmt::Display for When {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Seconds(seconds) => seconds.fmt(f),
+            Self::At(moment) => moment.fmt(f),
+        }
+    }
+}
+
+impl FromStr for When {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text.parse::<f64>() {
+            Ok(seconds) if seconds.is_finite() => Ok(Self::Seconds(seconds)),
+            _ => Moment::read(text)
+                .map(Self::At)
+                .ok_or("must be in s, or a date and a time such as 2026-11-30T14:05:00"),
+        }
+    }
+}
+
+impl Serialize for When {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Seconds(seconds) => seconds.serialize(serializer),
+            Self::At(moment) => moment.serialize(serializer),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for When {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Written {
+            Seconds(f64),
+            Text(String),
+        }
+        match Written::deserialize(deserializer)? {
+            Written::Seconds(seconds) => Ok(Self::Seconds(seconds)),
+            Written::Text(text) => text.parse().map_err(de::Error::custom),
+        }
+    }
 }
 
 impl fmt::Display for Moment {
@@ -75,9 +169,7 @@ impl Serialize for Moment {
 impl<'de> Deserialize<'de> for Moment {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let text = String::deserialize(deserializer)?;
-        let stamp = stamp::read(text.as_bytes()).filter(|stamp| stamp.has_date);
-        let moment = stamp.map(|stamp| Self::new(stamp.nanoseconds, stamp.zone));
-        moment.ok_or_else(|| de::Error::custom("must be a date and a time of RFC 3339"))
+        Self::read(&text).ok_or_else(|| de::Error::custom("must be a date and a time of RFC 3339"))
     }
 }
 
@@ -103,6 +195,42 @@ mod tests {
         for text in ["14:23:00", "2013-11-25", "noon", "2013-02-30T00:00:00Z"] {
             let json = format!("\"{text}\"");
             assert!(serde_json::from_str::<Moment>(&json).is_err(), "{text}");
+        }
+    }
+
+    /// Between zones, and on the clock of the record.
+    #[test]
+    fn times_of_a_record() {
+        let moment = |text: &str| Moment::read(text).unwrap();
+        let seconds = |text: &str, zero| {
+            let when: When = text.parse().unwrap();
+            when.seconds(zero).map_err(|error| error.to_string())
+        };
+        let summer = Some(moment("2026-07-01T12:00:00+02:00"));
+        let (utc, local) = (
+            Some(moment("2026-07-01T10:00:00Z")),
+            Some(moment("2026-07-01T12:00:00")),
+        );
+        for zero in [summer, utc] {
+            assert_eq!(seconds("2026-07-01T10:00:30.5Z", zero), Ok(30.5));
+            assert_eq!(seconds("2026-07-01T05:59:00-04:00", zero), Ok(-60.0));
+        }
+        assert_eq!(seconds("2026-07-01T12:00:01", summer), Ok(1.0));
+        assert_eq!(seconds("2026-07-01T10:00:01", utc), Ok(1.0));
+        assert_eq!(seconds("2026-07-01T12:00:01", local), Ok(1.0));
+        assert!(
+            seconds("2026-07-01T10:00:01Z", local)
+                .unwrap_err()
+                .contains("must have no zone")
+        );
+        assert!(
+            seconds("2026-07-01T10:00:01Z", None)
+                .unwrap_err()
+                .contains("no date")
+        );
+        assert_eq!(seconds("-1.5", None), Ok(-1.5));
+        for text in ["", "inf", "NaN", "noon", "12:00", "2026-07-01"] {
+            assert!(text.parse::<When>().is_err(), "{text}");
         }
     }
 

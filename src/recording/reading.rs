@@ -1,6 +1,7 @@
 //! Options for reading a recording; unset options are found from the file.
 
 use super::axis::Axis;
+use super::moment::When;
 use super::unit::{TimeUnit, Unit};
 use serde::{Deserialize, Serialize};
 
@@ -21,10 +22,10 @@ pub struct Reading {
     pub invert: bool,
     /// Whether to keep what three axes read across the vertical.
     pub across: bool,
-    /// Read from this time on, s of the file's clock as printed.
-    pub from: Option<f64>,
-    /// Read up to this time, s of the file's clock as printed.
-    pub to: Option<f64>,
+    /// Read from this time on.
+    pub from: Option<When>,
+    /// Read up to this time.
+    pub to: Option<When>,
     /// The rate of the rows, Hz, whose times are then not read.
     pub rate: Option<f64>,
     /// The rate of a uniform grid to resample to, Hz; `None` leaves the signal as recorded.

@@ -3,6 +3,7 @@
 use super::error::{Located, RecordingError, RecordingProblem};
 use super::layout::{Input, Quantity};
 use super::lines::{Line, Lines};
+use super::moment::When;
 use super::parser::Parser;
 use super::reading::Reading;
 use super::source::{Source, Text};
@@ -25,6 +26,8 @@ pub(super) struct Columns {
     row_bytes: f64,
     /// The first and the last time seen, kept or not, s.
     seen: Option<(f64, f64)>,
+    /// From when to when rows are kept, s, once the clock is known.
+    window: Option<(f64, f64)>,
 }
 
 /// Rows that gave no sample.
@@ -82,6 +85,7 @@ impl Columns {
             skipped: Skipped::default(),
             rows: 0,
             seen: None,
+            window: None,
         };
         let is_part = reading.from.or(reading.to).is_some();
         while let Some(line) = lines.next().map_err(blame)? {
@@ -124,10 +128,20 @@ impl Columns {
             return Ok(true);
         };
         self.seen = Some((self.seen.map_or(time, |(first, _)| first), time));
-        if reading.to.is_some_and(|to| time > to) {
+        let (from, to) = match self.window {
+            Some(window) => window,
+            None => {
+                let zero = self.parser.clock.zero().filter(|_| reading.rate.is_none());
+                let at = |time: Option<When>, end| time.map_or(Ok(end), |time| time.seconds(zero));
+                let from = at(reading.from, f64::NEG_INFINITY).map_err(located)?;
+                let to = at(reading.to, f64::INFINITY).map_err(located)?;
+                *self.window.insert((from, to))
+            }
+        };
+        if time > to {
             return Ok(false);
         }
-        if is_empty || reading.from.is_some_and(|from| time < from) {
+        if is_empty || time < from {
             return Ok(true);
         }
         if let Some(&from) = self.times.last() {
@@ -186,14 +200,16 @@ impl Columns {
     fn check(&self, reading: &Reading) -> Result<(), RecordingProblem> {
         let got = self.times.len() as u64;
         let is_part = reading.from.or(reading.to).is_some();
-        match self.seen {
-            Some((first, last)) if got < 2 && is_part => Err(RecordingProblem::NothingLeft {
-                from: reading.from.unwrap_or(first),
-                to: reading.to.unwrap_or(last),
-                got,
-                first,
-                last,
-            }),
+        match (self.seen, self.window) {
+            (Some((first, last)), Some((from, to))) if got < 2 && is_part => {
+                Err(RecordingProblem::NothingLeft {
+                    from: from.max(first),
+                    to: to.min(last),
+                    got,
+                    first,
+                    last,
+                })
+            }
             _ => Ok(()),
         }
     }

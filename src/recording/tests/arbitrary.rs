@@ -36,8 +36,8 @@ fn readings() -> [Reading; 5] {
         },
         Reading { axis, ..default() },
         Reading {
-            from,
-            to,
+            from: from.map(When::Seconds),
+            to: to.map(When::Seconds),
             invert,
             ..default()
         },

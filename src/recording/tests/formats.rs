@@ -309,9 +309,9 @@ fn units_are_assumed_aloud() {
 #[test]
 fn a_part_and_a_rate() {
     let text = table("time,z\n", |_, t, a| format!("{t},{a}"));
-    let part = |from, to| Reading {
-        from,
-        to,
+    let part = |from: Option<f64>, to: Option<f64>| Reading {
+        from: from.map(When::Seconds),
+        to: to.map(When::Seconds),
         ..Reading::default()
     };
     let recording = open_as(&text, &part(Some(0.5), Some(1.0)));
@@ -334,11 +334,49 @@ fn a_part_and_a_rate() {
         (50.0, 3.98)
     );
     let late = Reading {
-        from: Some(2.0),
+        from: Some(When::Seconds(2.0)),
         ..rate.clone()
     };
     assert_eq!(open_as(&lone, &late).facts().samples, 100);
     let nameless = table("", |_, _, a| a.to_string());
     assert!(refused(&nameless).contains("or --rate HZ where rows are evenly spaced"));
     assert_eq!(open_as(&nameless, &rate).facts().samples, 200);
+}
+
+/// A part by the calendar, in the zone of the record, in another, or without one.
+#[test]
+fn a_part_by_the_calendar() {
+    let row = |i: usize| {
+        format!(
+            "2026-11-30T14:05:{:02}.{}+01:00,{}\n",
+            i / 10,
+            i % 10,
+            i % 7
+        )
+    };
+    let dated: String = (0..50).map(row).collect();
+    let plain: String = (0..50)
+        .map(|i| format!("{}.{},{}\n", i / 10, i % 10, i % 7))
+        .collect();
+    let read = |rows: &str, from: &str, to: &str| {
+        let [from, to] = [from, to].map(|when| Some(when.parse().unwrap()));
+        let reading = Reading {
+            from,
+            to,
+            ..Reading::default()
+        };
+        Recording::from_bytes("ride", format!("time,z\n{rows}").into_bytes(), &reading)
+    };
+    for from in [
+        "2026-11-30T13:05:02Z",
+        "2026-11-30T14:05:02",
+        "2026-11-30T08:05:02-05:00",
+        "2",
+    ] {
+        let part = read(&dated, from, "2026-11-30T14:05:03+01:00").unwrap();
+        let samples = part.samples();
+        assert_eq!((samples.len(), samples[0].time), (11, 2.0), "{from}");
+    }
+    let refused = read(&plain, "2026-11-30T14:05:02", "3").unwrap_err();
+    assert!(refused.to_string().contains("have no date"), "{refused}");
 }
