@@ -34,21 +34,50 @@ pub(super) struct Sensor {
     period: f64,
     slowness: f64,
     last: Option<Sample>,
-    /// The value that is repeated, m/s², since when and until when, s, and how often.
-    value: f64,
-    since: f64,
-    until: f64,
-    repeats: u32,
+    /// The samples that are equal to the last, and those that are so but for glitches.
+    equal: Run,
+    held: Run,
     /// The latest samples, if they are off the value, and no more than a glitch has.
     strays: Vec<Sample>,
     /// The smallest change of a value that was there for longer than a glitch, m/s².
     step: f64,
-    /// The longest run before, s, and how many changes there were.
-    longest: f64,
+    /// How often the value that is held has changed.
     changes: u32,
     /// A slow mean, m/s².
     middle: f64,
     fault: Option<Fault>,
+}
+
+/// Equal samples.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+struct Run {
+    /// m/s²
+    value: f64,
+    /// From the first to the last, s, and how many.
+    since: f64,
+    until: f64,
+    count: u32,
+    /// How long the longest before was, s.
+    longest: f64,
+}
+
+impl Run {
+    /// Goes on with a sample, or begins anew: at the first sample, or if it differs; whether the one that ends counts.
+    fn take(&mut self, sample: Sample, is_first: bool, counts: bool) {
+        if is_first || sample.acceleration != self.value {
+            if counts && !is_first {
+                self.longest = self.longest.max(self.until - self.since);
+            }
+            (self.value, self.since, self.count) = (sample.acceleration, sample.time, 0);
+        }
+        self.until = sample.time;
+        self.count += 1;
+    }
+
+    /// Whether it is too long for a live sensor.
+    fn is_dead(&self, now: f64) -> bool {
+        self.count >= 8 && now - self.since > STUCK.max(LONGER * self.longest)
+    }
 }
 
 /// What a sample says of its sensor.
@@ -71,13 +100,10 @@ impl Sensor {
             period,
             slowness: 1.0,
             last: None,
-            value: 0.0,
-            since: 0.0,
-            until: 0.0,
-            repeats: 0,
+            equal: Run::default(),
+            held: Run::default(),
             strays: Vec::with_capacity(GLITCH + 1),
             step: f64::INFINITY,
-            longest: 0.0,
             changes: 0,
             middle: 0.0,
             fault: None,
@@ -96,6 +122,8 @@ impl Sensor {
             let times = ((sample.time - last.time) / self.period).clamp(0.0, SLOW.3);
             self.slowness += (times - self.slowness) / SLOW.2;
         }
+        self.equal
+            .take(sample, self.last.is_none(), self.is_trusted());
         self.compare(sample);
         self.last = Some(sample);
         let was = self.fault;
@@ -107,7 +135,8 @@ impl Sensor {
                 .filter(|_| self.fault != was)
                 .map(|fault| match fault {
                     Fault::Slow => (fault, sample.time),
-                    _ => (fault, self.since),
+                    Fault::Stuck if self.held.is_dead(sample.time) => (fault, self.held.since),
+                    _ => (fault, self.equal.since),
                 }),
             ends: was.is_some() && self.fault.is_none(),
             is_proven: self.is_proven(),
@@ -117,23 +146,23 @@ impl Sensor {
     /// Compares a sample with the value that is repeated.
     fn compare(&mut self, sample: Sample) {
         if self.last.is_none() {
-            return self.hold(sample);
+            return self.held.take(sample, true, false);
         }
-        let is_back = sample.acceleration == self.value;
+        let is_back = sample.acceleration == self.held.value;
         if !is_back {
             self.strays.push(sample);
             if self.strays.len() <= GLITCH {
                 return;
             }
         }
-        if !is_back && self.repeats as usize > GLITCH {
+        if !is_back && self.held.count as usize > GLITCH {
             // Neither what was nor what comes is a glitch.
-            let by = |it: &Sample| (it.acceleration - self.value).abs();
+            let by = |it: &Sample| (it.acceleration - self.held.value).abs();
             self.step = self.strays.iter().map(by).fold(self.step, f64::min);
         }
         if !(is_back && self.are_glitches()) {
-            for stray in std::mem::take(&mut self.strays) {
-                self.take(stray);
+            for at in 0..self.strays.len() {
+                self.take(self.strays[at]);
             }
         }
         self.strays.clear();
@@ -145,45 +174,34 @@ impl Sensor {
     /// Whether the samples off the value are nothing else, now that it is back.
     fn are_glitches(&self) -> bool {
         let most = GREAT.min(STEPS_OF_GLITCH * self.step);
-        let is_far = |it: &Sample| (it.acceleration - self.value).abs() > most;
+        let is_far = |it: &Sample| (it.acceleration - self.held.value).abs() > most;
         self.step.is_infinite() || self.strays.iter().all(is_far)
     }
 
     /// Takes a sample that is no glitch.
     fn take(&mut self, sample: Sample) {
-        if sample.acceleration == self.value {
-            self.repeats += 1;
-            self.until = sample.time;
-        } else {
-            self.change(sample);
+        if sample.acceleration != self.held.value {
+            self.changes = self.changes.saturating_add(1);
+            self.middle += (self.held.value - self.middle) / f64::from(self.changes.min(1000));
         }
+        self.held.take(sample, false, self.is_trusted());
     }
 
-    /// The value becomes another.
-    fn change(&mut self, sample: Sample) {
-        // Until then a long run may as well be that of a coarse sensor at rest.
-        if self.fault.is_none() || !self.is_proven() {
-            self.longest = self.longest.max(self.until - self.since);
-        }
-        self.changes = self.changes.saturating_add(1);
-        self.middle += (self.value - self.middle) / f64::from(self.changes.min(1000));
-        self.hold(sample);
-    }
-
-    /// A run of equal samples begins.
-    fn hold(&mut self, first: Sample) {
-        (self.value, self.repeats) = (first.acceleration, 1);
-        (self.since, self.until) = (first.time, first.time);
+    /// Whether a run counts that ends now. One that was called stuck may as well be that of a coarse sensor at rest for as
+    /// long as not much is known of it.
+    fn is_trusted(&self) -> bool {
+        self.fault.is_none() || !self.is_proven()
     }
 
     fn judge(&self, sample: Sample) -> Option<Fault> {
-        let lasts = sample.time - self.since;
         let far = (sample.acceleration - self.middle).abs();
-        let is_repeated = self.strays.is_empty() && self.repeats >= SATURATED.0;
-        if is_repeated && far > SATURATED.1 && self.changes > 0 {
+        if self.equal.count >= SATURATED.0 && far > SATURATED.1 && self.changes > 0 {
             return Some(Fault::Saturated);
         }
-        if self.repeats >= 8 && lasts > STUCK.max(LONGER * self.longest) {
+        if [self.equal, self.held]
+            .iter()
+            .any(|run| run.is_dead(sample.time))
+        {
             return Some(Fault::Stuck);
         }
         let most = if self.fault == Some(Fault::Slow) {
@@ -202,7 +220,7 @@ impl Sensor {
     pub fn cross(&mut self) {
         self.last = None;
         self.strays.clear();
-        self.repeats = 0;
+        (self.equal.count, self.held.count) = (0, 0);
         self.fault = None;
     }
 }
