@@ -18,15 +18,17 @@ pub struct Clairvoyant {
     /// The first sample that may carry an impulse.
     first_impulse: usize,
     steps: Vec<Step>,
+    /// The effects that steps have on the mean, each once.
+    means: Vec<f64>,
     states: usize,
 }
 
-/// A transition between states: its effect on the mean and its probability.
+/// A transition between states: the place of its effect on the mean, and its probability.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Step {
     from: usize,
     to: usize,
-    mean: f64,
+    mean: usize,
     probability: f64,
 }
 
@@ -35,6 +37,9 @@ struct Step {
 pub struct Forward {
     now: Vec<f64>,
     next: Vec<f64>,
+    /// For each effect on the mean.
+    exponents: Vec<f64>,
+    likelihoods: Vec<f64>,
 }
 
 impl Clairvoyant {
@@ -42,16 +47,21 @@ impl Clairvoyant {
     /// from sample `first_impulse` on, and a sensor with the autoregression `ar`.
     pub fn new(shift: Vec<f64>, first_impulse: usize, nu: f64, theta: f64, ar: &[f64]) -> Self {
         let states = states(ar.len());
-        let mut steps = Vec::new();
+        let (mut steps, mut means) = (Vec::new(), Vec::<f64>::new());
         for (from, path) in states.iter().enumerate() {
             for (sum, probability) in next_sums(path[path.len() - 1], nu) {
                 let longer = extended(path, sum);
                 let mean = theta * whitened_impulse(&longer, ar);
+                let known = means.iter().position(|known| *known == mean);
+                let place = known.unwrap_or(means.len());
+                if known.is_none() {
+                    means.push(mean);
+                }
                 let to = states.iter().position(|path| *path == longer[1..]);
                 steps.push(Step {
                     from,
                     to: to.expect("every allowed path is a state"),
-                    mean,
+                    mean: place,
                     probability,
                 });
             }
@@ -61,6 +71,7 @@ impl Clairvoyant {
             shift,
             first_impulse,
             steps,
+            means,
             states: states.len(),
         }
     }
@@ -68,7 +79,12 @@ impl Clairvoyant {
     /// The log likelihood ratio of `innovations`: the record from the first sample of the motion on, whitened
     /// with the true filter.
     pub fn log_likelihood_ratio(&self, innovations: &[f64], forward: &mut Forward) -> f64 {
-        let Forward { now, next } = forward;
+        let Forward {
+            now,
+            next,
+            exponents,
+            likelihoods,
+        } = forward;
         now.clear();
         now.resize(self.states, 0.0);
         next.resize(self.states, 0.0);
@@ -81,16 +97,19 @@ impl Clairvoyant {
                 continue;
             }
             next.fill(0.0);
-            let exponent = |step: &Step| {
-                let mean = shift + step.mean;
+            exponents.clear();
+            exponents.extend(self.means.iter().map(|mean| {
+                let mean = shift + mean;
                 mean * (z - mean / 2.0)
-            };
+            }));
             let possible = || self.steps.iter().filter(|step| now[step.from] > 0.0);
             // The largest exponent is factored out of the sum, so that nothing overflows.
-            let largest = possible().map(exponent).fold(f64::NEG_INFINITY, f64::max);
+            let exponents_of = possible().map(|step| exponents[step.mean]);
+            let largest = exponents_of.fold(f64::NEG_INFINITY, f64::max);
+            likelihoods.clear();
+            likelihoods.extend(exponents.iter().map(|it| libm::exp(it - largest)));
             for step in possible() {
-                let likelihood = libm::exp(exponent(step) - largest);
-                next[step.to] += now[step.from] * step.probability * likelihood;
+                next[step.to] += now[step.from] * step.probability * likelihoods[step.mean];
             }
             let sum: f64 = next.iter().sum();
             logarithm += largest;
