@@ -231,7 +231,7 @@ fn a_saved_monitor_goes_on_as_it_was_or_says_why_not() {
     let state = ["--state", "lift.json"];
     let (code, _, error) = monitor(&[&state[..], &["--unit", "g"]].concat(), &lines);
     assert_eq!(code, 2);
-    assert!(error.contains("leave these flags out"), "{error}");
+    assert!(error.contains("leave them out"), "{error}");
     let (code, _, error) = monitor(&[&state[..], &["--begins", "rest"]].concat(), &lines);
     assert_eq!(code, 0);
     assert!(error.contains("begins anew"), "{error}");
