@@ -85,39 +85,6 @@ fn a_sensor_stuck_from_its_first_sample_tells_nothing() {
     }
 }
 
-/// Nor does one that is dead but for glitches, from its first sample on or later, the same ones or others.
-#[test]
-fn glitches_are_no_sign_of_life() {
-    let sizes = [9.0, 0.4, 0.05];
-    let kinds = sizes.map(|most| [20, 80, 250].map(|every| [1, 2].map(|long| (most, every, long))));
-    for (most, every, long) in kinds.into_iter().flatten().flatten() {
-        for (alive, level, is_one) in [
-            (0.0, 0.0, true),
-            (0.0, 9.81, false),
-            (0.0, 0.4, true),
-            (12.0, 0.003, true),
-            (12.0, 0.003, false),
-        ] {
-            let lived = Record::quiet().rest(alive);
-            // Its first sample may be one, too.
-            let first = if is_one { 0 } else { 40 };
-            let from = lived.samples.len();
-            let mut samples = lived.samples;
-            samples.resize(from + 6000, level);
-            for (place, i) in (from + first..from + 5990).step_by(every).enumerate() {
-                let share = (place * 37 % 100) as f64 / 100.0;
-                let size = if is_one { most } else { share * most };
-                samples[i..i + long].fill(level + size);
-            }
-            let record = Record { samples, ..lived };
-            let mut monitor = standing();
-            record.watch(&mut monitor);
-            let what = format!("{most} {every} {long} {alive} {level} {is_one}");
-            assert_eq!(monitor.state(), State::Unknown, "{what}");
-        }
-    }
-}
-
 /// A sensor whose steps hide its noise does not scatter at rest either. Its first trip shows that it is not stuck.
 #[test]
 fn a_coarse_sensor_shows_the_trips() {
@@ -238,41 +205,6 @@ fn a_jump_before_a_ride_hides_no_ride() {
         let events = record.watch(&mut monitor);
         assert!(known(&events).contains(&INERTIAL), "{pause}: {events:?}");
         assert_eq!(monitor.state(), REST, "{pause}");
-    }
-}
-
-/// Wherever a hole lies in a ride, what comes after it is never told the wrong way round: a braking may as well be a start.
-#[test]
-fn after_a_hole_no_direction_is_guessed() {
-    for [sign, next] in [[1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [-1.0, -1.0]] {
-        let record = Record::quiet().rest(10.0).trip(sign).rest(10.0);
-        let record = record.trip(next).rest(10.0);
-        for hole in (0..40).flat_map(|i| [0.6, 1.5, 3.0, 6.0, 12.0, 20.0].map(|it| (i, it))) {
-            let from = 8.0 + f64::from(hole.0) / 2.0;
-            let [first, after] = [from, from + hole.1].map(|it| (it * RATE) as usize);
-            let mut monitor = standing();
-            let readings = record.samples.iter().enumerate();
-            for (i, acceleration) in readings.filter(|(i, _)| !(first..after).contains(i)) {
-                let time = i as f64 / RATE;
-                let sample = Sample {
-                    time,
-                    acceleration: *acceleration,
-                };
-                for event in monitor.step(sample, None) {
-                    let Some(told) = event.kind.direction() else {
-                        continue;
-                    };
-                    let goes = if (10.0..23.0).contains(&time) {
-                        sign
-                    } else if (32.0..45.0).contains(&time) {
-                        next
-                    } else {
-                        told.sign()
-                    };
-                    assert_eq!(told.sign(), goes, "{from} for {}: {event:?}", hole.1);
-                }
-            }
-        }
     }
 }
 
