@@ -5,7 +5,7 @@ use super::{Failure, output, warn};
 use anyhow::{Context, anyhow};
 use liftsim::files;
 use liftsim::monitor::{Knowledge, Monitor, Running, RunningError, SavedState};
-use liftsim::recording::StreamColumns;
+use liftsim::recording::{Reading, StreamColumns};
 use liftsim::track::Watch;
 use serde::{Deserialize, Serialize};
 use std::io::BufRead;
@@ -39,6 +39,29 @@ impl Going {
             }
             Err(error) => Err(Failure::input(error)),
         }
+    }
+
+    /// Refuses to read the stream in another way than this one did. Without flags it is read in the same way.
+    pub fn check(&self, reading: &Reading, has_drum: bool) -> Result<(), Failure> {
+        let Some(columns) = &self.columns else {
+            return Ok(());
+        };
+        if *reading != Reading::default() && reading != columns.options() {
+            return Err(Failure::Input(anyhow!(
+                "the flags for columns, units and axis are not those with which the saved monitor ran (leave them out, or \
+                 begin anew with --begins)"
+            )));
+        }
+        if has_drum != columns.has_drum() {
+            let with = match columns.has_drum() {
+                true => "with",
+                false => "without",
+            };
+            return Err(Failure::Input(anyhow!(
+                "the saved monitor ran {with} --expected-moving (do so again, or begin anew with --begins)"
+            )));
+        }
+        Ok(())
     }
 }
 

@@ -8,7 +8,7 @@ use super::monitor_options::{Beginning, MonitorArguments, Setup};
 use super::network::{Network, NetworkArguments};
 use super::output;
 use super::reading::ColumnArguments;
-use super::readings::{Reading, Readings};
+use super::readings::{Reading, Readings, UNEVEN};
 use super::signals::Signals;
 use super::stdin::Stdin;
 use super::{CommandResult, Failure, print_to, warn};
@@ -93,9 +93,6 @@ pub struct MonitorCommand {
     #[command(flatten)]
     network: NetworkArguments,
 }
-
-/// By how much a rate may differ from the one of the saved state.
-const UNEVEN: f64 = 0.05;
 
 const NO_READING: &str = "standard input: holds no reading (check that the sensor sends any)";
 
@@ -195,24 +192,10 @@ impl MonitorCommand {
                 saved.rate
             )));
         }
+        if let Some(going) = &going {
+            going.check(reading, self.expected_moving)?;
+        }
         if let Some(columns) = going.as_mut().and_then(|it| it.columns.take()) {
-            let is_told = *reading != recording::Reading::default();
-            if is_told && reading != columns.options() {
-                return Err(Failure::Input(anyhow!(
-                    "the flags for columns, units and axis are not those with which the saved monitor ran (leave them out, or \
-                     begin anew with --begins)"
-                )));
-            }
-            if self.expected_moving != columns.has_drum() {
-                let with = if columns.has_drum() {
-                    "with"
-                } else {
-                    "without"
-                };
-                return Err(Failure::Input(anyhow!(
-                    "the saved monitor ran {with} --expected-moving (do so again, or begin anew with --begins)"
-                )));
-            }
             let within_line = going.as_ref().is_some_and(|it| it.taken.within_line);
             lines = lines
                 .resume(columns, within_line)

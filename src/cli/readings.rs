@@ -12,6 +12,9 @@ use std::io;
 /// Readings from which a rate is measured.
 const MEASURED: usize = 100;
 
+/// By how much a measured rate may differ from a known one.
+pub const UNEVEN: f64 = 0.05;
+
 /// The largest time, s: no clock is later, and doubles still resolve milliseconds.
 const LATEST: f64 = 1e12;
 
@@ -118,7 +121,7 @@ impl<'a, R: io::BufRead> Readings<'a, R> {
             self.intervals.push(time - last);
             if self.intervals.len() == MEASURED
                 && let (Some(rate), Some(measured)) = (self.rate, self.measured())
-                && (measured / rate - 1.0).abs() > 0.05
+                && (measured / rate - 1.0).abs() > UNEVEN
             {
                 return Err(Failure::Input(anyhow!(
                     "standard input: samples come at {measured:.1} Hz, and not at {rate:.1} Hz as --rate or the saved \
