@@ -131,6 +131,14 @@ impl Kind {
             _ => None,
         }
     }
+
+    /// The direction of the motion, if it tells one.
+    pub fn direction(&self) -> Option<Direction> {
+        match self {
+            Self::Change { direction, .. } => *direction,
+            _ => None,
+        }
+    }
 }
 
 /// Why the cage needs attention.

@@ -3,6 +3,7 @@
 //! A hypothesis explains all pulses so far. The next pulse is a change of speed, or something else, or one of
 //! several that are together a disturbance; each choice makes a new hypothesis, dearer by the cost of the choice.
 
+use super::event::Direction;
 use super::prices::{self, Known};
 use crate::explain::{Prior, Progress, Turned, cost};
 use serde::{Deserialize, Serialize};
@@ -104,6 +105,14 @@ impl Hypothesis {
 
     pub fn is_rest(&self) -> bool {
         self.cage == Cage::Rest
+    }
+
+    /// Where it moves to, if that is known.
+    pub fn direction(&self) -> Option<Direction> {
+        match self.cage {
+            Cage::Moves(progress) => Some(Direction::of(progress.speed)),
+            Cage::Rest | Cage::Open => None,
+        }
     }
 
     /// How much worse than others it is not to believe it, nats.

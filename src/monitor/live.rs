@@ -6,6 +6,7 @@
 //! hypotheses from before, dearer by the cost of a shift. So motion and shift are both followed until the
 //! evidence decides.
 
+use super::event::Direction;
 use super::hypothesis::{Cage, Hypothesis};
 use super::noise::Noises;
 use super::prices::Known;
@@ -53,6 +54,8 @@ pub(super) struct Belief {
     pub motion: Option<(Hypothesis, f64)>,
     /// The cost of the cheapest in motion, where faster ones count as cheaper: an error about them is worse.
     pub threat: f64,
+    /// The cost of the cheapest in motion that may go another way than the cheapest does.
+    pub otherwise: f64,
     /// The cost of the cheapest of all.
     pub least: f64,
     /// The current pulse, where it changes the speed of the motion: its beginning, s, and its sign.
@@ -293,6 +296,7 @@ impl Live {
         let is_open = belief.motion.is_some_and(|(it, _)| it.cage == Cage::Open);
         if is_calm == Some(true) {
             belief.threat += CALM;
+            belief.otherwise += CALM;
             belief.motion.iter_mut().for_each(|best| best.1 += CALM);
         } else if is_calm == Some(false) && is_open {
             belief.rest.iter_mut().for_each(|best| best.1 += CALM);
@@ -313,12 +317,14 @@ impl Live {
     fn cheapest(&self) -> Belief {
         let mut belief = Belief {
             threat: f64::INFINITY,
+            otherwise: f64::INFINITY,
             ..Belief::default()
         };
         let Some(now) = self.recent.now() else {
             return belief;
         };
         let mut levels = [0.0; 2];
+        let mut ways = [f64::INFINITY; 3];
         for track in &self.tracks {
             let pulse = track.current(&self.known);
             let take = |it: &Hypothesis, cost: f64, changes: bool| {
@@ -326,6 +332,8 @@ impl Live {
                 if !is_rest {
                     let danger = it.danger(&self.known, self.strain > STRAINED);
                     belief.threat = belief.threat.min(cost - danger);
+                    let least = &mut ways[way(it)];
+                    *least = least.min(cost);
                 }
                 let best = if is_rest {
                     &mut belief.rest
@@ -348,11 +356,24 @@ impl Live {
         }
         let least = |best: Option<(Hypothesis, f64)>| best.map_or(f64::INFINITY, |best| best.1);
         belief.least = least(belief.rest).min(least(belief.motion));
+        if let Some((it, _)) = &belief.motion {
+            ways[way(it)] = f64::INFINITY;
+            belief.otherwise = ways.into_iter().fold(f64::INFINITY, f64::min);
+        }
         belief.noise = self.recent.noise();
         belief.is_shifted = levels[0] != levels[1];
         if let Some(first) = self.tracks.first() {
             belief.level = first.level;
         }
         belief
+    }
+}
+
+/// The way of a motion among all ways: up, down, unknown.
+fn way(motion: &Hypothesis) -> usize {
+    match motion.direction() {
+        Some(Direction::Up) => 0,
+        Some(Direction::Down) => 1,
+        None => 2,
     }
 }

@@ -112,6 +112,13 @@ pub struct Monitor {
     /// Whether motions of this cage look different from rest.
     motion_shows: bool,
     said: Statement,
+    /// Whether rest was told since the record began, or went on after a hole. Before, a trip that is read backwards looks as
+    /// good for as long as nothing says otherwise.
+    knows_rest: bool,
+    /// When the record began, or went on after a hole, s.
+    begun: f64,
+    /// When a motion was last told with its direction, s.
+    moved: (f64, Option<Direction>),
     /// The level when it was last certain, m/s².
     level: Option<f64>,
     /// Time of the last sample, s.
@@ -170,6 +177,9 @@ impl Monitor {
             is_noisy: false,
             motion_shows: knowledge.motion_shows && knowledge.reference.is_some(),
             said: Statement::unknown(0.0, Doubt::Beginning),
+            knows_rest: knowledge.begins_at_rest,
+            begun: f64::NEG_INFINITY,
+            moved: (f64::NEG_INFINITY, None),
             level: None,
             last: None,
             newest: None,
@@ -197,7 +207,7 @@ impl Monitor {
 
     /// The event before the first sample, which is taken at `time`.
     pub fn beginning(&self, time: f64) -> Event {
-        Statement::unknown(time, Doubt::Beginning).event(time)
+        Statement::unknown(time, Doubt::Beginning).event(None, time)
     }
 
     /// The current state of the cage.
@@ -231,7 +241,9 @@ impl Monitor {
         } else if self.blocks.is_gap(now) {
             self.cross(self.last.unwrap_or(now), now, Fault::Silent);
         }
-        self.last = Some(now);
+        if self.last.replace(now).is_none() {
+            self.begun = now + self.design().block;
+        }
         let health = self.sensor.step(sample);
         if health.begins.is_some() || health.ends {
             self.take_health(health, now);
@@ -253,20 +265,21 @@ impl Monitor {
         self.forget(now, (now - from).max(0.0));
         if fault == Fault::Clock {
             (self.drum, self.jam) = (Drum::default(), f64::NEG_INFINITY);
+            self.moved = (f64::NEG_INFINITY, None);
         }
+        self.begun = now + self.design().block;
         self.say(Statement::unknown(now, Doubt::Hole), now);
     }
 
     fn forget(&mut self, now: f64, seconds: f64) {
         // A clock that was set back hides a hole of unknown length.
-        self.live.cross(
-            now,
-            if seconds > 0.0 {
-                seconds
-            } else {
-                f64::INFINITY
-            },
-        );
+        let seconds = if seconds > 0.0 {
+            seconds
+        } else {
+            f64::INFINITY
+        };
+        self.live.cross(now, seconds);
+        self.knows_rest = false;
         self.decisions.forget();
     }
 
@@ -306,6 +319,11 @@ impl Monitor {
         } else {
             self.confirmed(Statement::of(&belief, now), now)
         };
+        let statement = if self.knows_rest {
+            statement
+        } else {
+            statement.without_direction(now)
+        };
         self.alarm_of_jam(&statement, now);
         self.say(
             if health.is_proven {
@@ -339,23 +357,31 @@ impl Monitor {
     fn say(&mut self, statement: Statement, now: f64) {
         let was = self.said;
         self.said = statement;
-        if was.state == statement.state {
+        self.knows_rest |= statement.state == State::REST;
+        if (was.state, was.direction) == (statement.state, statement.direction) {
             return;
         }
         if was.state.moves() && !statement.state.moves() {
             self.decisions.begin_again();
         }
-        let mut event = statement.event(now);
-        if let Kind::Change { decision, .. } = &mut event.kind {
-            *decision = match statement.braking {
-                Some(braking) if statement.state == State::REST => self.decisions.at_stop(braking),
-                _ if !was.state.moves() && statement.state.moves() => {
-                    self.decisions.at_start(statement.start)
-                }
-                _ => None,
-            };
+        let mut decision = match statement.braking {
+            Some(braking) if statement.state == State::REST => self.decisions.at_stop(braking),
+            _ if !was.state.moves() && statement.state.moves() => {
+                self.decisions.at_start(statement.start)
+            }
+            _ => None,
+        };
+        let (told, way) = self.moved;
+        let is_new = |start: &Statement| start.since > told || start.direction != way;
+        let has_begun = |start: &Statement| start.since > self.begun;
+        let start = statement.start_of_motion().filter(has_begun);
+        if let Some(start) = start.filter(is_new) {
+            self.events.push(start.event(decision.take(), now));
         }
-        self.events.push(event);
+        if statement.direction.is_some() {
+            self.moved = (now, statement.direction);
+        }
+        self.events.push(statement.event(decision, now));
     }
 
     /// Raises the alarm if a shock has ended the motion, or may have.

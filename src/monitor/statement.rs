@@ -1,6 +1,6 @@
 //! What a monitor says: what all plausible hypotheses agree on.
 
-use super::event::{Direction, Doubt, Event, Kind, State};
+use super::event::{Decided, Direction, Doubt, Event, Kind, State};
 use super::hypothesis::{Cage, Hypothesis};
 use super::live::Belief;
 use crate::signal::Phase;
@@ -65,7 +65,14 @@ impl Statement {
                     ..Self::unknown(now, Doubt::Beginning)
                 }
             }
-            (_, Some((it, _))) if rest > motion + MARGIN => Self::moving(&it, belief, now),
+            (_, Some((it, _))) if rest > motion + MARGIN => {
+                let moving = Self::moving(&it, belief, now);
+                if belief.otherwise > motion + MARGIN {
+                    moving
+                } else {
+                    moving.without_direction(now)
+                }
+            }
             (_, Some((it, _))) => Self::unknown(now, doubt(&it, belief)),
             _ => Self::unknown(now, Doubt::Beginning),
         };
@@ -96,20 +103,48 @@ impl Statement {
                 };
                 (phase, progress.since, Some(progress.speed))
             }
+            _ if motion.is_across => (Phase::Inertial, now, None),
             _ => (Phase::Inertial, motion.since, None),
         };
         Self {
             state: State::Known(phase),
             since: since.min(now),
             start: matches!(motion.cage, Cage::Moves(_)).then_some(motion.since),
-            direction: speed.map(Direction::of),
+            direction: motion.direction(),
             speed: speed.map(f64::abs),
             reason: None,
             ..Self::unknown(now, Doubt::Beginning)
         }
     }
 
-    pub fn event(&self, now: f64) -> Event {
+    /// The same of a cage that may as well go the other way: one starts as the other brakes, and all that is known is that it
+    /// moves now.
+    pub fn without_direction(self, now: f64) -> Self {
+        if !self.state.moves() {
+            return self;
+        }
+        Self {
+            state: State::Known(Phase::Inertial),
+            since: now,
+            direction: None,
+            speed: None,
+            ..self
+        }
+    }
+
+    /// The start of the motion, where its direction is known and it is in a later phase.
+    pub fn start_of_motion(&self) -> Option<Self> {
+        let start = self.start.filter(|start| *start < self.since)?;
+        self.direction.map(|direction| Self {
+            state: State::Known(Phase::Accelerating),
+            since: start,
+            direction: Some(direction),
+            reason: None,
+            ..Self::unknown(start, Doubt::Beginning)
+        })
+    }
+
+    pub fn event(&self, decision: Option<Decided>, now: f64) -> Event {
         Event {
             time: self.since.min(now),
             reported: now,
@@ -118,7 +153,7 @@ impl Statement {
                 direction: self.direction,
                 speed: self.speed,
                 reason: self.reason,
-                decision: None,
+                decision,
             },
         }
     }

@@ -434,5 +434,9 @@ fn what_changes_at_once_may_be_the_level() {
     }
     let record = Record::quiet().rest(30.0).changing(2.0, 0.5, 0.0, 1.0);
     let events = record.changing(8.0, -0.5, 0.0, 2.0).watch(&mut standing());
-    assert_eq!(known(&events), [REST, INERTIAL]);
+    assert_eq!(known(&events), [REST, ACCELERATING, INERTIAL]);
+    assert_eq!(
+        events[events.len() - 2].reported,
+        events[events.len() - 1].reported
+    );
 }

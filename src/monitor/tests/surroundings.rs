@@ -208,6 +208,41 @@ fn a_jump_before_a_ride_hides_no_ride() {
     }
 }
 
+/// Wherever a hole lies in a ride, what comes after it is never told the wrong way round: a braking may as well be a start.
+#[test]
+fn after_a_hole_no_direction_is_guessed() {
+    for [sign, next] in [[1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [-1.0, -1.0]] {
+        let record = Record::quiet().rest(10.0).trip(sign).rest(10.0);
+        let record = record.trip(next).rest(10.0);
+        for hole in (0..40).flat_map(|i| [0.6, 1.5, 3.0, 6.0, 12.0, 20.0].map(|it| (i, it))) {
+            let from = 8.0 + f64::from(hole.0) / 2.0;
+            let [first, after] = [from, from + hole.1].map(|it| (it * RATE) as usize);
+            let mut monitor = standing();
+            let readings = record.samples.iter().enumerate();
+            for (i, acceleration) in readings.filter(|(i, _)| !(first..after).contains(i)) {
+                let time = i as f64 / RATE;
+                let sample = Sample {
+                    time,
+                    acceleration: *acceleration,
+                };
+                for event in monitor.step(sample, None) {
+                    let Some(told) = event.kind.direction() else {
+                        continue;
+                    };
+                    let goes = if (10.0..23.0).contains(&time) {
+                        sign
+                    } else if (32.0..45.0).contains(&time) {
+                        next
+                    } else {
+                        told.sign()
+                    };
+                    assert_eq!(told.sign(), goes, "{from} for {}: {event:?}", hole.1);
+                }
+            }
+        }
+    }
+}
+
 /// The sensor is turned in a hole while the cage moves: that it stood when the record began says nothing after it.
 #[test]
 fn a_level_after_a_hole_is_tried_from_the_hole_on() {

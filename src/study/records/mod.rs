@@ -18,6 +18,7 @@
 //! | `false_slack` | records | `slack` while the drum does not turn or the cage moves, per record |
 //! | `false_rides` | hours | starts told while the cage stood, per hour for which it stood |
 //! | `false_records` | records | records with one |
+//! | `wrong_way` | records | a direction is told against that of a cage above 0.2 m/s |
 //! | `known` | hours | for which share of its rest it is told to rest |
 //! | `start_delay_…`, `stop_delay_…` | trips | quantiles of the time to when it is told, in tenths of a second |
 //!

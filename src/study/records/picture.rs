@@ -18,7 +18,7 @@ const DETECTED: &[Shown] = &[
 
 const WATCHED: &[Shown] = &[
     ("rest_in_motion", "records with rest said in motion", true),
-    ("slack_missed", "slack without alarm", true),
+    ("wrong_way", "records with a wrong direction", true),
     ("false_records", "records with a false ride", true),
     ("known", "rest that is told", false),
 ];

@@ -23,7 +23,7 @@ impl Watch {
                 ..Shape::default()
             },
             Self::Monitor => Shape {
-                most: vec![None, one, trips, trips, None, None, one],
+                most: vec![None, one, trips, trips, None, None, one, one],
                 lengths: 2,
                 values: vec![MOST_TRIPS; 2],
             },
@@ -104,6 +104,7 @@ impl Watch {
                     ),
                     rate("false_rides", counts[5], stood, "hours", confidence),
                     of_records("false_records", counts[6]),
+                    of_records("wrong_way", counts[7]),
                     Estimate {
                         value: if stood > 0.0 { known / stood } else { 0.0 },
                         ..plain("known", 0, stood, "hours")
@@ -161,6 +162,7 @@ impl From<Watched> for Sums {
                 watched.false_slack,
                 watched.false_rides,
                 u64::from(watched.false_rides > 0),
+                u64::from(watched.wrong_ways > 0),
             ],
             lengths: vec![Fixed::new(watched.stood), Fixed::new(watched.known)],
             values: values.into(),

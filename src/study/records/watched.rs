@@ -1,7 +1,7 @@
 //! A record shown to the monitor, sample by sample.
 
 use crate::lift::{Class, Record};
-use crate::monitor::{Alarm, Design, Event, Knowledge, Monitor, State};
+use crate::monitor::{Alarm, Design, Direction, Event, Knowledge, Monitor, State};
 use crate::recording::Sample;
 use crate::study::ride::account::{Account, Seen, Truth};
 
@@ -18,6 +18,8 @@ pub struct Watched {
     pub false_slack: u64,
     /// Starts told of a standing cage.
     pub false_rides: u64,
+    /// How often a direction was told to which a cage above [`FAST`] did not go.
+    pub wrong_ways: u64,
     /// How long the cage stood, s.
     pub stood: f64,
     /// For how long of that it said `rest`, s.
@@ -27,7 +29,7 @@ pub struct Watched {
     pub stop_delays: Vec<f64>,
 }
 
-/// Above this speed `rest` is dangerous, m/s.
+/// Above this speed `rest` is dangerous, and so is a wrong direction, m/s.
 const FAST: f64 = 0.2;
 /// For so long it may be said, s.
 const BRIEF: f64 = 1.0;
@@ -43,7 +45,7 @@ impl Watched {
         let mut monitor = Monitor::new(design.clone(), knowledge);
         let mut events: Vec<Event> = Vec::new();
         let mut danger = Danger::default();
-        let mut stood = 0.0;
+        let (mut stood, mut wrong_ways) = (0.0, 0);
         let readings = record.times.iter().zip(&record.acceleration);
         for ((&time, &acceleration), speed) in readings.zip(&record.speed) {
             let turns = || {
@@ -53,7 +55,13 @@ impl Watched {
                     .any(|(from, to)| (*from..*to).contains(&time))
             };
             let drum = (class == Class::Drum).then(turns);
-            events.extend_from_slice(monitor.step(Sample { time, acceleration }, drum));
+            let new = monitor.step(Sample { time, acceleration }, drum);
+            let is_against = |event: &&Event| {
+                let told = event.kind.direction();
+                speed.abs() > FAST && told.is_some_and(|told| told != Direction::of(*speed))
+            };
+            wrong_ways += new.iter().filter(is_against).count() as u64;
+            events.extend_from_slice(new);
             let is_rest = monitor.state() == State::REST;
             danger.step(time, is_rest && speed.abs() > FAST);
             stood += if *speed == 0.0 {
@@ -71,6 +79,7 @@ impl Watched {
         let mut watched = Self {
             rest_in_motion: danger.milliseconds(),
             false_rides: account.false_motions,
+            wrong_ways,
             stood,
             known: account.known,
             ..Self::default()

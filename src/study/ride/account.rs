@@ -213,9 +213,10 @@ fn sightings(events: &[Event]) -> Vec<Sighting> {
         };
         let told = (event.time, event.reported);
         match state {
-            State::Known(Phase::Accelerating) => {
-                let goes_on = |last: &Sighting| moves && last.direction == direction;
-                if !sightings.last().is_some_and(goes_on) {
+            State::Known(phase) if phase.moves() => {
+                let starts = phase == Phase::Accelerating;
+                let goes_on = |last: &Sighting| !starts || last.direction == direction;
+                if !(moves && sightings.last().is_some_and(goes_on)) {
                     sightings.push(Sighting {
                         direction,
                         start: told,
