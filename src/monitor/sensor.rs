@@ -11,6 +11,11 @@ const LONGER: f64 = 4.0;
 /// How a sensor repeats itself is known after so many changes of its value.
 const PROVEN: u32 = 10;
 
+/// As many samples between equal ones that differ by more than this many steps of the sensor are a glitch. A dead sensor
+/// has them, too: they are no change of its value. One step up or down is how a coarse sensor shows noise.
+const GLITCH: usize = 2;
+const STEPS_OF_GLITCH: f64 = 1.5;
+
 /// A value far from the median that comes so often in a row is the end of the range, m/s².
 const SATURATED: (u32, f64) = (3, 12.0);
 
@@ -28,15 +33,50 @@ pub(super) struct Sensor {
     period: f64,
     slowness: f64,
     last: Option<Sample>,
-    /// Since when the value is repeated, s, and how often.
-    since: f64,
-    repeats: u32,
-    /// The longest run before, s, and how many changes there were.
-    longest: f64,
+    /// The samples that are equal to the last, and those that are so but for glitches.
+    equal: Run,
+    held: Run,
+    /// The latest samples, if they are off the value, and no more than a glitch has.
+    strays: Vec<Sample>,
+    /// The smallest change from a sample to the next, m/s².
+    step: f64,
+    /// How often the value that is held has changed.
     changes: u32,
     /// A slow mean, m/s².
     middle: f64,
     fault: Option<Fault>,
+}
+
+/// Equal samples.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+struct Run {
+    /// m/s²
+    value: f64,
+    /// From the first to the last, s, and how many.
+    since: f64,
+    until: f64,
+    count: u32,
+    /// How long the longest before was, s.
+    longest: f64,
+}
+
+impl Run {
+    /// Goes on with a sample, or begins anew: at the first sample, or if it differs; whether the one that ends counts.
+    fn take(&mut self, sample: Sample, is_first: bool, counts: bool) {
+        if is_first || sample.acceleration != self.value {
+            if counts && !is_first {
+                self.longest = self.longest.max(self.until - self.since);
+            }
+            (self.value, self.since, self.count) = (sample.acceleration, sample.time, 0);
+        }
+        self.until = sample.time;
+        self.count += 1;
+    }
+
+    /// Whether it is too long for a live sensor.
+    fn is_dead(&self, now: f64) -> bool {
+        self.count >= 8 && now - self.since > STUCK.max(LONGER * self.longest)
+    }
 }
 
 /// What a sample says of its sensor.
@@ -59,9 +99,10 @@ impl Sensor {
             period,
             slowness: 1.0,
             last: None,
-            since: 0.0,
-            repeats: 0,
-            longest: 0.0,
+            equal: Run::default(),
+            held: Run::default(),
+            strays: Vec::with_capacity(GLITCH + 1),
+            step: f64::INFINITY,
             changes: 0,
             middle: 0.0,
             fault: None,
@@ -76,27 +117,17 @@ impl Sensor {
     /// Takes a sample.
     #[inline]
     pub fn step(&mut self, sample: Sample) -> Health {
-        let is_repeated = self
-            .last
-            .is_some_and(|last| last.acceleration == sample.acceleration);
         if let Some(last) = self.last {
             let times = ((sample.time - last.time) / self.period).clamp(0.0, SLOW.3);
             self.slowness += (times - self.slowness) / SLOW.2;
-        }
-        if !is_repeated {
-            if let Some(last) = self.last {
-                // Until then a long run may as well be that of a coarse sensor at rest.
-                if self.fault.is_none() || !self.is_proven() {
-                    self.longest = self.longest.max(last.time - self.since);
-                }
-                self.changes = self.changes.saturating_add(1);
-                self.middle +=
-                    (last.acceleration - self.middle) / f64::from(self.changes.min(1000));
+            let change = (sample.acceleration - last.acceleration).abs();
+            if change > 0.0 {
+                self.step = self.step.min(change);
             }
-            self.since = sample.time;
-            self.repeats = 0;
         }
-        self.repeats += 1;
+        self.equal
+            .take(sample, self.last.is_none(), self.is_trusted());
+        self.compare(sample);
         self.last = Some(sample);
         let was = self.fault;
         self.fault = self.judge(sample);
@@ -107,20 +138,68 @@ impl Sensor {
                 .filter(|_| self.fault != was)
                 .map(|fault| match fault {
                     Fault::Slow => (fault, sample.time),
-                    _ => (fault, self.since),
+                    Fault::Stuck if self.held.is_dead(sample.time) => (fault, self.held.since),
+                    _ => (fault, self.equal.since),
                 }),
             ends: was.is_some() && self.fault.is_none(),
             is_proven: self.is_proven(),
         }
     }
 
+    /// Compares a sample with the value that is repeated.
+    fn compare(&mut self, sample: Sample) {
+        if self.last.is_none() {
+            return self.held.take(sample, true, false);
+        }
+        let is_back = sample.acceleration == self.held.value;
+        if !is_back {
+            self.strays.push(sample);
+            if self.strays.len() <= GLITCH {
+                return;
+            }
+        }
+        if !(is_back && self.are_glitches()) {
+            for at in 0..self.strays.len() {
+                self.take(self.strays[at]);
+            }
+        }
+        self.strays.clear();
+        if is_back {
+            self.take(sample);
+        }
+    }
+
+    /// Whether the samples off the value are nothing else, now that it is back.
+    fn are_glitches(&self) -> bool {
+        let least = STEPS_OF_GLITCH * self.step;
+        let is_far = |it: &Sample| (it.acceleration - self.held.value).abs() > least;
+        self.strays.iter().all(is_far)
+    }
+
+    /// Takes a sample that is no glitch.
+    fn take(&mut self, sample: Sample) {
+        if sample.acceleration != self.held.value {
+            self.changes = self.changes.saturating_add(1);
+            self.middle += (self.held.value - self.middle) / f64::from(self.changes.min(1000));
+        }
+        self.held.take(sample, false, self.is_trusted());
+    }
+
+    /// Whether a run counts that ends now. One that was called stuck may as well be that of a coarse sensor at rest for as
+    /// long as not much is known of it.
+    fn is_trusted(&self) -> bool {
+        self.fault.is_none() || !self.is_proven()
+    }
+
     fn judge(&self, sample: Sample) -> Option<Fault> {
-        let lasts = sample.time - self.since;
         let far = (sample.acceleration - self.middle).abs();
-        if self.repeats >= SATURATED.0 && far > SATURATED.1 && self.changes > 0 {
+        if self.equal.count >= SATURATED.0 && far > SATURATED.1 && self.changes > 0 {
             return Some(Fault::Saturated);
         }
-        if self.repeats >= 8 && lasts > STUCK.max(LONGER * self.longest) {
+        if [self.equal, self.held]
+            .iter()
+            .any(|run| run.is_dead(sample.time))
+        {
             return Some(Fault::Stuck);
         }
         let most = if self.fault == Some(Fault::Slow) {
@@ -138,7 +217,8 @@ impl Sensor {
     /// Forgets the time, not the scatter.
     pub fn cross(&mut self) {
         self.last = None;
-        self.repeats = 0;
+        self.strays.clear();
+        (self.equal.count, self.held.count) = (0, 0);
         self.fault = None;
     }
 }

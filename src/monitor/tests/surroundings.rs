@@ -85,6 +85,30 @@ fn a_sensor_stuck_from_its_first_sample_tells_nothing() {
     }
 }
 
+/// Nor does one that dies but for glitches, the same ones or others.
+#[test]
+fn glitches_are_no_sign_of_life() {
+    let sizes = [9.0, 0.4, 0.05];
+    let kinds = sizes.map(|most| [20, 80, 250].map(|every| [1, 2].map(|long| (most, every, long))));
+    for (most, every, long) in kinds.into_iter().flatten().flatten() {
+        for is_one in [true, false] {
+            let lived = Record::quiet().rest(12.0);
+            let from = lived.samples.len();
+            let mut samples = lived.samples;
+            samples.resize(from + 6000, 0.003);
+            for (place, i) in (from + 40..from + 5990).step_by(every).enumerate() {
+                let share = (place * 37 % 100) as f64 / 100.0;
+                samples[i..i + long].fill(0.003 + if is_one { most } else { share * most });
+            }
+            let record = Record { samples, ..lived };
+            let mut monitor = standing();
+            record.watch(&mut monitor);
+            let what = format!("{most} {every} {long} {is_one}");
+            assert_eq!(monitor.state(), State::Unknown, "{what}");
+        }
+    }
+}
+
 /// A sensor whose steps hide its noise does not scatter at rest either. Its first trip shows that it is not stuck.
 #[test]
 fn a_coarse_sensor_shows_the_trips() {
