@@ -36,8 +36,8 @@ use std::time::Duration;
 /// seen; say --begins rest if the cage stands), pulse (it may be a start, a stop or a disturbance), level (it may
 /// have shifted, or the cage moves softly), creep (the cage may not stand yet), hole (samples are missing), sensor.
 /// A state is said if no plausible explanation of the record contradicts it, and so is a direction: one motion starts as
-/// another, the other way, brakes. Until that is decided, and after a hole until rest was told, a cage that moves is
-/// `inertial` without a direction.
+/// another, the other way, brakes. Until that is decided, and after a hole, a fault or a beginning that is not at rest until
+/// rest was told, a cage that moves is `inertial` without a direction.
 ///
 /// The alarm `jam` says that a motion ended in a violent pulse, without the braking of a commanded stop;
 /// `slack`, with --expected-moving, that the drum pays out rope and the cage is not known to move, with

@@ -124,6 +124,11 @@ impl Overlay {
         };
         let label = String::deserialize(node)
             .map_err(|refusal| Conflict::at(&node.span, refusal.within(&path)))?;
+        if label.contains(char::is_control) {
+            // It is a cell of tables.
+            let unfit = OutOfRange::new(path, "be one line", format_args!("{label:?}"));
+            return Err(Conflict::at(&node.span, unfit));
+        }
         self.distinct(label, &path, node, keys)
     }
 

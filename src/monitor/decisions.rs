@@ -142,8 +142,8 @@ impl Decisions {
         self.moved >= start
     }
 
-    /// The decision at the newest block, or the first alarm of ranks since the start, s.
-    pub fn at_start(&self, start: Option<f64>) -> Option<Decided> {
+    /// The decision at the newest block, or the first alarm of ranks since the start, s, to the side of its direction.
+    pub fn at_start(&self, start: Option<f64>, direction: Option<Direction>) -> Option<Decided> {
         match &self.rule {
             Rule::ThreeSample(_, latest) => {
                 let (windows, verdict) = latest.as_ref()?;
@@ -151,7 +151,10 @@ impl Decisions {
             }
             Rule::Sequential(_, alarms) => {
                 let (reference, start) = (self.reference.as_ref()?, start?);
-                let &(alarmed, side) = alarms.iter().find(|(time, _)| *time >= start)?;
+                let is_for = |(time, side): &&(f64, Direction)| {
+                    *time >= start && direction.is_none_or(|it| it == *side)
+                };
+                let &(alarmed, side) = alarms.iter().find(is_for)?;
                 Some(Decided::Sequential(RankDecision {
                     alarmed,
                     side,

@@ -118,7 +118,7 @@ pub struct Monitor {
     /// When the record began, or went on after a hole, s.
     begun: f64,
     /// When a motion was last told with its direction, s.
-    moved: (f64, Option<Direction>),
+    last_told: (f64, Option<Direction>),
     /// The level when it was last certain, m/s².
     level: Option<f64>,
     /// Time of the last sample, s.
@@ -179,7 +179,7 @@ impl Monitor {
             said: Statement::unknown(0.0, Doubt::Beginning),
             knows_rest: knowledge.begins_at_rest,
             begun: f64::NEG_INFINITY,
-            moved: (f64::NEG_INFINITY, None),
+            last_told: (f64::NEG_INFINITY, None),
             level: None,
             last: None,
             newest: None,
@@ -265,9 +265,8 @@ impl Monitor {
         self.forget(now, (now - from).max(0.0));
         if fault == Fault::Clock {
             (self.drum, self.jam) = (Drum::default(), f64::NEG_INFINITY);
-            self.moved = (f64::NEG_INFINITY, None);
+            self.last_told = (f64::NEG_INFINITY, None);
         }
-        self.begun = now + self.design().block;
         self.say(Statement::unknown(now, Doubt::Hole), now);
     }
 
@@ -279,7 +278,7 @@ impl Monitor {
             f64::INFINITY
         };
         self.live.cross(now, seconds);
-        self.knows_rest = false;
+        (self.knows_rest, self.begun) = (false, now + self.design().block);
         self.decisions.forget();
     }
 
@@ -366,12 +365,12 @@ impl Monitor {
         }
         let mut decision = match statement.braking {
             Some(braking) if statement.state == State::REST => self.decisions.at_stop(braking),
-            _ if !was.state.moves() && statement.state.moves() => {
-                self.decisions.at_start(statement.start)
-            }
+            _ if !was.state.moves() && statement.state.moves() => self
+                .decisions
+                .at_start(statement.start, statement.direction),
             _ => None,
         };
-        let (told, way) = self.moved;
+        let (told, way) = self.last_told;
         let is_new = |start: &Statement| start.since > told || start.direction != way;
         let has_begun = |start: &Statement| start.since > self.begun;
         let start = statement.start_of_motion().filter(has_begun);
@@ -379,7 +378,7 @@ impl Monitor {
             self.events.push(start.event(decision.take(), now));
         }
         if statement.direction.is_some() {
-            self.moved = (now, statement.direction);
+            self.last_told = (now, statement.direction);
         }
         self.events.push(statement.event(decision, now));
     }

@@ -7,6 +7,8 @@ use serde::{Deserialize, Serialize};
 /// A repeated value is suspicious for at least this long, s, and this many times as long as any run before.
 const STUCK: f64 = 1.0;
 const LONGER: f64 = 4.0;
+/// Fewer equal samples say nothing.
+const FEW: u32 = 8;
 
 /// How a sensor repeats itself is known after so many changes of its value.
 const PROVEN: u32 = 10;
@@ -38,6 +40,8 @@ pub(super) struct Sensor {
     held: Run,
     /// The latest samples, if they are off the value, and no more than a glitch has.
     strays: Vec<Sample>,
+    /// How many were equal since the last stray.
+    in_a_row: u32,
     /// The smallest change from a sample to the next, m/s².
     step: f64,
     /// How often the value that is held has changed.
@@ -52,7 +56,7 @@ pub(super) struct Sensor {
 struct Run {
     /// m/s²
     value: f64,
-    /// From the first to the last, s, and how many.
+    /// The first and the last, s.
     since: f64,
     until: f64,
     count: u32,
@@ -75,7 +79,7 @@ impl Run {
 
     /// Whether it is too long for a live sensor.
     fn is_dead(&self, now: f64) -> bool {
-        self.count >= 8 && now - self.since > STUCK.max(LONGER * self.longest)
+        self.count >= FEW && now - self.since > STUCK.max(LONGER * self.longest)
     }
 }
 
@@ -102,6 +106,7 @@ impl Sensor {
             equal: Run::default(),
             held: Run::default(),
             strays: Vec::with_capacity(GLITCH + 1),
+            in_a_row: 0,
             step: f64::INFINITY,
             changes: 0,
             middle: 0.0,
@@ -159,13 +164,17 @@ impl Sensor {
             }
         }
         if !(is_back && self.are_glitches()) {
+            // Where the value is soon back after it was repeated for long, it shows no life: a glitch may be a step, too.
+            let lives = !is_back || self.in_a_row < FEW;
             for at in 0..self.strays.len() {
-                self.take(self.strays[at]);
+                self.take(self.strays[at], lives);
             }
         }
+        let goes_on = is_back && self.strays.is_empty();
+        self.in_a_row = if goes_on { self.in_a_row + 1 } else { 1 };
         self.strays.clear();
         if is_back {
-            self.take(sample);
+            self.take(sample, false);
         }
     }
 
@@ -176,9 +185,9 @@ impl Sensor {
         self.strays.iter().all(is_far)
     }
 
-    /// Takes a sample that is no glitch.
-    fn take(&mut self, sample: Sample) {
-        if sample.acceleration != self.held.value {
+    /// Takes a sample that is no glitch, and may show that the sensor lives.
+    fn take(&mut self, sample: Sample, lives: bool) {
+        if lives && sample.acceleration != self.held.value {
             self.changes = self.changes.saturating_add(1);
             self.middle += (self.held.value - self.middle) / f64::from(self.changes.min(1000));
         }
@@ -218,6 +227,7 @@ impl Sensor {
     pub fn cross(&mut self) {
         self.last = None;
         self.strays.clear();
+        self.in_a_row = 0;
         (self.equal.count, self.held.count) = (0, 0);
         self.fault = None;
     }

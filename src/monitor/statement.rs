@@ -132,9 +132,10 @@ impl Statement {
         }
     }
 
-    /// The start of the motion, where its direction is known and it is in a later phase.
+    /// The start of the motion, where its direction is known and it is in a later phase than that.
     pub fn start_of_motion(&self) -> Option<Self> {
-        let start = self.start.filter(|start| *start < self.since)?;
+        let is_later = self.state != State::Known(Phase::Accelerating);
+        let start = self.start.filter(|start| is_later && *start < self.since)?;
         self.direction.map(|direction| Self {
             state: State::Known(Phase::Accelerating),
             since: start,

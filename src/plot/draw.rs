@@ -144,7 +144,12 @@ fn draw_block(canvas: &mut Canvas, frame: &Frame, block: &Block) {
         canvas.outline((left, top), (right, bottom), 0.8, colour);
     }
     if block.is_cut {
-        canvas.text("…", (left + 9.0, top + 15.0), NORMAL, Align::Centre);
+        let words = block.lines.first().map_or(0.0, |it| text_width(it, NORMAL));
+        // Beside the first line, or below all where that leaves no room.
+        let has_room = words + 2.0 * 15.0 <= right - left;
+        let line = if has_room { 0 } else { block.lines.len() };
+        let at = (left + 9.0, top + 15.0 + 13.0 * line as f64);
+        canvas.text("…", at, NORMAL, Align::Centre);
     }
     let fits = |text: &&String| text_width(text, SMALL) < right - left;
     for (line, text) in (0..).zip(block.lines.iter().filter(fits)) {

@@ -62,13 +62,15 @@ impl Frame<'_> {
         let (left, right, top, bottom) = (self.left, self.right, self.top, self.bottom);
         let Panel { x, y, title, .. } = self.panel;
         canvas.outline((left, top), (right, bottom), WIDTH, Colour::BLACK);
-        for (value, label) in self.spaced_ticks(x) {
+        let lines = self.panel.lines_of_names(right - left);
+        for (place, (value, label)) in self.spaced_ticks(x, lines).enumerate() {
             let at = self.x(*value);
             canvas.line(&[(at, bottom), (at, bottom - TICK)], WIDTH, Colour::BLACK);
             // The last label stays on the sheet.
             let half = text_width(label, SMALL) / 2.0;
             let at = at.min(self.sheet - half).max(half);
-            canvas.text(label, (at, bottom + SMALL + 3.0), SMALL, Align::Centre);
+            let baseline = bottom + SMALL + 3.0 + LINE * (place % lines) as f64;
+            canvas.text(label, (at, baseline), SMALL, Align::Centre);
         }
         for (value, label) in self.ticks_up() {
             let at = self.y(*value);
@@ -76,8 +78,8 @@ impl Frame<'_> {
             canvas.text(label, (left - 4.0, at + 0.36 * SMALL), SMALL, Align::Right);
         }
         let middle = f64::midpoint(left, right);
-        for (line, text) in (0..).zip(x.label.split('\n')) {
-            let baseline = bottom + 25.0 + LINE * f64::from(line);
+        for (line, text) in (lines - 1..).zip(x.label.split('\n')) {
+            let baseline = bottom + 25.0 + LINE * line as f64;
             canvas.text(text, (middle, baseline), NORMAL, Align::Centre);
         }
         canvas.upright_text(&y.label, (12.0, f64::midpoint(top, bottom)), NORMAL);
@@ -98,10 +100,13 @@ impl Frame<'_> {
         }
     }
 
-    /// The ticks of x whose words find room side by side.
-    fn spaced_ticks<'t>(&self, axis: &'t Axis) -> impl Iterator<Item = &'t (f64, String)> {
-        let widths = axis.ticks.iter().map(|(_, label)| text_width(label, SMALL));
-        let needed = widths.fold(0.0, f64::max) + 6.0;
+    /// The ticks of x whose words find room side by side, on so many lines in turn.
+    fn spaced_ticks<'t>(
+        &self,
+        axis: &'t Axis,
+        lines: usize,
+    ) -> impl Iterator<Item = &'t (f64, String)> {
+        let needed = room_of_words(axis) / lines as f64;
         spaced(&axis.ticks, needed, |value| self.x(value))
     }
 
@@ -109,6 +114,24 @@ impl Frame<'_> {
     fn ticks_up(&self) -> impl Iterator<Item = &(f64, String)> {
         spaced(&self.panel.y.ticks, SMALL + 1.0, |value| self.y(value))
     }
+}
+
+impl Panel {
+    /// On how many lines names along x stand in turn, where the panel has a width: on as few as leave none out, up to three.
+    pub(super) fn lines_of_names(&self, width: f64) -> usize {
+        if self.x.scale.is_some() {
+            return 1;
+        }
+        let step = width / (self.x.to - self.x.from);
+        let fits = |lines: &usize| room_of_words(&self.x) <= step * *lines as f64;
+        (1..3).find(fits).unwrap_or(3)
+    }
+}
+
+/// What the longest words of an axis take side by side.
+fn room_of_words(axis: &Axis) -> f64 {
+    let widths = axis.ticks.iter().map(|(_, label)| text_width(label, SMALL));
+    widths.fold(0.0, f64::max) + 6.0
 }
 
 /// The first tick and every one that is as far as it needs from those before, which may run up or down.

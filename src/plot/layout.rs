@@ -29,7 +29,7 @@ pub enum LayoutError {
         "figure: the sheet must be at most {HIGHEST} points high, got {0:.0} (draw fewer curves)"
     )]
     Height(f64),
-    #[error("figure: \"{0}\" runs over the edge of the sheet (shorten it)")]
+    #[error("figure: \"{0}\" runs over the edge of the sheet (shorten it, or draw it wider)")]
     Clipped(String),
 }
 
@@ -52,7 +52,8 @@ pub fn layout(plot: &Plot) -> Result<Canvas, LayoutError> {
     let frames = plot.frames(above);
     let bottom = frames[frames.len() - 1].bottom;
     let caption = plot.caption_lines();
-    let words = bottom + plot.panels[frames.len() - 1].lines_below();
+    let last = &frames[frames.len() - 1];
+    let words = bottom + last.panel.lines_below(last.right - last.left);
     let height = words + plot.margins.bottom + CAPTION_STEP * caption.len() as f64;
     if height > HIGHEST {
         return Err(LayoutError::Height(height));
@@ -87,7 +88,8 @@ impl Plot {
         let width = (width - BESIDE * (columns - 1.0)) / columns;
         let left = self.margins.left + (index % self.columns) as f64 * (width + BESIDE);
         let has_words = |panel: &Panel| self.is_apart || !panel.x.label.is_empty();
-        let between = |panel: &Panel| BETWEEN[usize::from(has_words(panel))] + panel.lines_below();
+        let between =
+            |panel: &Panel| BETWEEN[usize::from(has_words(panel))] + panel.lines_below(width);
         let over = self
             .panels
             .iter()
@@ -175,8 +177,8 @@ impl Panel {
         LINE * (self.title.matches('\n').count() + over.matches('\n').count()) as f64
     }
 
-    fn lines_below(&self) -> f64 {
-        LINE * self.x.label.matches('\n').count() as f64
+    fn lines_below(&self, width: f64) -> f64 {
+        LINE * (self.x.label.matches('\n').count() + self.lines_of_names(width) - 1) as f64
     }
 }
 

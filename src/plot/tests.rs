@@ -143,11 +143,11 @@ fn nothing_is_drawn_outside_its_panel() {
     );
 }
 
-/// Ticks keep their words where there is room, whichever way they run.
+/// Ticks keep their words where there is room, whichever way they run; names along x stand on up to three lines for it.
 #[test]
 fn ticks_that_have_room_are_drawn() {
-    let drawn = |y: Axis| {
-        let mut plot = Plot::stack(&axis("x"), [(100.0, y)]);
+    let drawn = |x: Axis, y: Axis| {
+        let mut plot = Plot::stack(&x, [(100.0, y)]);
         plot.add(0, Mark::Axes);
         let canvas = layout(&plot).unwrap();
         let texts = canvas.shapes.into_iter().filter_map(|shape| match shape {
@@ -156,15 +156,21 @@ fn ticks_that_have_room_are_drawn() {
         });
         texts.collect::<Vec<_>>()
     };
-    let texts = drawn(Axis::powers_of_ten(-4.5, 0.5, 6));
+    let texts = drawn(axis("x"), Axis::powers_of_ten(-4.5, 0.5, 6));
     for label in ["10⁰", "10⁻¹", "10⁻²", "10⁻³", "10⁻⁴"] {
         assert!(
             texts.iter().any(|text| text == label),
             "{label} in {texts:?}"
         );
     }
-    let names = (0..30).map(|name| format!("name {name}")).collect();
-    let texts = drawn(Axis::names(names));
-    let names = texts.iter().filter(|text| text.starts_with("name"));
-    assert!((8..=11).contains(&names.count()), "{texts:?}");
+    let names = |count| Axis::names((0..count).map(|name| format!("name {name}")).collect());
+    let count = |texts: &[String]| texts.iter().filter(|it| it.starts_with("name")).count();
+    let texts = drawn(axis("x"), names(30));
+    assert!((8..=11).contains(&count(&texts)), "{texts:?}");
+    for along in [2, 8, 14, 20] {
+        let texts = drawn(names(along), axis("y"));
+        assert_eq!(count(&texts), along as usize, "{texts:?}");
+    }
+    let texts = drawn(names(60), axis("y"));
+    assert!((10..=30).contains(&count(&texts)), "{texts:?}");
 }

@@ -213,6 +213,10 @@ pub const CONFIGS: &[(&str, &str)] = &[
         "[axis]\nnu = [0.1]\n[[curve]]\nimpulses = { nu = 0.2 }\n",
     ),
     (
+        "a label of two lines",
+        "[axis]\nnu = [0.1]\n[[curve]]\nlabel = \"a\\nb\"\n",
+    ),
+    (
         "equal labels",
         "[axis]\nnu = [0.1]\n[[curve]]\nlabel = \"a\"\n[[curve]]\nlabel = \"a\"\n",
     ),

@@ -85,14 +85,14 @@ fn a_sensor_stuck_from_its_first_sample_tells_nothing() {
     }
 }
 
-/// Nor does one that dies but for glitches, the same ones or others.
+/// Nor does one that is dead but for glitches, the same ones or others, from its first sample on or later.
 #[test]
 fn glitches_are_no_sign_of_life() {
     let sizes = [9.0, 0.4, 0.05];
     let kinds = sizes.map(|most| [20, 80, 250].map(|every| [1, 2].map(|long| (most, every, long))));
     for (most, every, long) in kinds.into_iter().flatten().flatten() {
-        for is_one in [true, false] {
-            let lived = Record::quiet().rest(12.0);
+        for (alive, is_one) in [(0.0, true), (0.0, false), (12.0, true), (12.0, false)] {
+            let lived = Record::quiet().rest(alive);
             let from = lived.samples.len();
             let mut samples = lived.samples;
             samples.resize(from + 6000, 0.003);
@@ -103,7 +103,7 @@ fn glitches_are_no_sign_of_life() {
             let record = Record { samples, ..lived };
             let mut monitor = standing();
             record.watch(&mut monitor);
-            let what = format!("{most} {every} {long} {is_one}");
+            let what = format!("{most} {every} {long} {alive} {is_one}");
             assert_eq!(monitor.state(), State::Unknown, "{what}");
         }
     }

@@ -16,7 +16,7 @@
 //! | `rest_in_motion_ms` | records | for how long beyond 1 s, ms per record |
 //! | `slack_missed` | turns of the drum | no `slack` within `longest_slack` and the tolerance, though the cage stands |
 //! | `false_slack` | records | `slack` while the drum does not turn or the cage moves, per record |
-//! | `false_rides` | hours | starts told while the cage stood, per hour for which it stood |
+//! | `false_rides` | hours | motions told while the cage stood, per hour for which it stood |
 //! | `false_records` | records | records with one |
 //! | `wrong_way` | records | a direction is told against that of a cage above 0.2 m/s |
 //! | `known` | hours | for which share of its rest it is told to rest |

@@ -16,7 +16,7 @@ pub struct Watched {
     pub slack_missed: u64,
     /// Slack alarms while the drum did not turn, or the cage moved.
     pub false_slack: u64,
-    /// Starts told of a standing cage.
+    /// Motions told of a standing cage.
     pub false_rides: u64,
     /// How often a direction was told to which a cage above [`FAST`] did not go.
     pub wrong_ways: u64,

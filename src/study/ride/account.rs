@@ -27,7 +27,7 @@ pub struct Seen {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Account {
     pub trips: Vec<Trip>,
-    /// Starts that the monitor reported while the cage stood, for a time when the cage stood.
+    /// Motions that the monitor reported while the cage stood, for a time when the cage stood.
     pub false_motions: u64,
     /// Jam alarms without a jam.
     pub false_alarms: u64,
@@ -64,6 +64,16 @@ struct Sighting {
     direction: Option<Direction>,
     start: (f64, f64),
     stop: Option<(f64, f64)>,
+}
+
+impl Sighting {
+    /// Its direction was not told at first: takes that, and when it started.
+    fn learn(&mut self, direction: Option<Direction>, start: Option<(f64, f64)>) {
+        if self.direction.is_none() && direction.is_some() {
+            self.direction = direction;
+            self.start = start.unwrap_or(self.start);
+        }
+    }
 }
 
 impl Account {
@@ -215,13 +225,16 @@ fn sightings(events: &[Event]) -> Vec<Sighting> {
         match state {
             State::Known(phase) if phase.moves() => {
                 let starts = phase == Phase::Accelerating;
-                let goes_on = |last: &Sighting| !starts || last.direction == direction;
-                if !(moves && sightings.last().is_some_and(goes_on)) {
-                    sightings.push(Sighting {
+                let goes_on = |last: &&mut Sighting| {
+                    moves && (!starts || last.direction.is_none_or(|it| Some(it) == direction))
+                };
+                match sightings.last_mut().filter(goes_on) {
+                    Some(last) => last.learn(direction, starts.then_some(told)),
+                    None => sightings.push(Sighting {
                         direction,
                         start: told,
                         stop: None,
-                    });
+                    }),
                 }
                 moves = true;
             }

@@ -10,7 +10,7 @@
 //! | `found` | trials | rides of which every trip is found: start and stop told within the tolerance of the truth, in the right direction |
 //! | `start_delay_05`, `_50`, `_95` | trips | quantiles of the time from a start to when it is told |
 //! | `stop_delay_…` | trips | the same for stops |
-//! | `false_motions` | hours | starts told while the cage stood, of a time when it stood, per hour for which it stood |
+//! | `false_motions` | hours | motions told while the cage stood, of a time when it stood, per hour for which it stood |
 //! | `hours_between` | hours | the mean time between them |
 //! | `disturbed` | trials | rests with a false motion |
 //! | `alarmed` | trials | jams with an alarm that is told after them, of no later time than the stand |
