@@ -112,8 +112,7 @@ pub struct Monitor {
     /// Whether motions of this cage look different from rest.
     motion_shows: bool,
     said: Statement,
-    /// Whether rest was told since the record began, or went on after a hole. Before, a trip that is read backwards looks as
-    /// good for as long as nothing says otherwise.
+    /// Whether rest was told since the record began, or went on after a hole.
     knows_rest: bool,
     /// When the record began, or went on after a hole, s.
     begun: f64,
@@ -316,12 +315,7 @@ impl Monitor {
         let statement = if was_blind || self.is_blind() {
             Statement::unknown(now, Doubt::Sensor)
         } else {
-            self.confirmed(Statement::of(&belief, now), now)
-        };
-        let statement = if self.knows_rest {
-            statement
-        } else {
-            statement.without_direction(now)
+            self.confirmed(Statement::of(&belief, self.knows_rest, now), now)
         };
         self.alarm_of_jam(&statement, now);
         self.say(

@@ -47,8 +47,9 @@ impl Statement {
         }
     }
 
-    /// What follows from a belief.
-    pub fn of(belief: &Belief, now: f64) -> Self {
+    /// What follows from a belief, and from whether rest was known since the record began or went on: before, a trip that is
+    /// read backwards looks as good for as long as nothing says otherwise.
+    pub fn of(belief: &Belief, knows_rest: bool, now: f64) -> Self {
         let cost = |best: Option<(Hypothesis, f64)>| best.map_or(f64::INFINITY, |best| best.1);
         let (rest, motion) = (cost(belief.rest), cost(belief.motion));
         let plausible = belief
@@ -67,7 +68,7 @@ impl Statement {
             }
             (_, Some((it, _))) if rest > motion + MARGIN => {
                 let moving = Self::moving(&it, belief, now);
-                if belief.otherwise > motion + MARGIN {
+                if knows_rest && belief.otherwise > motion + MARGIN {
                     moving
                 } else {
                     moving.without_direction(now)
@@ -119,10 +120,7 @@ impl Statement {
 
     /// The same of a cage that may as well go the other way: one starts as the other brakes, and all that is known is that it
     /// moves now.
-    pub fn without_direction(self, now: f64) -> Self {
-        if !self.state.moves() {
-            return self;
-        }
+    fn without_direction(self, now: f64) -> Self {
         Self {
             state: State::Known(Phase::Inertial),
             since: now,

@@ -63,7 +63,7 @@ impl Frame<'_> {
         let Panel { x, y, title, .. } = self.panel;
         canvas.outline((left, top), (right, bottom), WIDTH, Colour::BLACK);
         let lines = self.panel.lines_of_names(right - left);
-        for (place, (value, label)) in self.spaced_ticks(x, lines).enumerate() {
+        for (place, (value, label)) in self.spaced_ticks(lines).enumerate() {
             let at = self.x(*value);
             canvas.line(&[(at, bottom), (at, bottom - TICK)], WIDTH, Colour::BLACK);
             // The last label stays on the sheet.
@@ -101,11 +101,8 @@ impl Frame<'_> {
     }
 
     /// The ticks of x whose words find room side by side, on so many lines in turn.
-    fn spaced_ticks<'t>(
-        &self,
-        axis: &'t Axis,
-        lines: usize,
-    ) -> impl Iterator<Item = &'t (f64, String)> {
+    fn spaced_ticks(&self, lines: usize) -> impl Iterator<Item = &(f64, String)> {
+        let axis = &self.panel.x;
         let needed = room_of_words(axis) / lines as f64;
         spaced(&axis.ticks, needed, |value| self.x(value))
     }
