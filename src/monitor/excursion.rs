@@ -58,8 +58,8 @@ pub(super) struct Part {
 pub(super) struct Jump {
     /// m/s², away from the level.
     pub by: f64,
-    /// When it was over, s.
-    pub over: f64,
+    /// s
+    pub at: f64,
     /// What was before it.
     pub before: Part,
 }
@@ -116,13 +116,33 @@ impl Least {
 }
 
 impl Excursion {
-    /// The one that follows, at a time, s.
+    /// The one that follows, at a time, s, with what has just changed at once.
     pub fn next(&self, now: f64) -> Self {
+        let (by, at) = self.jump_back;
+        let before = Part::at(now);
+        let jump = Some(Jump { by, at, before }).filter(|_| at > now - FOOT);
         Self {
             is_up: !self.is_up,
-            part: Part::at(now),
+            part: before,
+            jump: jump.unwrap_or_default(),
             ..Self::default()
         }
+    }
+
+    /// One of which this much has been seen.
+    pub fn of(part: Part) -> Self {
+        Self {
+            part,
+            ..Self::default()
+        }
+    }
+
+    /// Adds a block before it can be said whether it is a pulse.
+    pub fn gather(&mut self, off: &Smooth) {
+        self.part.change += off.mean * off.seconds;
+        self.part.seconds += off.seconds;
+        self.part.to = off.to;
+        self.is_up = self.part.change > 0.0;
     }
 
     /// Whether another begins with a block, whose distance from the level this is.
@@ -187,7 +207,7 @@ impl Excursion {
         if sign * off.jump > self.jump.by {
             self.jump = Jump {
                 by: sign * off.jump,
-                over: off.to + FOOT,
+                at: off.to,
                 before: self.part,
             };
         }

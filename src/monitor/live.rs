@@ -64,6 +64,8 @@ pub(super) struct Belief {
     pub level: f64,
     /// Whether the cheapest at rest and in motion have different levels.
     pub is_shifted: bool,
+    /// Since when what looks like a motion may be the sensor, turned, s.
+    pub turned: f64,
     /// Whether there is a pulse now.
     pub in_pulse: bool,
     /// The deviation of the smoothed record, m/s².
@@ -182,24 +184,21 @@ impl Live {
         if !self.tracks.is_empty() {
             track.hypotheses.raise(self.latest.least + YOUNG_SHIFT);
         }
-        self.see(&mut track, f64::NEG_INFINITY);
+        self.see(&mut track);
         track
     }
 
     /// What a track is on a level to which the record may have come at once.
     fn turned(&self, track: &Track, level: f64) -> Vec<Track> {
-        let turned = track.turned(&self.known, level, self.recent.oldest());
-        let turned = turned.into_iter().map(|(mut track, since)| {
-            self.see(&mut track, since);
-            track
-        });
-        turned.collect()
+        let mut turned = track.turned(level, self.recent.oldest());
+        turned.iter_mut().for_each(|track| self.see(track));
+        turned
     }
 
-    /// Shows a track what has been seen since a time.
-    fn see(&self, track: &mut Track, since: f64) {
+    /// Shows a track what has been seen since it began.
+    fn see(&self, track: &mut Track) {
         let white = self.recent.white();
-        for smooth in self.recent.since(since) {
+        for smooth in self.recent.since(track.since) {
             track.step(&self.known, smooth, white);
         }
     }
@@ -318,6 +317,7 @@ impl Live {
         let mut belief = Belief {
             threat: f64::INFINITY,
             otherwise: f64::INFINITY,
+            turned: f64::INFINITY,
             ..Belief::default()
         };
         let Some(now) = self.recent.now() else {
@@ -353,6 +353,7 @@ impl Live {
                 .hypotheses
                 .each(&self.known, now, pulse.as_ref(), take);
             belief.in_pulse |= pulse.is_some();
+            belief.turned = belief.turned.min(track.may_be_turned());
         }
         let least = |best: Option<(Hypothesis, f64)>| best.map_or(f64::INFINITY, |best| best.1);
         belief.least = least(belief.rest).min(least(belief.motion));

@@ -202,7 +202,7 @@ pub fn chance(tolerance: f64) -> f64 {
 
 /// Whether a change of speed is lost in a motion of this speed, m/s.
 pub fn is_ripple(speed: f64, change: f64) -> bool {
-    change.abs() < RIPPLE.0 * speed.abs()
+    change.abs() < RIPPLE.0 * speed.abs().min(FASTEST)
 }
 
 /// Such a change, where it would cost this much to ignore it.

@@ -16,7 +16,7 @@ const PART: f64 = 1.0;
 pub(super) const SETTLED: f64 = 2.5;
 
 /// How much is kept, s.
-const KEPT: f64 = 20.0;
+const KEPT: f64 = 30.0;
 
 /// A block, smoothed.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]

@@ -9,6 +9,9 @@ use serde::{Deserialize, Serialize};
 /// A hypothesis dearer than the cheapest by more than this is not plausible, nats.
 const MARGIN: f64 = 4.0;
 
+/// What came at once no later than so long after the beginning of a motion, s, may be all that there was of that.
+const BESIDE: f64 = 1.0;
+
 /// A rest after a motion in which pulses were taken for something else must be likelier by what that has cost, at most
 /// by this: one of them may have been the stop.
 const MOST_IGNORED: f64 = 4.0;
@@ -68,7 +71,9 @@ impl Statement {
             }
             (_, Some((it, _))) if rest > motion + MARGIN => {
                 let moving = Self::moving(&it, belief, now);
-                if knows_rest && belief.otherwise > motion + MARGIN {
+                let is_turn = belief.turned < it.since + BESIDE;
+                let is_one_way = belief.otherwise > motion + MARGIN && !is_turn;
+                if knows_rest && is_one_way {
                     moving
                 } else {
                     moving.without_direction(now)

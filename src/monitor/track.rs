@@ -29,14 +29,20 @@ const MOST_TURNS: usize = 3;
 /// A hand that turns a sensor overshoots: of the largest change at once so much may remain.
 const OVERSHOT: f64 = 0.3;
 
+/// What it costs that a sensor is turned as the cage starts, nats.
+const STARTS: f64 = 3.0;
+
 /// A change at once that may be one of the level.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Turn {
     /// m/s²
     by: f64,
-    /// When it was over, s.
-    over: f64,
-    /// What was plausible before it.
+    /// s
+    at: f64,
+    /// Whether a pulse began with it.
+    is_first: bool,
+    /// What had left the level when it came, and what was plausible before that.
+    begun: Part,
     before: Vec<Hypothesis>,
 }
 
@@ -56,8 +62,10 @@ pub(super) struct Track {
     pub hypotheses: Hypotheses,
     excursion: Excursion,
     noise: Noises,
-    /// The latest changes at once that began pulses which are over.
+    /// The latest changes at once in pulses that are over.
     turns: VecDeque<Turn>,
+    /// Since when the record may be on this level, if it came to it at once, s.
+    pub since: f64,
     /// Where the latest pulse ended at once, since when it was all a knock, s.
     knocked: Option<f64>,
     /// For how long there has been no pulse, s, but for one that goes on.
@@ -72,6 +80,7 @@ impl Track {
             excursion: Excursion::default(),
             noise,
             turns: VecDeque::with_capacity(MOST_TURNS),
+            since: f64::NEG_INFINITY,
             knocked: None,
             quiet: 0.0,
         }
@@ -98,6 +107,10 @@ impl Track {
             settled: block.settled - self.level,
             ..*block
         };
+        if block.from < self.since + FOOT {
+            // What is smoothed still holds what was before the turn.
+            return self.excursion.gather(&off);
+        }
         if self.excursion.is_followed(known, &off, least) {
             self.end(known, block.from);
         }
@@ -123,7 +136,7 @@ impl Track {
         if self.quiet > SETTLED {
             self.turns.clear();
         } else if let Some(since) = self.knocked.filter(|_| self.quiet > FOOT) {
-            self.turns.retain(|turn| turn.over < since);
+            self.turns.retain(|turn| turn.at + FOOT < since);
         }
         if self.quiet > SETTLED + 1.0 {
             // What is as far away as a shock is not of the level.
@@ -137,9 +150,9 @@ impl Track {
         if self.excursion.is_pulse {
             let since = self.excursion.part.from - 2.0 * FOOT;
             self.knocked = self.excursion.ends_at_once().then_some(since);
-            if self.excursion.begins_at_once() {
+            if self.excursion.jump.by > 0.0 {
                 self.turns.truncate(MOST_TURNS - 1);
-                self.turns.push_front(self.turn(known));
+                self.turns.push_front(self.turn());
             }
         }
         if let Some(pulse) = self.pulse(known, &self.excursion.part) {
@@ -163,34 +176,54 @@ impl Track {
     }
 
     /// The largest change at once in the current pulse.
-    fn turn(&self, known: &Known) -> Turn {
+    fn turn(&self) -> Turn {
         let jump = self.excursion.jump;
-        let mut before = self.hypotheses.clone();
-        if let Some(pulse) = self.pulse(known, &jump.before) {
-            before.take(known, &pulse);
-        }
         Turn {
             by: self.excursion.sign() * jump.by,
-            over: jump.over,
-            before: before.now,
+            at: jump.at,
+            is_first: self.excursion.begins_at_once(),
+            begun: jump.before,
+            before: self.hypotheses.now.clone(),
         }
     }
 
-    /// Itself on another level, to which a change at once that is not older than a time may have brought the record; and since
-    /// when, s.
-    pub fn turned(&self, known: &Known, level: f64, oldest: f64) -> Vec<(Self, f64)> {
+    /// Itself on another level, to which a change at once that is not older than a time may have brought the record. What did
+    /// not come at once may be a start, from the level to which that has brought it.
+    pub fn turned(&self, level: f64, oldest: f64) -> Vec<Self> {
         let by = level - self.level;
-        let is_it = |turn: &Turn| {
+        let mut turned = Vec::new();
+        for turn in self.turns.iter().cloned().chain([self.turn()]) {
             let is_like = turn.by * by > 0.0 && is_at_once(turn.by, by, 0.0);
-            is_like && by.abs() > OVERSHOT * turn.by.abs() && turn.over >= oldest
-        };
-        let turns = self.turns.iter().cloned().chain([self.turn(known)]);
-        let turned = turns.filter(is_it).map(|turn| {
-            let shifted = turn.before.iter().map(|it| it.shifted(by, true));
-            let shifted: Vec<Hypothesis> = shifted.collect();
-            (Self::new(level, self.noise, &shifted), turn.over)
-        });
-        turned.collect()
+            if !is_like || by.abs() <= OVERSHOT * turn.by.abs() || turn.at < oldest {
+                continue;
+            }
+            turned.push(self.after(&turn, level, 0.0));
+            if (turn.by - by).abs() > self.nearness() {
+                turned.push(self.after(&turn, self.level + turn.by, STARTS));
+            }
+        }
+        turned
+    }
+
+    /// Itself on the level to which a turn has brought it, if that costs so much more.
+    fn after(&self, turn: &Turn, level: f64, cost: f64) -> Self {
+        let by = level - self.level;
+        let shifted = |it: &Hypothesis| it.shifted(by, true).dearer(cost);
+        let hypotheses: Vec<Hypothesis> = turn.before.iter().map(shifted).collect();
+        Self {
+            since: turn.at,
+            excursion: Excursion::of(turn.begun),
+            ..Self::new(level, self.noise, &hypotheses)
+        }
+    }
+
+    /// When a pulse first began as if the sensor had been turned, if that neither went back to the level for long nor at once, s.
+    pub fn may_be_turned(&self) -> f64 {
+        let is_now = self.excursion.is_pulse && self.excursion.begins_at_once();
+        let now = is_now.then_some(self.excursion.jump.at);
+        let first = self.turns.iter().filter(|turn| turn.is_first);
+        let times = first.map(|turn| turn.at).chain(now);
+        times.fold(f64::INFINITY, f64::min)
     }
 
     /// For how long there has been no pulse, s.

@@ -151,7 +151,8 @@ impl Cage {
     fn disturb(&mut self, draws: &mut Draws) {
         let class = self.class;
         let times = match class {
-            Class::LevelShift | Class::LevelStep | Class::Tilt | Class::Turned => 1,
+            Class::LevelShift | Class::LevelStep | Class::Tilt => 1,
+            Class::Turned | Class::TurnedAtStart => 1,
             Class::Held => draws.whole([1, 2]),
             Class::Shocks | Class::Jumps | Class::Boarding => draws.whole([1, 3]),
             Class::Relevelling => return self.relevel(draws),
@@ -168,6 +169,10 @@ impl Cage {
                 Class::Tilt => {
                     let trip = self.journeys[draws.whole([0, self.journeys.len() - 1])];
                     draws.within([trip.start, trip.stop])
+                }
+                Class::TurnedAtStart => {
+                    let trip = self.journeys[draws.whole([0, self.journeys.len() - 1])];
+                    trip.start + draws.within([-0.5, 0.5])
                 }
                 _ => draws.within([6.0, self.now]),
             };

@@ -64,6 +64,8 @@ pub enum Class {
     Tilt,
     /// The sensor is turned at rest: its level changes by 0.1 to 0.5 m/s² for good.
     Turned,
+    /// It is turned like that within half a second of a start, of lifts that may start softly.
+    TurnedAtStart,
     /// At rest somebody picks the sensor up, holds it for 3 to 8 s and puts it down.
     Held,
     /// The level settles by 0.05 to 0.25 m/s², with a time constant of 5 to 40 s.
@@ -194,6 +196,11 @@ impl Ranges {
             Class::Turned | Class::Held => Self {
                 trips: [3, 6],
                 rest: [14.0, 20.0],
+                ..ordinary
+            },
+            Class::TurnedAtStart => Self {
+                acceleration: [0.1, 1.2],
+                jerk: [0.1, 2.0],
                 ..ordinary
             },
             Class::BackToBack => Self {

@@ -37,7 +37,7 @@ pub(super) fn disturbance(class: Class, from: f64, draws: &mut Draws) -> Vec<Pul
                 seconds: draws.within([0.2, 0.5]),
             },
         ],
-        Class::Turned => vec![Shape::Level {
+        Class::Turned | Class::TurnedAtStart => vec![Shape::Level {
             offset: draws.sign() * draws.within([0.1, 0.5]),
             seconds: f64::INFINITY,
         }],

@@ -396,6 +396,42 @@ fn a_sensor_turned_roughly_hides_no_ride() {
     }
 }
 
+/// A sensor that is turned within half a second of a start hides no ride, and tells no direction against it.
+#[test]
+fn a_sensor_turned_at_a_start_hides_no_ride() {
+    const START: f64 = 20.0;
+    // The acceleration, how long it takes to come about, and how long it lasts, s.
+    for (by, ramp, seconds) in [(0.12, 1.2, 14.0), (0.15, 0.5, 10.0), (0.3, 0.4, 5.0)] {
+        let start = Record::quiet().rest(START);
+        let start = start.changing(seconds, by, ramp, 1.0);
+        let stop = start.changing(12.0, -by, ramp, 2.0);
+        let stop = stop.changing(seconds, -by, ramp, 1.0);
+        let until = stop.now();
+        let ride = stop.changing(10.0, by, ramp, 1.0);
+        let turns = [-0.4, -0.1, 0.2, 0.5].map(|at| [0.5, -0.5, 0.4].map(|turn| (turn, at)));
+        for (turn, at) in turns.into_iter().flatten() {
+            let mut record = ride.clone();
+            let from = ((START + at) * RATE) as usize;
+            record.samples[from..].iter_mut().for_each(|a| *a += turn);
+            let events = record.watch(&mut standing());
+            // For so long it is slower than 0.2 m/s.
+            let slow = 0.2 / by + ramp + 1.0;
+            for pair in events.windows(2) {
+                let Kind::Change {
+                    state, direction, ..
+                } = pair[0].kind
+                else {
+                    continue;
+                };
+                let is_fast = pair[1].reported > START + slow && pair[0].reported < until - slow;
+                let is_wrong = state == REST || direction == Some(Direction::Down);
+                let what = format!("{by} for {seconds} s, {turn} at {at}: {events:?}");
+                assert!(!(is_fast && is_wrong), "{what}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_drum_that_turns_without_the_cage_is_an_alarm() {
     let record = Record::quiet().rest(8.0).trip(-1.0).rest(20.0);

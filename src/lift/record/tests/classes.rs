@@ -226,6 +226,14 @@ fn levels_of_sensors() {
         assert!((0.1..=0.5).contains(&offset.abs()) && seconds.is_infinite());
         assert_eq!(cage.speed_at(from), 0.0);
     }
+    for (cage, _) in plans(Class::TurnedAtStart) {
+        let [(from, offset, seconds)] = levels(&cage)[..] else {
+            panic!("{:?}", cage.disturbances)
+        };
+        assert!((0.1..=0.5).contains(&offset.abs()) && seconds.is_infinite());
+        let is_at_start = |trip: &Journey| (trip.start - from).abs() <= 0.5;
+        assert!(cage.journeys.iter().any(is_at_start), "{from}");
+    }
     for (cage, _) in plans(Class::Held) {
         for pair in levels(&cage).chunks(2) {
             let [(from, held, seconds), (until, left, _)] = pair else {

@@ -7,7 +7,7 @@ use super::sensor::high_pass;
 use super::*;
 use crate::lift::pulse::{Pulse, Shape};
 
-const ALL: [Class; 30] = [
+const ALL: [Class; 31] = [
     Class::Ordinary,
     Class::ShortRests,
     Class::Cut,
@@ -35,6 +35,7 @@ const ALL: [Class; 30] = [
     Class::Gaps,
     Class::Tilt,
     Class::Turned,
+    Class::TurnedAtStart,
     Class::Held,
     Class::WarmUp,
     Class::Drum,
