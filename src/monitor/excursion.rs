@@ -129,15 +129,18 @@ impl Excursion {
         }
     }
 
-    /// One of which this much has been seen.
+    /// One of which this much has been seen, if anything.
     pub fn of(part: Part) -> Self {
+        let is_pulse = part.seconds > 0.0;
         Self {
             part,
+            is_pulse,
+            is_strong: is_pulse,
             ..Self::default()
         }
     }
 
-    /// Adds a block before it can be said whether it is a pulse.
+    /// Adds a block before it can be said whether it goes on.
     pub fn gather(&mut self, off: &Smooth) {
         self.part.change += off.mean * off.seconds;
         self.part.seconds += off.seconds;

@@ -29,8 +29,9 @@ const MOST_TURNS: usize = 3;
 /// A hand that turns a sensor overshoots: of the largest change at once so much may remain.
 const OVERSHOT: f64 = 0.3;
 
-/// What it costs that a sensor is turned as the cage starts, nats.
+/// What it costs that a sensor is turned as the cage starts, nats, where it may be: by more than this, m/s².
 const STARTS: f64 = 3.0;
+const BY_HAND: f64 = 0.1;
 
 /// A change at once that may be one of the level.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -198,7 +199,7 @@ impl Track {
                 continue;
             }
             turned.push(self.after(&turn, level, 0.0));
-            if (turn.by - by).abs() > self.nearness() {
+            if (turn.by - by).abs() > self.nearness() && turn.by.abs() > BY_HAND {
                 turned.push(self.after(&turn, self.level + turn.by, STARTS));
             }
         }
