@@ -37,6 +37,7 @@ pub use course::Course;
 pub use drive::Drive;
 pub use export::{ExportLayout, write_phyphox, write_truth};
 pub use pickup::{Pickup, PickupError};
+pub(crate) use record::MOST_TRIPS;
 pub use record::{Class, Record};
 pub use simulate::Simulated;
 pub use trip::{Braking, Ending, Trip, TripError};

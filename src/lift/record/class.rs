@@ -80,6 +80,9 @@ impl fmt::Display for Class {
     }
 }
 
+/// The most trips in a record of any class.
+pub(crate) const MOST_TRIPS: u64 = 6;
+
 /// The least and the largest value of everything that every record draws.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Ranges {

@@ -22,6 +22,7 @@ mod sensor;
 mod tests;
 
 pub use class::Class;
+pub(crate) use class::MOST_TRIPS;
 
 use super::Journey;
 use super::draws::Draws;

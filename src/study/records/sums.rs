@@ -4,12 +4,10 @@ use super::detect::Told;
 use super::table::Watch;
 use super::watched::Watched;
 use crate::counts::{Fixed, Shape, Sums, Values};
+use crate::lift::MOST_TRIPS;
 use crate::rule::{OutOfRange, Rule};
 use crate::stats::tally::Tally;
 use crate::study::estimate::{Estimate, delays, rate, share};
-
-/// The most trips in a record.
-const MOST_TRIPS: u64 = 4;
 
 const HOUR: f64 = 3600.0;
 

@@ -1,10 +1,10 @@
 //! Each class against its name.
 
-use super::{plans, records};
+use super::{ALL, plans, records};
 use crate::lift::pulse::{Pulse, Shape};
 use crate::lift::record::cage::Cage;
 use crate::lift::record::plan;
-use crate::lift::{Class, Journey};
+use crate::lift::{Class, Journey, MOST_TRIPS};
 
 fn rests(cage: &Cage) -> Vec<f64> {
     cage.rests.iter().map(|(from, to)| to - from).collect()
@@ -207,6 +207,14 @@ fn people_and_hands() {
             assert!(found >= wanted && found <= 3 * wanted, "{class}: {found}");
         }
     }
+}
+
+/// Counts of records are checked by it.
+#[test]
+fn no_class_has_more_trips_than_the_most() {
+    let trips = |class: &Class| plans(*class).map(|(cage, _)| cage.journeys.len() as u64);
+    let most = ALL.iter().flat_map(trips).max();
+    assert_eq!(most, Some(MOST_TRIPS));
 }
 
 /// A sensor is turned and held at rest, and reads another level afterwards; one that warms up settles.
