@@ -131,7 +131,7 @@ impl Excursion {
 
     /// One of which this much has been seen, if anything.
     pub fn of(part: Part) -> Self {
-        let is_pulse = part.seconds > 0.0;
+        let is_pulse = part.change.abs() > LEAST_CHANGE;
         Self {
             part,
             is_pulse,
@@ -141,9 +141,8 @@ impl Excursion {
     }
 
     /// Adds a block before it can be said whether it goes on.
-    pub fn gather(&mut self, off: &Smooth) {
-        self.part.change += off.mean * off.seconds;
-        self.part.seconds += off.seconds;
+    pub fn gather(&mut self, known: &Known, off: &Smooth) {
+        self.sum(known, off);
         self.part.to = off.to;
         self.is_up = self.part.change > 0.0;
     }
@@ -171,8 +170,10 @@ impl Excursion {
         if !self.is_pulse {
             let is_new = self.part.seconds == 0.0;
             if is_new || is_up != self.is_up || off.fast.abs() < ONSET * least.fast {
+                let begins = Some(self.jump).filter(|_| is_new && is_up == self.is_up);
                 *self = Self {
                     part: Part::at(off.from),
+                    jump: begins.unwrap_or_default(),
                     is_up,
                     ..Self::default()
                 };
@@ -217,6 +218,10 @@ impl Excursion {
         if -sign * off.jump > self.jump_back.0 {
             self.jump_back = (-sign * off.jump, off.to);
         }
+        self.sum(known, off);
+    }
+
+    fn sum(&mut self, known: &Known, off: &Smooth) {
         self.part.change += off.mean * off.seconds;
         self.part.seconds += off.seconds;
         self.part.peak = self.part.peak.max(off.mean.abs());

@@ -4,7 +4,8 @@
 //! [`Track`] is one level with all that it implies. Where a record stays for three seconds at a distance from a level,
 //! that may be a soft start or a long braking, or the level has shifted: another track begins there, with the
 //! hypotheses from before, dearer by the cost of a shift. So motion and shift are both followed until the
-//! evidence decides.
+//! evidence decides. Where the record changed at once, as when the sensor is turned, tracks begin at that moment, on the
+//! level to which it came then and on that where it stays: what lies between may be a start.
 
 use super::event::Direction;
 use super::hypothesis::{Cage, Hypothesis};
@@ -64,7 +65,7 @@ pub(super) struct Belief {
     pub level: f64,
     /// Whether the cheapest at rest and in motion have different levels.
     pub is_shifted: bool,
-    /// Since when what looks like a motion may be the sensor, turned, s.
+    /// When what looks like the cheapest in motion may have been the sensor, turned, s.
     pub turned: f64,
     /// Whether there is a pulse now.
     pub in_pulse: bool,
@@ -346,6 +347,7 @@ impl Live {
                 *best = Some((*it, cost));
                 levels[usize::from(is_rest)] = track.level;
                 if !is_rest {
+                    belief.turned = track.turned_at();
                     belief.change = pulse.filter(|_| changes).map(|it| (it.from, it.change));
                 }
             };
@@ -353,7 +355,6 @@ impl Live {
                 .hypotheses
                 .each(&self.known, now, pulse.as_ref(), take);
             belief.in_pulse |= pulse.is_some();
-            belief.turned = belief.turned.min(track.may_be_turned());
         }
         let least = |best: Option<(Hypothesis, f64)>| best.map_or(f64::INFINITY, |best| best.1);
         belief.least = least(belief.rest).min(least(belief.motion));

@@ -23,7 +23,7 @@ const NOISE_FOLLOWS: f64 = 6.0;
 const AFTER_SWING: f64 = 1.0;
 const OFF: f64 = 1.0;
 
-/// So many changes at once are remembered.
+/// So many changes at once are remembered: the largest of each of the latest pulses.
 const MOST_TURNS: usize = 3;
 
 /// A hand that turns a sensor overshoots: of the largest change at once so much may remain.
@@ -110,7 +110,7 @@ impl Track {
         };
         if block.from < self.since + FOOT {
             // What is smoothed still holds what was before the turn.
-            return self.excursion.gather(&off);
+            return self.excursion.gather(known, &off);
         }
         if self.excursion.is_followed(known, &off, least) {
             self.end(known, block.from);
@@ -218,8 +218,9 @@ impl Track {
         }
     }
 
-    /// When a pulse first began as if the sensor had been turned, if that neither went back to the level for long nor at once, s.
-    pub fn may_be_turned(&self) -> f64 {
+    /// When a pulse first began as if the sensor had been turned, if that neither went back to the level for long nor at once, s;
+    /// infinite if none did.
+    pub fn turned_at(&self) -> f64 {
         let is_now = self.excursion.is_pulse && self.excursion.begins_at_once();
         let now = is_now.then_some(self.excursion.jump.at);
         let first = self.turns.iter().filter(|turn| turn.is_first);
@@ -278,6 +279,7 @@ impl Track {
         self.hypotheses
             .cross(now, is_brief, self.excursion.is_pulse);
         self.turns.clear();
+        (self.since, self.knocked) = (f64::NEG_INFINITY, None);
         self.excursion = Excursion::default();
         self.quiet = 0.0;
     }

@@ -307,6 +307,23 @@ fn a_clock_that_is_set_back_costs_a_gap() {
     assert_eq!(known(&events).last(), Some(&REST), "{events:?}");
 }
 
+/// When a sensor was turned is a moment of the clock before.
+#[test]
+fn a_clock_that_is_set_back_after_a_turn_hides_no_ride() {
+    let turned = Record::quiet().rest(10.0).changing(8.0, 0.5, 0.0, 1.0);
+    let record = (turned.trip_on(0.5, 1.0, 2.0)).trip_on(0.5, -1.0, 2.0);
+    let mut monitor = standing();
+    let mut events = Vec::new();
+    for (i, &acceleration) in record.samples.iter().enumerate() {
+        let before = if i < 1600 { 1e5 } else { 0.0 };
+        let time = before + i as f64 / RATE;
+        events.extend_from_slice(monitor.step(Sample { time, acceleration }, None));
+    }
+    assert_eq!(faults(&events), [Fault::Clock]);
+    assert!(known(&events).contains(&INERTIAL), "{events:?}");
+    assert_eq!(monitor.state(), REST, "{events:?}");
+}
+
 /// Somebody knocks against a standing car, its sensor later reads another level, and the drum turns: what is told of that is
 /// what it were without the knock, and the alarm comes.
 #[test]
@@ -416,14 +433,15 @@ fn a_sensor_turned_at_a_start_hides_no_ride() {
             let events = record.watch(&mut standing());
             // For so long it is slower than 0.2 m/s.
             let slow = 0.2 / by + ramp + 1.0;
-            for pair in events.windows(2) {
+            let ends = events[1..].iter().map(|event| event.reported);
+            for (event, end) in events.iter().zip(ends.chain([record.now()])) {
                 let Kind::Change {
                     state, direction, ..
-                } = pair[0].kind
+                } = event.kind
                 else {
                     continue;
                 };
-                let is_fast = pair[1].reported > START + slow && pair[0].reported < until - slow;
+                let is_fast = end > START + slow && event.reported < until - slow;
                 let is_wrong = state == REST || direction == Some(Direction::Down);
                 let what = format!("{by} for {seconds} s, {turn} at {at}: {events:?}");
                 assert!(!(is_fast && is_wrong), "{what}");
