@@ -221,7 +221,7 @@ fn records_of_every_class() {
     ]);
     let (code, out, err) = outcome(command.arg(directory.path()));
     assert_eq!((code, err.as_str()), (0, ""), "{out}");
-    assert!(out.contains("20 points of 4 trials"), "{out}");
+    assert!(out.contains("21 points of 4 trials"), "{out}");
     let rows = String::from_utf8(files(directory.path())["points.csv"].clone()).unwrap();
     assert!(rows.starts_with("class,outcome,count,exposure,unit,estimate,low,high,trials"));
 }
