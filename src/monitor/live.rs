@@ -66,7 +66,7 @@ pub(super) struct Belief {
     /// Whether the cheapest at rest and in motion have different levels.
     pub is_shifted: bool,
     /// When what looks like the cheapest in motion may have been the sensor, turned, s.
-    pub turned: f64,
+    pub turned_at: f64,
     /// Whether there is a pulse now.
     pub in_pulse: bool,
     /// The deviation of the smoothed record, m/s².
@@ -318,7 +318,7 @@ impl Live {
         let mut belief = Belief {
             threat: f64::INFINITY,
             otherwise: f64::INFINITY,
-            turned: f64::INFINITY,
+            turned_at: f64::INFINITY,
             ..Belief::default()
         };
         let Some(now) = self.recent.now() else {
@@ -347,7 +347,7 @@ impl Live {
                 *best = Some((*it, cost));
                 levels[usize::from(is_rest)] = track.level;
                 if !is_rest {
-                    belief.turned = track.turned_at();
+                    belief.turned_at = track.turned_at();
                     belief.change = pulse.filter(|_| changes).map(|it| (it.from, it.change));
                 }
             };

@@ -71,7 +71,7 @@ impl Statement {
             }
             (_, Some((it, _))) if rest > motion + MARGIN => {
                 let moving = Self::moving(&it, belief, now);
-                let is_turn = belief.turned < it.since + BESIDE;
+                let is_turn = belief.turned_at < it.since + BESIDE;
                 let is_one_way = belief.otherwise > motion + MARGIN && !is_turn;
                 if knows_rest && is_one_way {
                     moving

@@ -151,8 +151,11 @@ impl Cage {
     fn disturb(&mut self, draws: &mut Draws) {
         let class = self.class;
         let times = match class {
-            Class::LevelShift | Class::LevelStep | Class::Tilt => 1,
-            Class::Turned | Class::TurnedAtStart => 1,
+            Class::LevelShift
+            | Class::LevelStep
+            | Class::Tilt
+            | Class::Turned
+            | Class::TurnedAtStart => 1,
             Class::Held => draws.whole([1, 2]),
             Class::Shocks | Class::Jumps | Class::Boarding => draws.whole([1, 3]),
             Class::Relevelling => return self.relevel(draws),

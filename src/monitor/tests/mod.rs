@@ -10,6 +10,7 @@ use crate::whiten::Order;
 mod decisions;
 mod running;
 mod surroundings;
+mod turns;
 
 const RATE: f64 = 100.0;
 
@@ -401,43 +402,4 @@ fn a_shift_of_the_level_is_told_as_doubt() {
         assert_eq!(known(&events), [REST], "{for_good}: {events:?}");
         assert_eq!(monitor.state(), State::Unknown, "{for_good}");
     }
-}
-
-/// A sensor that is turned at rest reads another level at once. That is no start, and a cage that leaves before the new level
-/// has shown itself is not at rest. Only when it is over, a motion is told that comes at once, and later where to.
-#[test]
-fn what_changes_at_once_may_be_the_level() {
-    let turns = [0.1, -0.3, 0.5, -0.5].map(|by| [1.0, 2.0, 4.0, 30.0].map(|seconds| (by, seconds)));
-    for (by, seconds) in turns.into_iter().flatten() {
-        let turned = Record::quiet().rest(30.0).changing(seconds, by, 0.0, 1.0);
-        let start = turned.now();
-        let record = turned.trip_on(by, 1.0, 2.0).trip_on(by, -1.0, 2.0);
-        let events = record.watch(&mut standing());
-        for event in &events {
-            let Kind::Change { state, .. } = event.kind else {
-                continue;
-            };
-            let moves = state != REST && state != State::Unknown;
-            let is_rest = state == REST;
-            assert!(
-                !moves || event.reported > start,
-                "{by} {seconds}: {event:?}"
-            );
-            let ride = start + 1.0..start + 12.0;
-            assert!(
-                !is_rest || !ride.contains(&event.reported),
-                "{by} {seconds}: {event:?}"
-            );
-        }
-        let last = states(&events).last().copied();
-        let rests = last == Some(REST) || seconds < 30.0 && last == Some(State::Unknown);
-        assert!(rests, "{by} {seconds}: {events:?}");
-    }
-    let record = Record::quiet().rest(30.0).changing(2.0, 0.5, 0.0, 1.0);
-    let events = record.changing(8.0, -0.5, 0.0, 2.0).watch(&mut standing());
-    assert_eq!(known(&events), [REST, INERTIAL, ACCELERATING, INERTIAL]);
-    assert_eq!(
-        events[events.len() - 2].reported,
-        events[events.len() - 1].reported
-    );
 }
