@@ -129,6 +129,7 @@ pub mod rule;
 pub mod run;
 pub mod scenario;
 pub mod schedule;
+mod series;
 pub mod signal;
 pub mod simd;
 pub mod stats;

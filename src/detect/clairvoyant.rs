@@ -10,6 +10,12 @@
 //! before it, and the filter looks back m samples, so the state is (S_{i−m}, …, S_i), and the sum is
 //! one pass of the forward algorithm.
 
+use crate::series::exp;
+use crate::simd::{Vectors, greatest, least};
+
+/// Transitions into a state, at most: the sum that its path has dropped was 0, 1 or −1.
+const INTO: usize = 3;
+
 /// The statistic, ready for one alternative.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clairvoyant {
@@ -17,17 +23,16 @@ pub struct Clairvoyant {
     shift: Vec<f64>,
     /// The first sample that may carry an impulse.
     first_impulse: usize,
-    steps: Vec<Step>,
+    /// Those into each state. Where there are fewer, the others have no probability.
+    steps: Vec<[Step; INTO]>,
     /// The effects that steps have on the mean, each once.
     means: Vec<f64>,
-    states: usize,
 }
 
-/// A transition between states: the place of its effect on the mean, and its probability.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A transition into a state: from which, the place of its effect on the mean, and its probability.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Step {
     from: usize,
-    to: usize,
     mean: usize,
     probability: f64,
 }
@@ -37,8 +42,9 @@ struct Step {
 pub struct Forward {
     now: Vec<f64>,
     next: Vec<f64>,
-    /// For each effect on the mean.
-    exponents: Vec<f64>,
+    /// Of each step.
+    weights: Vec<[f64; INTO]>,
+    /// Of each effect on the mean: the exponents, then what they come to.
     likelihoods: Vec<f64>,
 }
 
@@ -47,47 +53,57 @@ impl Clairvoyant {
     /// from sample `first_impulse` on, and a sensor with the autoregression `ar`.
     pub fn new(shift: Vec<f64>, first_impulse: usize, nu: f64, theta: f64, ar: &[f64]) -> Self {
         let states = states(ar.len());
-        let (mut steps, mut means) = (Vec::new(), Vec::<f64>::new());
+        let mut steps = vec![[Step::default(); INTO]; states.len()];
+        let (mut known, mut means) = (vec![0; states.len()], Vec::<f64>::new());
         for (from, path) in states.iter().enumerate() {
             for (sum, probability) in next_sums(path[path.len() - 1], nu) {
                 let longer = extended(path, sum);
                 let mean = theta * whitened_impulse(&longer, ar);
-                let known = means.iter().position(|known| *known == mean);
-                let place = known.unwrap_or(means.len());
-                if known.is_none() {
+                let place = means.iter().position(|other| *other == mean);
+                let place = place.unwrap_or_else(|| {
                     means.push(mean);
-                }
+                    means.len() - 1
+                });
                 let to = states.iter().position(|path| *path == longer[1..]);
-                steps.push(Step {
+                let to = to.expect("every allowed path is a state");
+                steps[to][known[to]] = Step {
                     from,
-                    to: to.expect("every allowed path is a state"),
                     mean: place,
                     probability,
-                });
+                };
+                known[to] += 1;
             }
         }
-        steps.retain(|step| step.probability > 0.0);
         Self {
             shift,
             first_impulse,
             steps,
             means,
-            states: states.len(),
         }
     }
 
     /// The log likelihood ratio of `innovations`: the record from the first sample of the motion on, whitened
     /// with the true filter.
     pub fn log_likelihood_ratio(&self, innovations: &[f64], forward: &mut Forward) -> f64 {
+        Vectors::widest().run(
+            #[inline(always)]
+            || self.pass(innovations, forward),
+        )
+    }
+
+    #[inline(always)]
+    fn pass(&self, innovations: &[f64], forward: &mut Forward) -> f64 {
         let Forward {
             now,
             next,
-            exponents,
+            weights,
             likelihoods,
         } = forward;
         now.clear();
-        now.resize(self.states, 0.0);
-        next.resize(self.states, 0.0);
+        now.resize(self.steps.len(), 0.0);
+        next.resize(self.steps.len(), 0.0);
+        weights.resize(self.steps.len(), [0.0; INTO]);
+        likelihoods.resize(self.means.len(), 0.0);
         // Before the first impulse every sum is zero, which is the first state.
         now[0] = 1.0;
         let mut logarithm = 0.0;
@@ -96,20 +112,28 @@ impl Clairvoyant {
                 logarithm += shift * (z - shift / 2.0);
                 continue;
             }
-            next.fill(0.0);
-            exponents.clear();
-            exponents.extend(self.means.iter().map(|mean| {
+            for (exponent, mean) in likelihoods.iter_mut().zip(&self.means) {
                 let mean = shift + mean;
-                mean * (z - mean / 2.0)
-            }));
-            let possible = || self.steps.iter().filter(|step| now[step.from] > 0.0);
-            // The largest exponent is factored out of the sum, so that nothing overflows.
-            let exponents_of = possible().map(|step| exponents[step.mean]);
-            let largest = exponents_of.fold(f64::NEG_INFINITY, f64::max);
-            likelihoods.clear();
-            likelihoods.extend(exponents.iter().map(|it| libm::exp(it - largest)));
-            for step in possible() {
-                next[step.to] += now[step.from] * step.probability * likelihoods[step.mean];
+                *exponent = mean * (z - mean / 2.0);
+            }
+            // The largest exponent of what is possible is factored out of the sum, so that nothing overflows.
+            let mut largest = f64::NEG_INFINITY;
+            for (weights, steps) in weights.iter_mut().zip(&self.steps) {
+                for (weight, step) in weights.iter_mut().zip(steps) {
+                    *weight = now[step.from] * step.probability;
+                    if *weight > 0.0 {
+                        largest = greatest(likelihoods[step.mean], largest);
+                    }
+                }
+            }
+            for likelihood in likelihoods.iter_mut() {
+                *likelihood = exp(least(0.0, *likelihood - largest));
+            }
+            for ((next, weights), steps) in next.iter_mut().zip(&*weights).zip(&self.steps) {
+                let each = weights.iter().zip(steps);
+                *next = each
+                    .map(|(weight, step)| weight * likelihoods[step.mean])
+                    .sum();
             }
             let sum: f64 = next.iter().sum();
             logarithm += largest;

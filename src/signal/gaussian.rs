@@ -1,17 +1,17 @@
 //! Standard normal draws in bulk, by Box and Muller's transformation [^1]: with (U, V) uniform,
 //! √(−2 ln U) · (cos 2πV, sin 2πV) are two independent normals.
 //!
-//! The code uses only additions, multiplications, divisions and square roots, which IEEE 754 rounds
-//! correctly, so that the bits are the same on every machine and at every vector width. The elementary
-//! functions are power series, truncated where the remainder is below 1e-15 of the value.
+//! Of the C library it uses square roots alone, which IEEE 754 rounds correctly, so that the bits are the same on every
+//! machine and at every vector width.
 //!
 //! [^1]: G. E. P. Box, M. E. Muller, "A note on the generation of random normal deviates",
 //! Ann. Math. Statist. 29, 1958.
 
 use super::bits::fill_bytes;
 use crate::rng::Generator;
+use crate::series::{ln, sin_cos};
 use crate::simd::{LANES, Value, Vectors};
-use std::f64::consts::{FRAC_PI_4, LN_2, SQRT_2};
+use std::f64::consts::FRAC_PI_4;
 
 /// Normal draws made by one step of the transformation.
 const STEP: usize = 2 * LANES;
@@ -74,34 +74,11 @@ fn radius(bits: u64) -> f64 {
     (-2.0 * ln(open_uniform(bits))).sqrt()
 }
 
-/// ln x of x in (0, 1): x = 2^e m with m in [√½, √2), and with s = (m − 1)/(m + 1)
-/// ln m = 2(s + s³/3 + s⁵/5 + …), s² < 0.0295.
-#[inline(always)]
-fn ln(x: f64) -> f64 {
-    const LEAST: u64 = (SQRT_2 / 2.0).to_bits();
-    // Keeps exponents positive, because vector instructions shift only unsigned numbers.
-    const RAISED: u64 = 1024;
-    const ODD: [f64; 8] = [17.0, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0];
-    let exponent = (x.to_bits() + ((RAISED << 52) - LEAST)) >> 52;
-    let mantissa = f64::from_bits((x.to_bits() + (RAISED << 52)).wrapping_sub(exponent << 52));
-    let s = (mantissa - 1.0) / (mantissa + 1.0);
-    let z = s * s;
-    let tail = z * horner(z, const { reciprocals(ODD) });
-    let exponent = small_integer(exponent) - RAISED as f64;
-    exponent * LN_2 + 2.0 * s * (1.0 + tail)
-}
-
 /// (cos φ, sin φ) at an angle uniform on the circle: the upper 52 bits place it in the first eighth, the
 /// lowest three mirror it into any other.
 #[inline(always)]
 fn direction(bits: u64) -> (f64, f64) {
-    // 1/(n (n − 1)), from the highest power down: each is the ratio of neighbouring terms.
-    const SINE: [f64; 7] = [210.0, 156.0, 110.0, 72.0, 42.0, 20.0, 6.0];
-    const COSINE: [f64; 8] = [240.0, 182.0, 132.0, 90.0, 56.0, 30.0, 12.0, 2.0];
-    let angle = open_uniform(bits) * FRAC_PI_4;
-    let z = angle * angle;
-    let sine = angle * nested(z, const { reciprocals(SINE) });
-    let cosine = nested(z, const { reciprocals(COSINE) });
+    let (sine, cosine) = sin_cos(open_uniform(bits) * FRAC_PI_4);
     let is_steep = bits & 4 != 0;
     let (x, y) = if is_steep {
         (sine, cosine)
@@ -110,34 +87,6 @@ fn direction(bits: u64) -> (f64, f64) {
     };
     let signed = |value: f64, sign: u64| f64::from_bits(value.to_bits() ^ (sign << 63));
     (signed(x, bits & 1), signed(y, bits >> 1 & 1))
-}
-
-const fn reciprocals<const N: usize>(mut values: [f64; N]) -> [f64; N] {
-    let mut i = 0;
-    while i < N {
-        values[i] = 1.0 / values[i];
-        i += 1;
-    }
-    values
-}
-
-/// c_N + z (c_{N−1} + z (… c_1)).
-#[inline(always)]
-fn horner<const N: usize>(z: f64, coefficients: [f64; N]) -> f64 {
-    coefficients.iter().fold(0.0, |sum, c| c + z * sum)
-}
-
-/// 1 − c_N z (1 − c_{N−1} z (1 − … )).
-#[inline(always)]
-fn nested<const N: usize>(z: f64, ratios: [f64; N]) -> f64 {
-    ratios.iter().fold(1.0, |sum, ratio| 1.0 - ratio * z * sum)
-}
-
-/// Converts an integer below 2⁵² to a float by instructions that every vector width has.
-#[inline(always)]
-fn small_integer(n: u64) -> f64 {
-    const TWO_52: f64 = 4503599627370496.0;
-    f64::from_bits(n | TWO_52.to_bits()) - TWO_52
 }
 
 #[cfg(test)]
