@@ -17,6 +17,12 @@ pub const GAP: usize = 15;
 pub trait Score {
     /// −∞ before there is anything to compute it from.
     fn step(&mut self, x: f64) -> f64;
+
+    /// The first of the samples after which the score is what is looked for. It takes in none of those that follow.
+    #[inline]
+    fn find(&mut self, samples: &[f64], mut is_it: impl FnMut(f64) -> bool) -> Option<usize> {
+        samples.iter().position(|x| is_it(self.step(*x)))
+    }
 }
 
 /// A score of means of so many samples; between them the last stands.
@@ -43,15 +49,26 @@ impl<S: Score> Blocks<S> {
 }
 
 impl<S: Score> Score for Blocks<S> {
-    #[inline]
     fn step(&mut self, x: f64) -> f64 {
-        self.sum += x;
-        self.taken += 1;
-        if self.taken == self.size {
-            self.score = self.of.step(self.sum / self.size as f64);
-            (self.sum, self.taken) = (0.0, 0);
-        }
+        self.find(&[x], |_| true);
         self.score
+    }
+
+    /// With sum and score in registers, between blocks too.
+    #[inline]
+    fn find(&mut self, samples: &[f64], mut is_it: impl FnMut(f64) -> bool) -> Option<usize> {
+        let (mut sum, mut taken, mut score) = (self.sum, self.taken, self.score);
+        let found = samples.iter().position(|x| {
+            sum += x;
+            taken += 1;
+            if taken == self.size {
+                score = self.of.step(sum / self.size as f64);
+                (sum, taken) = (0.0, 0);
+            }
+            is_it(score)
+        });
+        (self.sum, self.taken, self.score) = (sum, taken, score);
+        found
     }
 }
 
@@ -65,7 +82,10 @@ impl Reference {
     /// The newest block less the mean of the reference, in its deviations; none before there is a reference.
     pub fn step(&mut self, x: f64) -> Option<f64> {
         let full = self.blocks.len() == REFERENCE + GAP;
-        let z = full.then(|| (x - self.moments().0) / self.moments().1);
+        let z = full.then(|| {
+            let (mean, deviation) = self.moments();
+            (x - mean) / deviation
+        });
         if full {
             self.blocks.pop_front();
         }
@@ -75,7 +95,10 @@ impl Reference {
 
     /// Mean and standard deviation. Blocks that are all alike deviate a little, so that z is a number.
     fn moments(&self) -> (f64, f64) {
-        let reference = || self.blocks.iter().take(REFERENCE);
+        // In one piece but for the turn of the ring, so in two plain loops.
+        let (front, back) = self.blocks.as_slices();
+        let (front, back) = (&front[..front.len().min(REFERENCE)], back);
+        let reference = || front.iter().chain(&back[..REFERENCE - front.len()]);
         let mean = reference().sum::<f64>() / REFERENCE as f64;
         let squares: f64 = reference().map(|x| (x - mean) * (x - mean)).sum();
         (mean, sqrt(squares / (REFERENCE - 1) as f64).max(1e-9))

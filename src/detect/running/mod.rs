@@ -114,17 +114,34 @@ impl Detector {
 }
 
 impl Running {
-    /// Takes in a sample and returns the score, −∞ before there is one. Between blocks the last score stands.
-    #[inline]
-    pub fn step(&mut self, x: f64) -> f64 {
+    /// Takes in samples up to the first after which the score is what is looked for. The score is −∞ before there is one;
+    /// between blocks the last stands.
+    pub fn find(&mut self, samples: &[f64], is_it: impl FnMut(f64) -> bool) -> Option<usize> {
         match &mut self.0 {
-            Kind::Three(it) => it.step(x),
-            Kind::Ranks(it) => it.step(x),
-            Kind::Standard(it) => it.step(x),
-            Kind::Zero(it) => it.step(x),
-            Kind::Uniform(it) => it.step(x),
-            Kind::Matched(it) => it.step(x),
+            Kind::Three(it) => it.find(samples, is_it),
+            Kind::Ranks(it) => it.find(samples, is_it),
+            Kind::Standard(it) => it.find(samples, is_it),
+            Kind::Zero(it) => it.find(samples, is_it),
+            Kind::Uniform(it) => it.find(samples, is_it),
+            Kind::Matched(it) => it.find(samples, is_it),
         }
+    }
+
+    /// Takes in all of them and returns the largest score of those after the first `skipped`.
+    pub fn largest(&mut self, samples: &[f64], skipped: usize) -> f64 {
+        let (before, after) = samples.split_at(skipped);
+        self.learn(before);
+        let mut largest = f64::NEG_INFINITY;
+        self.find(after, |score| {
+            largest = largest.max(score);
+            false
+        });
+        largest
+    }
+
+    /// Takes in all of them.
+    pub fn learn(&mut self, samples: &[f64]) {
+        self.find(samples, |_| false);
     }
 }
 

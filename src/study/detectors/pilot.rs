@@ -61,14 +61,7 @@ impl Pilot {
         let record = white.record(LEARNING + REST, &mut draws);
         let each = kinds.iter().map(|kind| {
             let mut running = self.start(kind, "detectors pilot ties", self.seed, trial);
-            let mut most = f64::NEG_INFINITY;
-            for (time, x) in record.iter().enumerate() {
-                let score = running.step(*x);
-                if time >= LEARNING && score > most {
-                    most = score;
-                }
-            }
-            most
+            running.largest(&record, LEARNING)
         });
         each.collect()
     }

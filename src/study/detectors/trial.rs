@@ -37,8 +37,9 @@ pub fn at_rest(
         let read: Vec<f64> = read.into_iter().map(|x| noise.read(x)).collect();
         for (sums, point) in sums.iter_mut().zip(points) {
             let mut running = pilot.start(point, "detectors at rest ties", seed, trial);
-            learn(&mut running, &read[..LEARNING]);
-            let alarm = first(&mut running, &read[LEARNING..], pilot.threshold(point));
+            running.learn(&read[..LEARNING]);
+            let threshold = pilot.threshold(point);
+            let alarm = running.find(&read[LEARNING..], |score| score >= threshold);
             sums.counts[0] += u64::from(alarm.is_some());
             sums.counts[1] += alarm.map_or(REST, |time| time + 1) as u64;
         }
@@ -64,7 +65,7 @@ pub fn of_starts(pilot: &Pilot, points: &[&Point], seed: u64, trial: u64) -> Vec
         let known = learnt.iter().find(is_same).map(|(_, it)| it.clone());
         let mut running = known.unwrap_or_else(|| {
             let mut running = pilot.start(point, "detectors ties", seed, trial);
-            learn(&mut running, &before);
+            running.learn(&before);
             learnt.push((point, running.clone()));
             running
         });
@@ -75,7 +76,8 @@ pub fn of_starts(pilot: &Pilot, points: &[&Point], seed: u64, trial: u64) -> Vec
             moved = Some((point, after_start(point, after)));
         }
         let read = &moved.as_ref().expect("it was just read").1;
-        seen(first(&mut running, read, pilot.threshold(point)))
+        let threshold = pilot.threshold(point);
+        seen(running.find(read, |score| score >= threshold))
     });
     each.collect()
 }
@@ -94,17 +96,6 @@ fn after_start(point: &Point, noise: &[f64]) -> Vec<f64> {
         point.noise.read(x + shift)
     });
     each.collect()
-}
-
-fn learn(running: &mut Running, rest: &[f64]) {
-    for x in rest {
-        running.step(*x);
-    }
-}
-
-/// The first sample after which there is an alarm.
-fn first(running: &mut Running, record: &[f64], threshold: f64) -> Option<usize> {
-    record.iter().position(|x| running.step(*x) >= threshold)
 }
 
 fn seen(alarm: Option<usize>) -> Sums {
