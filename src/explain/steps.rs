@@ -7,7 +7,7 @@
 //! found by dynamic programming on a grid of 0.01 m/s². A window far from the path costs 1 however far it is, so
 //! that a pulse of acceleration does not draw the path to itself.
 
-use crate::simd;
+use crate::simd::{LANES, Vectors, Wide, least};
 use std::ops::Range;
 
 /// The step of the grid, m/s², and the most points in it.
@@ -32,13 +32,27 @@ impl Costs {
     /// To a point so many steps away.
     #[inline(always)]
     fn to_far(self, steps: f64) -> f64 {
-        simd::least(self.jump + self.step * steps, self.most)
+        least(self.jump + self.step * steps, self.most)
     }
 }
 
 /// The cheapest path within bounds, one value for each window, and its cost. It moves between groups of windows; a
 /// `pull` of 1 makes a window cost 1 more for every 0.1 m/s² that the path is from the mean of all.
 pub fn path(
+    means: &[f64],
+    bounds: (f64, f64),
+    windows: (usize, f64),
+    pull: f64,
+    costs: Costs,
+) -> (Vec<f64>, f64) {
+    Vectors::widest().run(
+        #[inline(always)]
+        || path_of(means, bounds, windows, pull, costs),
+    )
+}
+
+#[inline(always)]
+fn path_of(
     means: &[f64],
     (least, greatest): (f64, f64),
     (group, width): (usize, f64),
@@ -64,12 +78,7 @@ pub fn path(
             let near = at(mean - width)..(at(mean + width) + 2).min(points);
             let (below, rest) = off.split_at_mut(near.start);
             let (beside, above) = rest.split_at_mut(near.len());
-            let all = |off: &mut [f64], far: &[f64]| {
-                off.iter_mut()
-                    .zip(far)
-                    .for_each(|(off, far)| *off += far + 1.0);
-            };
-            all(below, &far[..near.start]);
+            far_from(below, &far[..near.start]);
             for ((off, far), value) in beside
                 .iter_mut()
                 .zip(&far[near.clone()])
@@ -77,7 +86,7 @@ pub fn path(
             {
                 *off += far + ((mean - value) / width).powi(2).min(1.0);
             }
-            all(above, &far[near.end..]);
+            far_from(above, &far[near.end..]);
         }
         before.find(&totals, costs);
         for ((total, before), off) in totals.iter_mut().zip(&before.cost).zip(&off) {
@@ -93,6 +102,14 @@ pub fn path(
         point = usize::from(origin[point]);
     }
     (path, cost)
+}
+
+/// Adds what a window costs that is too far off.
+#[inline(always)]
+fn far_from(off: &mut [f64], far: &[f64]) {
+    for (off, far) in off.iter_mut().zip(far) {
+        *off += far + 1.0;
+    }
 }
 
 /// The cheapest point before each, as a number, and what it costs to come from there.
@@ -120,6 +137,7 @@ impl Before {
 
     /// For each point itself or a neighbour, the best of those near enough for a jump by steps, or the cheapest of all: of
     /// equal ones the first of these.
+    #[inline(always)]
     fn find(&mut self, totals: &[f64], costs: Costs) {
         self.step(totals, costs);
         let (cheapest, beside) = (cheapest(totals), costs.to_neighbour());
@@ -151,6 +169,7 @@ impl Before {
     }
 
     /// The best for a jump to each point by steps.
+    #[inline(always)]
     fn step(&mut self, totals: &[f64], costs: Costs) {
         self.totals.copy_from_slice(totals);
         (self.stepped.iter_mut().zip(0..)).for_each(|(point, place)| *point = f64::from(place));
@@ -174,8 +193,15 @@ impl Before {
 }
 
 /// The first of the least.
+#[inline(always)]
 fn cheapest(totals: &[f64]) -> usize {
-    let least = totals.iter().copied().fold(f64::INFINITY, simd::least);
+    let (wide, others) = totals.as_chunks::<LANES>();
+    let mut lanes = Wide::all(f64::INFINITY);
+    for totals in wide {
+        lanes = Wide(*totals).least(lanes);
+    }
+    let all = lanes.0.iter().chain(others);
+    let least = all.copied().fold(f64::INFINITY, least);
     totals.iter().position(|total| *total == least).unwrap_or(0)
 }
 

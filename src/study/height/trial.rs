@@ -53,7 +53,10 @@ pub(super) fn run(points: &[&Point], seed: u64, trial: u64) -> Vec<Sums> {
         let mut sums = shape().empty().sums;
         for (place, way) in Way::ALL.into_iter().enumerate() {
             let heights = match way.published() {
-                Some(published) => follow(&watched, &verticals, &barometer, published),
+                Some(published) => {
+                    let each = follow(&watched, &verticals, &barometer, published);
+                    each.into_iter().step_by(pitch(&watched)).collect()
+                }
                 None => carried(&watched, &track, rate, way),
             };
             add(&mut sums, place, &heights, &watched);
@@ -63,9 +66,14 @@ pub(super) fn run(points: &[&Point], seed: u64, trial: u64) -> Vec<Sums> {
     each.collect()
 }
 
+/// From one sample that is looked at to the next.
+fn pitch(watched: &Watched) -> usize {
+    (EVERY * watched.numbers.rate) as usize
+}
+
 fn add(sums: &mut Sums, place: usize, heights: &[f64], watched: &Watched) {
-    let pitch = (EVERY * watched.numbers.rate) as usize;
-    let both = heights.iter().zip(&watched.truth).step_by(pitch);
+    let truth = watched.truth.iter().step_by(pitch(watched));
+    let both = heights.iter().zip(truth);
     let errors: Vec<f64> = both.map(|(found, truth)| fabs(found - truth)).collect();
     let number = errors.len() as f64;
     let mean = errors.iter().sum::<f64>() / number;
@@ -132,14 +140,14 @@ fn follow(
     verticals.iter().map(height).collect()
 }
 
-/// The height at each sample by the distances of trips, put right at each rest.
+/// The height at each sample that is looked at by the distances of trips, put right at each rest.
 fn carried(watched: &Watched, track: &Track, rate: f64, way: Way) -> Vec<f64> {
     let put_right = match way {
         Way::Trips => Vec::new(),
         _ => put_right(watched, track, rate, way == Way::SlowMap),
     };
     let places: Vec<&Place> = track.course.stretches().iter().flatten().collect();
-    let samples = watched.samples.iter();
+    let samples = watched.samples.iter().step_by(pitch(watched));
     let height = |it: &Sample| {
         let course = between(&places, it.time, |place| (place.time, place.position.mean));
         course + between(&put_right, it.time, |knot| *knot)

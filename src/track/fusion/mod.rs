@@ -118,13 +118,10 @@ impl Position {
 
     /// The floor within δ of a height.
     fn floor(&self, height: f64) -> Option<f64> {
-        let off = |floor: &f64| fabs(height - floor);
-        let near = self
-            .floors
-            .iter()
-            .copied()
-            .filter(|it| off(it) < self.fusion.tolerance);
-        near.min_by(|a, b| off(a).total_cmp(&off(b)))
+        let each = self.floors.iter().map(|it| (fabs(height - it), *it));
+        let near = each.filter(|(off, _)| *off < self.fusion.tolerance);
+        let nearest = near.reduce(|one, other| if other.0 < one.0 { other } else { one });
+        nearest.map(|(_, floor)| floor)
     }
 
     /// Whether a car that stands here stands at no floor: an alarm.
