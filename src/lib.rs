@@ -98,6 +98,8 @@
 
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
+// Tests compare with the C library's.
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod chain;
 pub mod claim;

@@ -177,7 +177,7 @@ fn naive_decision(critical: &[(Option<u64>, Option<u64>)], w: u64, t: usize) -> 
 /// Box and Muller's transformation, using one of each pair.
 fn normal(random: &mut impl Rng) -> f64 {
     let (u, v): (f64, f64) = (1.0 - random.random::<f64>(), random.random());
-    (-2.0 * u.ln()).sqrt() * (2.0 * std::f64::consts::PI * v).cos()
+    (-2.0 * libm::log(u)).sqrt() * libm::cos(2.0 * std::f64::consts::PI * v)
 }
 
 /// N = M₁ = M₂ = 12, 64 training samples, order 2, the printed coefficients of (3).

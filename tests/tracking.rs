@@ -101,7 +101,7 @@ fn real_rides_go_as_far_as_is_stated() {
         };
         let error = (distance - stated).abs();
         assert!(
-            error <= tolerance.hypot(2.0 * deviation),
+            error <= libm::hypot(tolerance, 2.0 * deviation),
             "{file}: {distance} ± {deviation}"
         );
         if MEASURED.iter().any(|name| file.ends_with(name)) {

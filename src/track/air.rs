@@ -1,6 +1,7 @@
 //! The air between two pressures, by its temperature.
 
 use crate::recording::{GRAVITY, Pressure};
+use libm::log;
 use serde::Serialize;
 use std::fmt;
 
@@ -43,7 +44,7 @@ pub(super) fn kelvin(celsius: Option<f64>) -> f64 {
 
 /// The height of each reading above the first, m, at its time, s.
 pub(super) fn above_first(readings: &[Pressure], kelvin: f64) -> Vec<(f64, f64)> {
-    let above = |it: &Pressure| metres((readings[0].pascal / it.pascal).ln(), kelvin);
+    let above = |it: &Pressure| metres(log(readings[0].pascal / it.pascal), kelvin);
     readings.iter().map(|it| (it.time, above(it))).collect()
 }
 

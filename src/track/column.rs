@@ -6,7 +6,7 @@ use super::filter::Uncertain;
 use super::fusion::Reading;
 use super::still::Rest;
 use crate::recording::Pressure;
-use libm::hypot;
+use libm::{exp, hypot, log};
 use std::f64::consts::SQRT_2;
 
 /// The error of an accelerometer's gain.
@@ -35,7 +35,7 @@ impl Column {
         let printed = other.standard_altitude() - one.standard_altitude();
         let [one, other] = [one, other].map(|it| &it.read);
         let seconds = other.time - one.time;
-        let weather = WEATHER * seconds / one.mean.exp();
+        let weather = WEATHER * seconds / exp(one.mean);
         let readings = second * (one.of_mean() + other.of_mean()).sqrt();
         let deviation = hypot(hypot(readings, weather), SQRT_2 * rounded);
         let log_ratio = one.mean - other.mean;
@@ -71,7 +71,7 @@ pub(super) fn read(
     (second, rounded): (f64, f64),
     kelvin: f64,
 ) -> Vec<[Option<Known>; 2]> {
-    let zero = first.map_or(0.0, |it| it.pascal.ln());
+    let zero = first.map_or(0.0, |it| log(it.pascal));
     let known = |of: &Rest| {
         let read = &of.read;
         let variance = second * second * read.of_mean() + rounded * rounded;

@@ -7,6 +7,7 @@ use super::record::Tracked;
 use super::still::{Rest, is_frozen, silence, usual_interval};
 use super::unseen::Unseen;
 use crate::recording::Pressure;
+use libm::exp;
 
 /// In a storm the weather is so many times as fast.
 const STORM: f64 = 10.0;
@@ -47,7 +48,7 @@ pub(super) fn faults(
                 let is_within = after.jump.or(other.jump).is_some();
                 // A barometer that drifts does not jump.
                 let seconds = other.read.time - after.read.time;
-                let storm = STORM * WEATHER * seconds / after.read.mean.exp();
+                let storm = STORM * WEATHER * seconds / exp(after.read.mean);
                 let is_jump = jumps(column.log_ratio) && column.log_ratio.abs() > storm;
                 (is_clear && !is_within && is_jump).then_some(column.log_ratio)
             });

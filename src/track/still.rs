@@ -5,6 +5,7 @@ use super::rested::Rested;
 use super::unseen::Unseen;
 use crate::recording::Pressure;
 use crate::stats::quantile::median;
+use libm::{exp, log};
 use std::ops::Range;
 
 /// The rest that is looked at on either side of a trip, and what is left out behind a trip, where a barometer lags, s.
@@ -49,7 +50,7 @@ impl Rest {
         let before = &before[early.map_or(0, |it| it.0)..];
         let after = &after[..late.map_or(after.len(), |it| it.0)];
         let of = |readings: &[Pressure], jump: Option<(usize, f64)>| {
-            let logs = readings.iter().map(|it| (it.time, it.pascal.ln()));
+            let logs = readings.iter().map(|it| (it.time, log(it.pascal)));
             Self {
                 read: Rested::of(&logs.collect::<Vec<_>>()),
                 jump: jump.map(|it| it.1),
@@ -64,7 +65,7 @@ impl Rest {
     }
 
     pub fn standard_altitude(&self) -> f64 {
-        let (time, pascal) = (self.read.time, self.read.mean.exp());
+        let (time, pascal) = (self.read.time, exp(self.read.mean));
         Pressure { time, pascal }.standard_altitude()
     }
 }
@@ -111,7 +112,7 @@ fn rests(trips: &[Tracked], at: usize, unseen: &Unseen) -> [Option<Range<f64>>; 
 pub fn step(readings: &[Pressure]) -> f64 {
     let changes = readings
         .windows(2)
-        .map(|pair| (pair[1].pascal / pair[0].pascal).ln().abs());
+        .map(|pair| log(pair[1].pascal / pair[0].pascal).abs());
     let step = changes
         .filter(|change| *change > 0.0)
         .fold(f64::INFINITY, f64::min);
@@ -126,7 +127,7 @@ fn within(readings: &[Pressure], times: Range<f64>) -> &[Pressure] {
 
 /// The first reading after a jump, and how far up it is, as a logarithm.
 fn jump(readings: &[Pressure], step: f64) -> Option<(usize, f64)> {
-    let logs: Vec<f64> = readings.iter().map(|it| -it.pascal.ln()).collect();
+    let logs: Vec<f64> = readings.iter().map(|it| -log(it.pascal)).collect();
     let change = |at: usize| (logs[at] - logs[at - 1]).abs();
     let last = logs.len().saturating_sub(1);
     let at = (2..last).max_by(|a, b| change(*a).total_cmp(&change(*b)))?;
@@ -145,7 +146,7 @@ pub fn is_frozen(trip: &Tracked, readings: &[Pressure], step: f64) -> bool {
         return false;
     };
     let readings = within(readings, start..stop);
-    let logs = readings.iter().map(|it| it.pascal.ln());
+    let logs = readings.iter().map(|it| log(it.pascal));
     let (least, most) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), it| {
         (least.min(it), most.max(it))
     });

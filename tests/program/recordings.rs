@@ -625,7 +625,7 @@ fn warnings() {
     assert_eq!((code, &err[..]), (0, ""));
     assert!(out.contains("   1  up         80.0"), "{out}");
     // Somebody walks with the sensor.
-    let step = |i: i32| 5.0 * (12.0 * f64::from(i) / 100.0).sin();
+    let step = |i: i32| 5.0 * libm::sin(12.0 * f64::from(i) / 100.0);
     let row = |i: i32| format!("{:.2},{:.4}\n", f64::from(i) / 100.0, step(i));
     fs::write(
         path.join("walk.csv"),

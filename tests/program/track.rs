@@ -436,7 +436,7 @@ fn with_a_barometer(scale: f64) -> tempfile::TempDir {
             distance.signum() * (begun(moved) - begun(moved - uniform))
         };
         let height: f64 = truth.iter().map(gone).sum();
-        let pressure = 755.0 * scale * (-height * 9.80665 / (287.05 * 293.15)).exp();
+        let pressure = 755.0 * scale * libm::exp(-height * 9.80665 / (287.05 * 293.15));
         format!("{time},{pressure}\n")
     });
     let rows: String = rows.collect();

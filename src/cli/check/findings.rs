@@ -261,7 +261,7 @@ fn name(verdict: Verdict) -> &'static str {
 
 /// Four digits of the nominal rate, and six decimals at least.
 fn digits(finding: &Finding, rate: f64) -> String {
-    let decimals = (3.0 - finding.nominal.log10().floor()).max(6.0) as usize;
+    let decimals = (3.0 - libm::log10(finding.nominal).floor()).max(6.0) as usize;
     format!("{rate:.decimals$}")
 }
 

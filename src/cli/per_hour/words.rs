@@ -261,7 +261,7 @@ fn digits(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
-    let decimals = 3 - value.abs().log10().floor().clamp(-300.0, 3.0) as i32;
+    let decimals = 3 - libm::log10(value.abs()).floor().clamp(-300.0, 3.0) as i32;
     if (1e-4..1e7).contains(&value) {
         format!("{value:.0$}", decimals.max(0) as usize)
     } else {
