@@ -3,23 +3,31 @@
 use super::Comparison;
 use crate::format::{minus, thousands};
 
-/// A number and its interval, `0.8231 [0.8214, 0.8248]`, with two digits of the half-width; an exact
-/// number stands alone.
+/// A number and its interval, `0.8231 [0.8214, 0.8248]`, with two digits of the half-width. An exact number stands alone,
+/// and so does one without an interval, with three digits.
 pub fn interval(value: f64, low: f64, high: f64) -> String {
     if low == high {
         return exact(value);
+    }
+    if (low, high) == (f64::NEG_INFINITY, f64::INFINITY) {
+        return significant(value, 3);
     }
     let decimals = decimals(low, high);
     let [value, low, high] = [value, low, high].map(|number| fixed(number, decimals));
     format!("{value} [{low}, {high}]")
 }
 
-/// Six significant digits without trailing zeros; tiny numbers as a power of ten.
+/// Six significant digits.
 pub fn exact(value: f64) -> String {
+    significant(value, 6)
+}
+
+/// So many significant digits without trailing zeros; tiny numbers as a power of ten.
+fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return fixed(value, 0);
     }
-    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
     if rounded != 0.0 && rounded.abs() < 1e-4 {
         minus(&format!("{rounded:e}"))
     } else {

@@ -20,6 +20,7 @@
 //! | `false_records` | records | records with one |
 //! | `wrong_way` | records | a direction is told against that of a cage above 0.2 m/s |
 //! | `known` | hours | for which share of its rest it is told to rest |
+//! | `directed`, `misdirected` | hours | for which share of its motion above 0.2 m/s its direction is told, and for which the other one |
 //! | `start_delay_…`, `stop_delay_…` | trips | quantiles of the time to when it is told, in tenths of a second |
 //!
 //! Trips of one record share their lift and their sensor, so intervals of shares of trips are somewhat too narrow;

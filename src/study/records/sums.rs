@@ -22,7 +22,7 @@ impl Watch {
             },
             Self::Monitor => Shape {
                 most: vec![None, one, trips, trips, None, None, one, one],
-                lengths: 2,
+                lengths: 5,
                 values: vec![MOST_TRIPS; 2],
             },
         }
@@ -43,12 +43,14 @@ impl Watch {
             }
             Self::Monitor => {
                 let [starts, stops] = [0, 1].map(|at| sums.values[at].count(|_| true));
-                let [stood, known] = [0, 1].map(|at| sums.lengths[at].value());
+                let [stood, known, moved, right, wrong] =
+                    [0, 1, 2, 3, 4].map(|at| sums.lengths[at].value());
                 within("records of rest_in_motion", counts[1], counts[0])?;
                 within("slack_missed", counts[3], counts[2])?;
                 within("false_records", counts[6], counts[5])?;
                 // A stretch of `rest` ends between two samples.
                 within("known", known, 1.1 * stood + 1.0)?;
+                within("directed and misdirected", right + wrong, 1.1 * moved + 1.0)?;
                 let (starts, stops) = (starts as f64, stops as f64);
                 Rule::Within(starts, starts, "").check("stop_delays", &stops)
             }
@@ -87,7 +89,12 @@ impl Watch {
                 ]
             }
             Self::Monitor => {
-                let [stood, known] = [0, 1].map(|at| sums.lengths[at].value() / HOUR);
+                let hours = |at: usize| sums.lengths[at].value() / HOUR;
+                let (stood, moved) = (hours(0), hours(2));
+                let of_hours = |name, part: f64, whole: f64| Estimate {
+                    value: if whole > 0.0 { part / whole } else { 0.0 },
+                    ..plain(name, 0, whole, "hours")
+                };
                 let slack = tally(counts[3], counts[2]);
                 let mut estimates = vec![
                     of_records("rest_in_motion", counts[1]),
@@ -103,10 +110,9 @@ impl Watch {
                     rate("false_rides", counts[5], stood, "hours", confidence),
                     of_records("false_records", counts[6]),
                     of_records("wrong_way", counts[7]),
-                    Estimate {
-                        value: if stood > 0.0 { known / stood } else { 0.0 },
-                        ..plain("known", 0, stood, "hours")
-                    },
+                    of_hours("known", hours(1), stood),
+                    of_hours("directed", hours(3), moved),
+                    of_hours("misdirected", hours(4), moved),
                 ];
                 estimates.extend(delays("start_delay", &sums.values[0], confidence));
                 estimates.extend(delays("stop_delay", &sums.values[1], confidence));
@@ -162,7 +168,15 @@ impl From<Watched> for Sums {
                 u64::from(watched.false_rides > 0),
                 u64::from(watched.wrong_ways > 0),
             ],
-            lengths: vec![Fixed::new(watched.stood), Fixed::new(watched.known)],
+            lengths: [
+                watched.stood,
+                watched.known,
+                watched.moved,
+                watched.directed,
+                watched.misdirected,
+            ]
+            .map(Fixed::new)
+            .into(),
             values: values.into(),
         }
     }

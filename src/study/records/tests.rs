@@ -128,7 +128,7 @@ const HEAD: &str = "question = \"?\"\nseed = 5\ntrials = 3\n[records]\n";
 
 #[test]
 fn outcomes_of_each_class() {
-    for (watch, outcomes) in [("detect", 7), ("monitor", 14)] {
+    for (watch, outcomes) in [("detect", 7), ("monitor", 16)] {
         let class = "class = [\"ordinary\", \"drum\"]\n";
         let study: Of<Table> = read(&format!("{HEAD}watch = \"{watch}\"\n{class}"));
         let rows = rows(&study, 3);

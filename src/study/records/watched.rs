@@ -1,7 +1,7 @@
 //! A record shown to the monitor, sample by sample.
 
 use crate::lift::{Class, Record};
-use crate::monitor::{Alarm, Design, Direction, Event, Knowledge, Monitor, State};
+use crate::monitor::{Alarm, Design, Direction, Event, Kind, Knowledge, Monitor, State};
 use crate::recording::Sample;
 use crate::study::ride::account::{Account, Seen, Truth};
 
@@ -24,6 +24,11 @@ pub struct Watched {
     pub stood: f64,
     /// For how long of that it said `rest`, s.
     pub known: f64,
+    /// How long the cage went above [`FAST`], s.
+    pub moved: f64,
+    /// For how long of that its direction was told, and for how long the other one, s.
+    pub directed: f64,
+    pub misdirected: f64,
     /// From each start, and from each stop, to when it was told, s; infinite if it never was.
     pub start_delays: Vec<f64>,
     pub stop_delays: Vec<f64>,
@@ -45,7 +50,8 @@ impl Watched {
         let mut monitor = Monitor::new(design.clone(), knowledge);
         let mut events: Vec<Event> = Vec::new();
         let mut danger = Danger::default();
-        let (mut stood, mut wrong_ways) = (0.0, 0);
+        let mut watched = Self::default();
+        let (seconds, mut direction) = (1.0 / record.rate, None);
         let readings = record.times.iter().zip(&record.acceleration);
         for ((&time, &acceleration), speed) in readings.zip(&record.speed) {
             let turns = || {
@@ -56,19 +62,27 @@ impl Watched {
             };
             let drum = (class == Class::Drum).then(turns);
             let new = monitor.step(Sample { time, acceleration }, drum);
-            let is_against = |event: &&Event| {
-                let told = event.kind.direction();
-                speed.abs() > FAST && told.is_some_and(|told| told != Direction::of(*speed))
-            };
-            wrong_ways += new.iter().filter(is_against).count() as u64;
+            let is_fast = speed.abs() > FAST;
+            let is_against = |told: Direction| is_fast && told != Direction::of(*speed);
+            for event in new {
+                if matches!(event.kind, Kind::Change { .. }) {
+                    direction = event.kind.direction();
+                    watched.wrong_ways += u64::from(direction.is_some_and(is_against));
+                }
+            }
             events.extend_from_slice(new);
-            let is_rest = monitor.state() == State::REST;
-            danger.step(time, is_rest && speed.abs() > FAST);
-            stood += if *speed == 0.0 {
-                1.0 / record.rate
-            } else {
-                0.0
-            };
+            danger.step(time, monitor.state() == State::REST && is_fast);
+            if *speed == 0.0 {
+                watched.stood += seconds;
+            }
+            if is_fast {
+                watched.moved += seconds;
+                match direction {
+                    Some(told) if is_against(told) => watched.misdirected += seconds,
+                    Some(_) => watched.directed += seconds,
+                    None => {}
+                }
+            }
         }
         let truth = Truth {
             journeys: record.journeys.clone(),
@@ -76,14 +90,9 @@ impl Watched {
         };
         let seen = Seen::of(events);
         let account = Account::new(&truth, &seen, tolerance);
-        let mut watched = Self {
-            rest_in_motion: danger.milliseconds(),
-            false_rides: account.false_motions,
-            wrong_ways,
-            stood,
-            known: account.known,
-            ..Self::default()
-        };
+        watched.rest_in_motion = danger.milliseconds();
+        watched.false_rides = account.false_motions;
+        watched.known = account.known;
         for trip in &account.trips {
             watched.start_delays.push(tenths(trip.start_delay));
             watched.stop_delays.push(tenths(trip.stop_delay));

@@ -99,11 +99,17 @@ fn caption(rows: &[Row], table: &Table, seed: u64) -> Vec<String> {
                  so many were told"
             )
         }
-        Measure::Rest | Measure::Tradeoff => {
-            format!("bands: exact {percent} % intervals; arrows: limits where nothing happened")
+        Measure::Rest | Measure::Tradeoff | Measure::SwitchedOn => {
+            format!("bands: exact {percent} % intervals")
         }
-        Measure::SwitchedOn => format!("bands: exact {percent} % intervals"),
     });
+    let has_limits = |panel: Shown| {
+        let mut of = rows.iter().filter(|row| row.outcome == panel.outcome);
+        matches!(panel.kind, Kind::Positive(_)) && of.any(|row| row.estimate == 0.0)
+    };
+    if shown(measure).into_iter().any(has_limits) {
+        parts.push("arrows: limits where nothing happened".to_owned());
+    }
     parts
 }
 
