@@ -106,6 +106,7 @@ mod tests {
             );
         }
         assert_eq!((exp(0.0), exp(-0.0)), (1.0, 1.0));
+        assert!(exp(f64::NAN).is_nan());
         for vectors in Vectors::available() {
             assert_eq!(all(vectors), all(Vectors::Baseline), "{vectors:?}");
         }

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 const FLOORS: &[&[&str]] = &[
     // Numbers, text and files without a domain.
     &[
-        "rng", "simd", "stats", "kalman", "fields", "format", "files", "suggest", "counts", "npz",
-        "vector",
+        "rng", "simd", "series", "stats", "kalman", "fields", "format", "files", "suggest",
+        "counts", "npz", "vector",
     ],
     // What a value must be; lines to a listener.
     &["rule", "outbox"],
