@@ -3,14 +3,14 @@
 use super::Comparison;
 use crate::format::{minus, thousands};
 
-/// A number and its interval, `0.8231 [0.8214, 0.8248]`, with two digits of the half-width. An exact number stands alone,
-/// and so does one without an interval, with three digits.
+/// A number and its interval, `0.8231 [0.8214, 0.8248]`, with two digits of the half-width. An exact number stands alone; one
+/// of which nothing is known says so.
 pub fn interval(value: f64, low: f64, high: f64) -> String {
     if low == high {
         return exact(value);
     }
     if (low, high) == (f64::NEG_INFINITY, f64::INFINITY) {
-        return significant(value, 3);
+        return format!("{} (no interval)", significant(value, 3));
     }
     let decimals = decimals(low, high);
     let [value, low, high] = [value, low, high].map(|number| fixed(number, decimals));

@@ -5,8 +5,8 @@ use crate::format::shorten;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// The version of the results. Raise it whenever the same config and seed give different bytes than before,
-/// so that older results do not count as complete.
+/// The version of the results. Raise it in the first change after a release by which the same config and seed give different
+/// bytes, so that results of the release do not count as complete.
 pub const RESULTS: u32 = 2;
 
 /// An experiment and the version of liftsim that runs it.

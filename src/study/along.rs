@@ -128,7 +128,11 @@ pub fn plot<'a>(
         let names = labels.iter().map(|label| literal(label));
         plot.add_legend(Entry::of_curves(names, Key::MarkedLine), Place::Free);
     }
-    plot.set_caption(caption);
+    let mut drawn = panels.iter().flat_map(|(_, curves)| points(curves));
+    let arrows = drawn.any(|point| point.limit.is_some());
+    let arrows = arrows.then(|| "arrows: limits where nothing happened".to_owned());
+    let parts: Vec<String> = caption.iter().cloned().chain(arrows).collect();
+    plot.set_caption(&parts);
     plot
 }
 

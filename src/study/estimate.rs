@@ -126,7 +126,12 @@ impl Mean {
         let n = cases.max(1) as f64;
         let [value, square] = [0, 1].map(|at| sums.lengths[2 * pair + at].value() / n);
         let deviation = sqrt((square - value * value).max(0.0) / (n - 1.0).max(1.0));
-        let half = two_sided_quantile(confidence) * deviation;
+        // One case says nothing of others.
+        let half = if cases < 2 {
+            f64::INFINITY
+        } else {
+            two_sided_quantile(confidence) * deviation
+        };
         Self {
             value,
             low: value - half,

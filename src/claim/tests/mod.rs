@@ -146,9 +146,7 @@ fn numbers_in_words() {
     assert_eq!(interval(-0.0001, -0.1, 0.1), "0.00 [−0.10, 0.10]");
     assert_eq!(interval(2.0, 2.0, 2.0), "2");
     let endless = |value| interval(value, f64::NEG_INFINITY, f64::INFINITY);
-    assert_eq!(
-        (endless(0.93651), endless(0.0004194)),
-        ("0.937".to_owned(), "0.000419".to_owned())
-    );
+    assert_eq!(endless(0.93651), "0.937 (no interval)");
+    assert_eq!(endless(0.0004194), "0.000419 (no interval)");
     assert_eq!(exact(0.009_972_063_095), "0.00997206");
 }

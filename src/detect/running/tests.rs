@@ -168,6 +168,30 @@ proptest! {
             prop_assert!((step - batch).abs() < 1e-9 * (1.0 + batch.abs()), "{detector}: {step} {batch}");
         }
     }
+
+    /// A record that is looked through gives what its samples give one by one, before what is found and after it.
+    #[test]
+    fn a_record_is_its_samples(seed in 0..1000u64, skipped in 0..1600usize, at in 1500..1600usize) {
+        let record = white_noise(1600, &mut Stream::new(seed, "record", "").at(0));
+        for detector in ALL {
+            let running = detector.start(&Tables::default(), &told(), ties(seed));
+            let mut one_by_one = running.clone();
+            let mut scores = Vec::new();
+            for x in &record {
+                one_by_one.find(&[*x], |score| {
+                    scores.push(score);
+                    true
+                });
+            }
+            let largest = |scores: &[f64]| scores.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            prop_assert_eq!(running.clone().largest(&record, skipped), largest(&scores[skipped..]));
+            let is_it = |score: f64| score >= scores[at];
+            let first = scores.iter().position(|score| is_it(*score)).unwrap();
+            let mut running = running;
+            prop_assert_eq!(running.find(&record, is_it), Some(first));
+            prop_assert_eq!(running.largest(&record[first + 1..], 0), largest(&scores[first + 1..]));
+        }
+    }
 }
 
 /// Before it has learnt a detector does not alarm; after 15 s every one has a score.

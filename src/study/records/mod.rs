@@ -18,13 +18,13 @@
 //! | `false_slack` | records | `slack` while the drum does not turn or the cage moves, per record |
 //! | `false_rides` | hours | motions told while the cage stood, per hour for which it stood |
 //! | `false_records` | records | records with one |
-//! | `wrong_way` | records | a direction is told against that of a cage above 0.2 m/s |
+//! | `wrong_way` | records | a direction stands against that of a cage above 0.2 m/s, at whatever moment |
 //! | `known` | hours | for which share of its rest it is told to rest |
-//! | `directed`, `misdirected` | hours | for which share of its motion above 0.2 m/s its direction is told, and for which the other one |
+//! | `directed`, `misdirected` | hours | for which share of its time above 0.2 m/s its direction stands, and for which the other one |
 //! | `start_delay_…`, `stop_delay_…` | trips | quantiles of the time to when it is told, in tenths of a second |
 //!
 //! Trips of one record share their lift and their sensor, so intervals of shares of trips are somewhat too narrow;
-//! those of shares of records are exact.
+//! those of shares of records are exact. Those of shares of the time are by the delta method, from record to record.
 
 mod detect;
 mod picture;

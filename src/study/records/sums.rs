@@ -2,14 +2,30 @@
 
 use super::detect::Told;
 use super::table::Watch;
-use super::watched::Watched;
+use super::watched::{Heading, Watched};
 use crate::counts::{Fixed, Shape, Sums, Values};
 use crate::lift::MOST_TRIPS;
 use crate::rule::{OutOfRange, Rule};
 use crate::stats::tally::Tally;
-use crate::study::estimate::{Estimate, delays, rate, share};
+use crate::study::estimate::{Estimate, Mean, delays, rate, share};
 
 const HOUR: f64 = 3600.0;
+
+/// Shares of time. The lengths hold a pair for the time and one for the part of each, and after these their products.
+const TIMES: [&str; 3] = ["known", "directed", "misdirected"];
+
+/// A time in all records, and a part of it, s.
+struct Times {
+    whole: f64,
+    part: f64,
+}
+
+impl Times {
+    fn of(sums: &Sums, share: usize) -> Self {
+        let [whole, part] = [4 * share, 4 * share + 2].map(|at| sums.lengths[at].value());
+        Self { whole, part }
+    }
+}
 
 impl Watch {
     /// The sums of a record.
@@ -22,7 +38,7 @@ impl Watch {
             },
             Self::Monitor => Shape {
                 most: vec![None, one, trips, trips, None, None, one, one],
-                lengths: 5,
+                lengths: 5 * TIMES.len(),
                 values: vec![MOST_TRIPS; 2],
             },
         }
@@ -43,14 +59,14 @@ impl Watch {
             }
             Self::Monitor => {
                 let [starts, stops] = [0, 1].map(|at| sums.values[at].count(|_| true));
-                let [stood, known, moved, right, wrong] =
-                    [0, 1, 2, 3, 4].map(|at| sums.lengths[at].value());
+                let [known, right, wrong] = [0, 1, 2].map(|share| Times::of(sums, share));
                 within("records of rest_in_motion", counts[1], counts[0])?;
                 within("slack_missed", counts[3], counts[2])?;
                 within("false_records", counts[6], counts[5])?;
                 // A stretch of `rest` ends between two samples.
-                within("known", known, 1.1 * stood + 1.0)?;
-                within("directed and misdirected", right + wrong, 1.1 * moved + 1.0)?;
+                within("known", known.part, 1.1 * known.whole + 1.0)?;
+                let directed = right.part + wrong.part;
+                within("directed and misdirected", directed, right.whole + 1e-6)?;
                 let (starts, stops) = (starts as f64, stops as f64);
                 Rule::Within(starts, starts, "").check("stop_delays", &stops)
             }
@@ -89,12 +105,7 @@ impl Watch {
                 ]
             }
             Self::Monitor => {
-                let hours = |at: usize| sums.lengths[at].value() / HOUR;
-                let (stood, moved) = (hours(0), hours(2));
-                let of_hours = |name, part: f64, whole: f64| Estimate {
-                    value: if whole > 0.0 { part / whole } else { 0.0 },
-                    ..plain(name, 0, whole, "hours")
-                };
+                let stood = Times::of(sums, 0).whole / HOUR;
                 let slack = tally(counts[3], counts[2]);
                 let mut estimates = vec![
                     of_records("rest_in_motion", counts[1]),
@@ -110,15 +121,38 @@ impl Watch {
                     rate("false_rides", counts[5], stood, "hours", confidence),
                     of_records("false_records", counts[6]),
                     of_records("wrong_way", counts[7]),
-                    of_hours("known", hours(1), stood),
-                    of_hours("directed", hours(3), moved),
-                    of_hours("misdirected", hours(4), moved),
                 ];
+                let times = (0..TIMES.len()).map(|share| of_time(sums, share, records, confidence));
+                estimates.extend(times);
                 estimates.extend(delays("start_delay", &sums.values[0], confidence));
                 estimates.extend(delays("stop_delay", &sums.values[1], confidence));
                 estimates
             }
         }
+    }
+}
+
+/// A share of the time, by sums over all records. Where there is none of it, the interval is that of the share of records.
+fn of_time(sums: &Sums, which: usize, records: u64, confidence: f64) -> Estimate {
+    let [whole, part] = [0, 1].map(|it| Mean::new(sums, 2 * which + it, records, confidence));
+    let product = sums.lengths[4 * TIMES.len() + which].value() / records as f64;
+    let name = TIMES[which];
+    let of = if part.value > 0.0 && whole.value > 0.0 {
+        let ratio = part.ratio(whole, product, records, confidence);
+        ratio.named(name, records, "hours")
+    } else {
+        let none = Tally {
+            hits: 0,
+            trials: records,
+        };
+        share(name, none, "hours", confidence)
+    };
+    Estimate {
+        count: 0,
+        exposure: Times::of(sums, which).whole / HOUR,
+        low: of.low.max(0.0),
+        high: of.high.min(1.0),
+        ..of
     }
 }
 
@@ -157,7 +191,12 @@ impl From<Watched> for Sums {
             delays.iter().for_each(|delay| values.push(*delay));
             values
         });
-        Self {
+        let Heading {
+            moved,
+            right,
+            wrong,
+        } = watched.heading;
+        let mut sums = Self {
             counts: vec![
                 watched.rest_in_motion,
                 u64::from(watched.rest_in_motion > 0),
@@ -166,18 +205,21 @@ impl From<Watched> for Sums {
                 watched.false_slack,
                 watched.false_rides,
                 u64::from(watched.false_rides > 0),
-                u64::from(watched.wrong_ways > 0),
+                u64::from(wrong > 0.0),
             ],
-            lengths: [
-                watched.stood,
-                watched.known,
-                watched.moved,
-                watched.directed,
-                watched.misdirected,
-            ]
-            .map(Fixed::new)
-            .into(),
+            lengths: vec![Fixed::default(); 5 * TIMES.len()],
             values: values.into(),
+        };
+        let times = [
+            (watched.stood, watched.known),
+            (moved, right),
+            (moved, wrong),
+        ];
+        for (share, (whole, part)) in times.into_iter().enumerate() {
+            sums.note(2 * share, whole);
+            sums.note(2 * share + 1, part);
+            sums.lengths[4 * times.len() + share] = Fixed::new(whole * part);
         }
+        sums
     }
 }

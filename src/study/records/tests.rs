@@ -1,7 +1,7 @@
 //! What is said against the truth, by hand.
 
 use super::detect::{Found, Outcome, Told};
-use super::watched::Danger;
+use super::watched::{Danger, Heading};
 use super::*;
 use crate::lift::Journey;
 use crate::monitor::Direction;
@@ -124,6 +124,33 @@ fn rest_that_is_said_in_motion() {
     assert!((490..=510).contains(&milliseconds(&[5.5, 8.5])));
 }
 
+/// Of a fast cage alone, whatever stands of a slow one.
+#[test]
+fn directions_that_stand() {
+    let (up, down) = (Some(Direction::Up), Some(Direction::Down));
+    let mut heading = Heading::default();
+    for (seconds, speed, told) in [
+        (1.0, 0.0, up),
+        (2.0, -0.1, up),
+        (4.0, 0.3, up),
+        (8.0, 0.3, down),
+        (16.0, -0.3, down),
+        (32.0, -0.3, up),
+        (64.0, 0.3, None),
+    ] {
+        heading.step(seconds, speed, told);
+    }
+    let (moved, right, wrong) = (124.0, 20.0, 40.0);
+    assert_eq!(
+        heading,
+        Heading {
+            moved,
+            right,
+            wrong
+        }
+    );
+}
+
 const HEAD: &str = "question = \"?\"\nseed = 5\ntrials = 3\n[records]\n";
 
 #[test]
@@ -138,6 +165,11 @@ fn outcomes_of_each_class() {
                 row.low <= row.estimate && row.estimate <= row.high,
                 "{row:?}"
             );
+        }
+        if watch == "monitor" {
+            let of = |outcome: &str| rows.iter().find(|row| row.outcome == outcome).unwrap();
+            assert!(of("directed").estimate > 0.8 && of("directed").exposure > 0.0);
+            assert!(of("misdirected").estimate < 0.02);
         }
         let quantities = study.quantities(&rows).unwrap();
         assert_eq!(

@@ -18,17 +18,11 @@ pub struct Watched {
     pub false_slack: u64,
     /// Motions told of a standing cage.
     pub false_rides: u64,
-    /// How often a direction was told to which a cage above [`FAST`] did not go.
-    pub wrong_ways: u64,
     /// How long the cage stood, s.
     pub stood: f64,
     /// For how long of that it said `rest`, s.
     pub known: f64,
-    /// How long the cage went above [`FAST`], s.
-    pub moved: f64,
-    /// For how long of that its direction was told, and for how long the other one, s.
-    pub directed: f64,
-    pub misdirected: f64,
+    pub heading: Heading,
     /// From each start, and from each stop, to when it was told, s; infinite if it never was.
     pub start_delays: Vec<f64>,
     pub stop_delays: Vec<f64>,
@@ -62,26 +56,14 @@ impl Watched {
             };
             let drum = (class == Class::Drum).then(turns);
             let new = monitor.step(Sample { time, acceleration }, drum);
-            let is_fast = speed.abs() > FAST;
-            let is_against = |told: Direction| is_fast && told != Direction::of(*speed);
-            for event in new {
-                if matches!(event.kind, Kind::Change { .. }) {
-                    direction = event.kind.direction();
-                    watched.wrong_ways += u64::from(direction.is_some_and(is_against));
-                }
-            }
+            let mut changes = new.iter().rev();
+            let change = changes.find(|event| matches!(event.kind, Kind::Change { .. }));
+            direction = change.map_or(direction, |event| event.kind.direction());
             events.extend_from_slice(new);
-            danger.step(time, monitor.state() == State::REST && is_fast);
+            danger.step(time, monitor.state() == State::REST && speed.abs() > FAST);
+            watched.heading.step(seconds, *speed, direction);
             if *speed == 0.0 {
                 watched.stood += seconds;
-            }
-            if is_fast {
-                watched.moved += seconds;
-                match direction {
-                    Some(told) if is_against(told) => watched.misdirected += seconds,
-                    Some(_) => watched.directed += seconds,
-                    None => {}
-                }
             }
         }
         let truth = Truth {
@@ -120,6 +102,29 @@ impl Watched {
             !slack.any(|(from, to)| (*from..=to + patience).contains(alarm))
         };
         self.false_slack = alarms.iter().filter(is_false).count() as u64;
+    }
+}
+
+/// What stands of the direction of a cage above [`FAST`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Heading {
+    /// How long the cage is so fast, s.
+    pub moved: f64,
+    /// For how long of that its direction stands, and for how long the other one, s.
+    pub right: f64,
+    pub wrong: f64,
+}
+
+impl Heading {
+    pub fn step(&mut self, seconds: f64, speed: f64, told: Option<Direction>) {
+        if speed.abs() > FAST {
+            self.moved += seconds;
+            match told {
+                Some(told) if told == Direction::of(speed) => self.right += seconds,
+                Some(_) => self.wrong += seconds,
+                None => {}
+            }
+        }
     }
 }
 

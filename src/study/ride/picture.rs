@@ -103,13 +103,6 @@ fn caption(rows: &[Row], table: &Table, seed: u64) -> Vec<String> {
             format!("bands: exact {percent} % intervals")
         }
     });
-    let has_limits = |panel: Shown| {
-        let mut of = rows.iter().filter(|row| row.outcome == panel.outcome);
-        matches!(panel.kind, Kind::Positive(_)) && of.any(|row| row.estimate == 0.0)
-    };
-    if shown(measure).into_iter().any(has_limits) {
-        parts.push("arrows: limits where nothing happened".to_owned());
-    }
     parts
 }
 
