@@ -1,10 +1,12 @@
 //! How the figure of a study is drawn: the flags of `sweep`, `figures` and `plot`, over `[figure]` of the config.
 
-use super::store::{line, store};
+use super::output::not_stdout;
+use super::store::{line, remove_stale, store};
 use super::{Failure, warn};
 use anyhow::anyhow;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use liftsim::config::decoded;
 use liftsim::figure::Drawing;
 use liftsim::plot::{ColourName, Dpi, Format, Height, LegendPlace, Options, Scale, Width};
 use liftsim::results::Directory;
@@ -123,11 +125,13 @@ impl FigureFlags {
         let own = self.overlay.clone();
         let path = own.or_else(|| Some(folder.join(loaded.figure.overlay.as_ref()?)));
         if let Some(path) = path {
-            let text = fs::read_to_string(&path).map_err(|error| {
-                let path = path.display();
-                Failure::Input(anyhow!(
-                    "{path}: overlay cannot be read: {error} (check the path)"
-                ))
+            not_stdout("--overlay", "a file", &path)?;
+            let refused =
+                |why: String| Failure::Input(anyhow!("{}: overlay {why}", path.display()));
+            let bytes = fs::read(&path)
+                .map_err(|error| refused(format!("cannot be read: {error} (check the path)")))?;
+            let text = decoded(&bytes).ok_or_else(|| {
+                refused("is not text in UTF-8 or UTF-16 (save it as UTF-8)".to_owned())
             })?;
             let read = loaded.set_overlay(text);
             read.map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
@@ -179,7 +183,7 @@ pub fn redraw(loaded: &Loaded, directory: &Directory) -> Result<String, Failure>
     directory
         .write("run.json", &manifest.to_json())
         .map_err(Failure::run)?;
-    directory.remove_stale(&manifest).map_err(Failure::run)?;
+    lines += &remove_stale(directory, &manifest)?;
     Ok(lines)
 }
 

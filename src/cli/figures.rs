@@ -7,7 +7,7 @@ use super::{CommandResult, Failure, completions, print, say, store, sweep, table
 use anyhow::anyhow;
 use clap::{Args, ValueHint};
 use liftsim::page::report::html;
-use liftsim::report::Report;
+use liftsim::report::{Report, is_report};
 use liftsim::results::Directory;
 use liftsim::run::{Overwrite, Session};
 use liftsim::stats::tally::MOST_TRIALS;
@@ -45,8 +45,8 @@ pub struct Figures {
     /// among the results.
     #[arg(long, value_name = "FILE.html", num_args = 0..=1)]
     html: Option<Option<PathBuf>>,
-    /// Replace the file of --html.
-    #[arg(long, requires = "html")]
+    /// Replace the file of --html, and a README.md among the results that is no report.
+    #[arg(long)]
     force: bool,
     #[command(flatten)]
     figure: FigureFlags,
@@ -71,6 +71,7 @@ impl Figures {
             .map(|(name, path)| self.entry(name, path))
             .collect::<Result<Vec<_>, _>>()?;
         // Everything that can be refused is refused before anything takes long.
+        self.check_report()?;
         let page = self.page()?;
         let sessions = chosen.iter().map(|entry| self.session(entry));
         let sessions = sessions.collect::<Result<Vec<_>, _>>()?;
@@ -98,6 +99,18 @@ impl Figures {
         print(&table(&["experiment", "results", "seconds"], &lines))?;
         self.report(chosen, &others, page)?;
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// Refuses to write over a README.md that is no report.
+    fn check_report(&self) -> Result<(), Failure> {
+        let path = self.results.join("README.md");
+        match fs::read(&path) {
+            Ok(text) if !self.force && !is_report(&text) => Err(Failure::Input(anyhow!(
+                "{}: is not a report of liftsim (give another --results, or --force to replace it)",
+                path.display()
+            ))),
+            _ => Ok(()),
+        }
     }
 
     /// The file of --html, if it may be written.

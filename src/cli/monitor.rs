@@ -79,7 +79,8 @@ pub struct MonitorCommand {
     #[arg(long, value_name = "SECONDS", value_parser = heartbeat::period)]
     heartbeat: Option<Duration>,
     /// Save the running monitor to this file at every stop and at a signal (SIGTERM, Ctrl-C), from which --state goes on as
-    /// if it had never stopped, at the same columns and units; it may be the file of --state. A trip that is under way waits
+    /// if it had never stopped, at the same columns and units; it may be the file of --state. Readings without times are missing for as long as this
+    /// machine's clock says that none was taken. A trip that is under way waits
     /// in it. Not with --floors or --map: it does not hold where the car is among them.
     #[arg(long, value_name = "FILE.json")]
     save_state: Option<PathBuf>,
@@ -210,9 +211,16 @@ impl MonitorCommand {
             readings.go_on(going.taken);
         }
         let known = self.rate.or(saved.as_ref().map(|saved| saved.rate));
-        let is_told = || signals.as_ref().is_some_and(|it| it.came().is_some());
         let Some((first, rate)) = readings.begin(known)? else {
-            return Ok(is_told());
+            let is_told = signals.as_ref().is_some_and(|it| it.came().is_some());
+            return match &self.save_state {
+                // What a monitor went on from is still there.
+                Some(path) if is_told && !path.exists() => Err(Failure::Run(anyhow!(
+                    "{}: not written: there was no reading yet, and so nothing to save",
+                    path.display()
+                ))),
+                _ => Ok(is_told),
+            };
         };
         let saved = saved.unwrap_or(SavedState {
             settings: config.settings,

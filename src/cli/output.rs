@@ -214,9 +214,11 @@ impl Output {
 
     fn unwritable(&self, error: &io::Error) -> Failure {
         let path = self.path.display();
-        Failure::Input(anyhow!(
-            "{path}: cannot be written: {error} (give another name)"
-        ))
+        let remedy = match error.kind() {
+            io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "make room there",
+            _ => "give another name",
+        };
+        Failure::Input(anyhow!("{path}: cannot be written: {error} ({remedy})"))
     }
 }
 

@@ -8,6 +8,7 @@ use liftsim::monitor::SET_BACK;
 use liftsim::recording::{LineReader, LineReading, Moment, Sample, StreamColumns};
 use serde::{Deserialize, Serialize};
 use std::io;
+use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Readings from which a rate is measured.
 const MEASURED: usize = 100;
@@ -46,6 +47,17 @@ pub struct Taken {
     set_back: u64,
     /// Whether it was left within a line.
     pub within_line: bool,
+    /// When samples without times were left, by this machine's clock, s since 1970.
+    left: Option<f64>,
+}
+
+/// How long samples without times are missing, where the clock of this machine has been set back, s.
+const UNKNOWN: f64 = 10.0;
+
+/// By the clock of this machine; 0 where that is older.
+fn seconds_since_1970() -> f64 {
+    let now = SystemTime::now().duration_since(UNIX_EPOCH);
+    now.map_or(0.0, |now| now.as_secs_f64())
 }
 
 impl<'a, R: io::BufRead> Readings<'a, R> {
@@ -70,7 +82,29 @@ impl<'a, R: io::BufRead> Readings<'a, R> {
 
     /// How far it has read.
     pub fn taken(&self) -> Taken {
-        self.taken
+        Taken {
+            left: (self.taken.count > 0).then(seconds_since_1970),
+            ..self.taken
+        }
+    }
+
+    /// Samples without times are missing for as long as nobody took any.
+    fn pass_over(&mut self, rate: f64) {
+        let Some(left) = self.taken.left.take() else {
+            return;
+        };
+        let seconds = seconds_since_1970() - left;
+        let seconds = if (0.0..LATEST).contains(&seconds) {
+            seconds
+        } else {
+            UNKNOWN
+        };
+        let missing = (seconds * rate).ceil();
+        self.taken.count += missing as u64;
+        warn(format_args!(
+            "standard input: readings have no times, and none was taken for {seconds:.1} s by this machine's clock: \
+             {missing} are missing"
+        ));
     }
 
     /// The columns of the stream, once its first line was read.
@@ -81,6 +115,9 @@ impl<'a, R: io::BufRead> Readings<'a, R> {
     /// The first readings, if there is any, and the rate: as known, or measured from as many as that takes.
     pub fn begin(&mut self, known: Option<f64>) -> Result<Option<(Vec<Reading>, f64)>, Failure> {
         self.rate = known;
+        if let Some(rate) = known {
+            self.pass_over(rate);
+        }
         let wanted = if known.is_some() { 1 } else { MEASURED + 1 };
         let mut first: Vec<Reading> = Vec::new();
         while first.len() < wanted {

@@ -83,6 +83,13 @@ pub fn line(directory: &Directory, name: &str, is_new: bool) -> String {
     format!("{}  {note}\n", directory.path().join(name).display())
 }
 
+/// Removes what earlier runs have left and the manifest does not list. Returns a line for each file.
+pub fn remove_stale(directory: &Directory, manifest: &Manifest) -> Result<String, Failure> {
+    let removed = directory.remove_stale(manifest).map_err(Failure::run)?;
+    let line = |name| format!("{}  removed\n", directory.path().join(name).display());
+    Ok(removed.into_iter().map(line).collect())
+}
+
 /// The processor family and its vector instructions.
 fn architecture() -> String {
     #[cfg(target_arch = "x86_64")]

@@ -4,7 +4,7 @@ use super::figure::{FigureFlags, differs, drawn, folder, redraw, told};
 use super::outcomes::SavedTrials;
 use super::output;
 use super::progress::{self, Progress, Reporter};
-use super::store::{Written, line, manifest, store};
+use super::store::{Written, line, manifest, remove_stale, store};
 use super::{CommandResult, Counted, Failure, table};
 use clap::{Args, ValueHint};
 use liftsim::results::{Directory, Manifest, Shard};
@@ -191,7 +191,7 @@ pub(super) fn write(loaded: &Loaded, mut session: Session) -> Result<(Output, Wr
     directory
         .write("run.json", &manifest.to_json())
         .map_err(Failure::run)?;
-    directory.remove_stale(&manifest).map_err(Failure::run)?;
+    written.files += &remove_stale(&directory, &manifest)?;
     written.files += &line(&directory, "run.json", true);
     Ok((output, written))
 }

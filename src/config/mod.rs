@@ -11,5 +11,5 @@ mod tree;
 pub use axis::{Axis, AxisValue};
 pub use refusal::Refusal;
 pub use shipped::{SHIPPED, Shipped};
-pub use source::{ConfigError, Conflict, Source};
+pub use source::{ConfigError, Conflict, Source, decoded};
 pub use tree::{Node, Table, Value};

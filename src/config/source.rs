@@ -263,7 +263,6 @@ fn missing(path: &Path, command: &str) -> Unreadable {
     }
 }
 
-/// A file's text, in UTF-8 or, as its first bytes say, UTF-16.
 fn read(path: &Path) -> Result<String, Unreadable> {
     let mut bytes = Vec::new();
     let file = files::open(path)?;
@@ -271,18 +270,22 @@ fn read(path: &Path) -> Result<String, Unreadable> {
     if bytes.len() as u64 > MOST_BYTES {
         return Err(Unreadable::TooLarge);
     }
+    decoded(&bytes).ok_or(Unreadable::NotText)
+}
+
+/// Text in UTF-8 or, as its first bytes say, UTF-16; none if it is neither.
+pub fn decoded(bytes: &[u8]) -> Option<String> {
     let utf16 = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
         let (units, rest) = bytes.as_chunks();
         let units: Vec<u16> = units.iter().copied().map(unit).collect();
         String::from_utf16(&units).ok().filter(|_| rest.is_empty())
     };
-    let text = match &bytes[..] {
+    match bytes {
         [0xFF, 0xFE, rest @ ..] => utf16(rest, u16::from_le_bytes),
         [0xFE, 0xFF, rest @ ..] => utf16(rest, u16::from_be_bytes),
         [0xEF, 0xBB, 0xBF, rest @ ..] => str::from_utf8(rest).ok().map(str::to_owned),
         all => str::from_utf8(all).ok().map(str::to_owned),
-    };
-    text.ok_or(Unreadable::NotText)
+    }
 }
 
 fn first_line(message: &str) -> String {

@@ -103,10 +103,12 @@ fn drawn(canvas: &Canvas, provenance: &str, kind: Kind) -> Result<Vec<u8>, Figur
 
 fn pdf(svg: &str) -> Result<Vec<u8>, FigureError> {
     let drawing = |error: String| FigureError::Drawing(error);
-    let tree = svg2pdf::usvg::Tree::from_str(svg, &svg2pdf::usvg::Options::default());
+    let reading = svg2pdf::usvg::Options::default();
+    let tree = svg2pdf::usvg::Tree::from_str(svg, &reading);
     let tree = tree.map_err(|error| drawing(error.to_string()))?;
-    let options = svg2pdf::PageOptions::default();
-    svg2pdf::to_pdf(&tree, svg2pdf::ConversionOptions::default(), options)
+    // Points become pixels as they are read, at so many to the inch, and points again as they are written.
+    let page = svg2pdf::PageOptions { dpi: reading.dpi };
+    svg2pdf::to_pdf(&tree, svg2pdf::ConversionOptions::default(), page)
         .map_err(|error| drawing(error.to_string()))
 }
 
@@ -116,4 +118,39 @@ fn pdf(svg: &str) -> Result<Vec<u8>, FigureError> {
 /// Where it does not fit on a sheet.
 pub fn inline(plot: &Plot, label: &str) -> Result<String, FigureError> {
     Ok(svg::inline(&layout(plot)?, label))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::{Axis, Mark};
+
+    /// A page is as large as the drawing, whatever else makes points of pixels.
+    #[test]
+    fn a_pdf_has_the_size_of_its_sheet() {
+        let mut plot = Plot::stack(
+            &Axis::linear(0.0, 1.0, 5),
+            [(100.0, Axis::linear(0.0, 1.0, 5))],
+        );
+        plot.width = 250.0;
+        plot.add_to_all(&Mark::Axes);
+        let canvas = layout(&plot).unwrap();
+        let bytes = file(&plot, "test", Kind::Pdf).unwrap();
+        let text = String::from_utf8_lossy(&bytes);
+        let (_, after) = text.split_once("/MediaBox [").unwrap();
+        let (numbers, _) = after.split_once(']').unwrap();
+        let numbers: Vec<f64> = numbers
+            .split_whitespace()
+            .map(|it| it.parse().unwrap())
+            .collect();
+        let size = [canvas.size.0, canvas.size.1];
+        assert_eq!(numbers[..2], [0.0, 0.0]);
+        assert!(
+            numbers[2..]
+                .iter()
+                .zip(size)
+                .all(|(page, sheet)| (page - sheet).abs() < 0.01),
+            "{numbers:?} {size:?}"
+        );
+    }
 }

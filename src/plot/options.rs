@@ -3,7 +3,7 @@
 use super::legend::{Key, Place};
 use super::mark::Mark;
 use super::overlay::{Overlay, OverlayError};
-use super::picture::{Plot, WIDTH};
+use super::picture::Plot;
 use super::scale::Scale;
 use super::style::{Colour, Style};
 use super::text::{SMALL, text_width};
@@ -250,11 +250,8 @@ impl Options {
         if let Some(place) = self.legend {
             plot.place_legend(place.place());
         }
-        if let Some(width) = self.width.map(|width| width.get() * POINTS)
-            && (width - WIDTH).abs() > 1.0
-        {
-            plot = plot.resized(width);
-        }
+        let width = self.width.map_or(plot.width, |width| width.get() * POINTS);
+        plot = plot.resized(width);
         if let Some(height) = self.height {
             plot.stretch(height.get())?;
         }

@@ -37,7 +37,9 @@ struct Row {
 /// Why a table is no overlay, or does not fit a picture.
 #[derive(Debug, thiserror::Error)]
 pub enum OverlayError {
-    #[error("overlay: {0} (write the columns x, y and name, and panel if the picture has several)")]
+    #[error(
+        "overlay: {0} (write the columns x, y and name, and panel if the picture has several, with commas between them)"
+    )]
     Table(#[from] csv::Error),
     #[error("overlay: holds no point (write the columns x, y and name)")]
     Empty,

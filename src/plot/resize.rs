@@ -8,11 +8,15 @@ use super::text::{NORMAL, SMALL, text_width};
 /// Narrower sheets have one column of panels, points.
 const TWO_COLUMNS: f64 = 340.0;
 
+/// Widths that differ by less are one, points: millimetres are given with few digits.
+const SAME: f64 = 0.2;
+
 impl Plot {
     /// The same on a sheet so many points wide: with panels one under the other if it is narrow, and longer texts in
     /// several lines.
     pub fn resized(mut self, width: f64) -> Self {
-        self.width = width;
+        let is_other = (width - self.width).abs() > SAME;
+        self.width = (width * 100.0).round() / 100.0;
         if width < TWO_COLUMNS && self.columns > 1 {
             self.stack_rows();
         }
@@ -30,7 +34,9 @@ impl Plot {
             }
         }
         if let Some(legend) = &mut self.legend {
-            if let Place::Inside(..) = legend.place {
+            if let Place::Inside(..) = legend.place
+                && is_other
+            {
                 legend.place = Place::Free;
             }
             let room = match legend.place {

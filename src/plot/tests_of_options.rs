@@ -133,12 +133,12 @@ fn what_does_not_fit_is_refused() {
 
 #[test]
 fn a_sheet_of_this_size() {
-    for (width, height) in [(88.0, 70.0), (139.7, 60.0), (180.0, 300.0)] {
+    for (width, height) in [(88.0, 70.0), (139.7, 60.0), (140.0, 60.0), (180.0, 300.0)] {
         let (plot, _) = changed(&format!("width = {width}\nheight = {height}"));
         let (w, h) = layout(&plot).unwrap().size;
         let mm = |points: f64| points * 25.4 / 72.0;
         assert!(
-            (mm(w) - width).abs() < 0.4 && (mm(h) - height).abs() < 0.1,
+            (mm(w) - width).abs() < 0.01 && (mm(h) - height).abs() < 0.1,
             "{w} {h}"
         );
     }
@@ -310,4 +310,19 @@ proptest! {
             }
         }
     }
+}
+
+/// A name longer than the sheet is wide stands in several lines, at the usual width too.
+#[test]
+fn a_long_name_has_several_lines() {
+    let mut plot = rates();
+    let name = "a name of a curve that says everything there is to say of it and ".repeat(3);
+    plot.add_legend(
+        [Entry::new(name, Style::of(0), Key::MarkedLine)],
+        Place::Free,
+    );
+    assert!(layout(&plot).is_err());
+    let (plot, _) = options("").apply(plot, None).unwrap();
+    assert!(layout(&plot).is_ok());
+    assert!(plot.legend.unwrap().entries.len() > 1);
 }

@@ -49,13 +49,22 @@ impl Report {
         let chapters = judged.iter();
         let chapters = chapters.map(|judged| chapter(judged, configs, &mut cited));
         Ok(Self {
-            title: "Reproduction report".to_owned(),
+            title: TITLE.to_owned(),
             opening,
             claims,
             experiments: chapters.collect(),
             equations: equations::part(cited),
         })
     }
+}
+
+/// The first line of a report.
+const TITLE: &str = "Reproduction report";
+
+/// Whether a file in Markdown is a report.
+pub fn is_report(text: &[u8]) -> bool {
+    text.strip_prefix(b"# ")
+        .is_some_and(|text| text.starts_with(TITLE.as_bytes()))
 }
 
 /// Where the report comes from, and the preface.

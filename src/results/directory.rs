@@ -251,21 +251,23 @@ impl Directory {
         files::replace(&self.path.join(name), bytes)
     }
 
-    /// Removes the files of earlier runs that `manifest` does not list.
+    /// Removes the files of earlier runs that `manifest` does not list, and returns which; counts are not named, as what they
+    /// hold is in the results.
     ///
     /// # Errors
     /// If a file cannot be removed.
-    pub fn remove_stale(&self, manifest: &Manifest) -> Result<(), ResultsError> {
+    pub fn remove_stale(&self, manifest: &Manifest) -> Result<Vec<&'static str>, ResultsError> {
+        let mut removed = Vec::new();
         let is_stale = |name: &&str| !manifest.files.contains_key(*name);
         for name in FILES.into_iter().filter(is_stale) {
             match std::fs::remove_file(self.path.join(name)) {
-                Err(error) if error.kind() != io::ErrorKind::NotFound => {
-                    return Err(self.unwritable(error));
-                }
-                _ => {}
+                Ok(()) if name != COUNTS => removed.push(name),
+                Ok(()) => {}
+                Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+                Err(error) => return Err(self.unwritable(error)),
             }
         }
-        Ok(())
+        Ok(removed)
     }
 
     pub(super) fn unwritable(&self, error: io::Error) -> ResultsError {

@@ -333,3 +333,20 @@ fn sweep_writes_the_same() {
         assert!(bytes("swept") == bytes("results/power"), "{name}");
     }
 }
+
+/// What somebody else has written among the results is not written over unasked.
+#[test]
+fn a_readme_that_is_no_report_stays() {
+    let place = workshop();
+    let results = place.path().join("results");
+    fs::create_dir(&results).unwrap();
+    fs::write(results.join("README.md"), "My notes\n").unwrap();
+    let (code, out, err) = figures(place.path(), &[]);
+    assert_eq!((code, out.as_str()), (2, ""), "nothing was run");
+    let refused = "README.md: is not a report of liftsim";
+    assert!(err.contains(refused) && err.contains("--force"), "{err}");
+    assert_eq!(read(place.path(), "results/README.md"), "My notes\n");
+    run(place.path(), &["--force", "--trials", "500"]);
+    assert!(read(place.path(), "results/README.md").starts_with("# Reproduction report"));
+    run(place.path(), &["--trials", "500"]);
+}

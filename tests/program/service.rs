@@ -295,3 +295,71 @@ fn half_a_line_is_not_waited_for_for_ever() {
     assert!(folder.path().join("lift.json").exists());
     drop(sensor);
 }
+
+/// Readings without times say nothing of how many are missing: the clock of this machine does.
+#[cfg(unix)]
+#[test]
+fn what_nobody_took_is_missing() {
+    let folder = tempfile::tempdir().unwrap();
+    let lines: String = (0..1000).map(|i| format!("0.0{}\n", i % 3)).collect();
+    let monitor = |flags: &[&str]| {
+        let mut run = liftsim();
+        let run = run.current_dir(folder.path()).arg("monitor").args(flags);
+        let (code, out, error) = outcome(run.write_stdin(lines.clone()));
+        assert_eq!(code, 0, "{error}");
+        (out, error)
+    };
+    let save = ["--save-state", "lift.json"];
+    let (_, error) = monitor(&[&save[..], &["--rate", "100", "--begins", "rest"]].concat());
+    assert!(!error.contains("missing"), "{error}");
+    std::thread::sleep(std::time::Duration::from_secs(2));
+    let (out, error) = monitor(&[&save[..], &["--state", "lift.json"]].concat());
+    assert!(
+        error.contains("none was taken for") && error.contains("are missing"),
+        "{error}"
+    );
+    let events = out.lines().map(|line| serde_json::from_str(line).unwrap());
+    let events: Vec<serde_json::Value> = events.collect();
+    assert!(
+        events.iter().any(|event| event["reason"] == "hole"),
+        "{out}"
+    );
+    assert!(
+        events
+            .iter()
+            .all(|event| event["reported"].as_f64() > Some(11.9)),
+        "{out}"
+    );
+}
+
+/// A signal before the first reading leaves nothing to save, and that is said.
+#[cfg(unix)]
+#[test]
+fn nothing_read_is_nothing_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut run = Command::new(env!("CARGO_BIN_EXE_liftsim"))
+        .current_dir(folder.path())
+        .args(["monitor", "--begins", "rest", "--heartbeat", "0.1"])
+        .args(["--save-state", "lift.json"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let sensor = run.stdin.take().unwrap();
+    let mut out = BufReader::new(run.stdout.take().unwrap());
+    // A heart that beats twice hears signals.
+    for _ in 0..2 {
+        out.read_line(&mut String::new()).unwrap();
+    }
+    let stop = ["-TERM".to_owned(), run.id().to_string()];
+    assert!(Command::new("kill").args(stop).status().unwrap().success());
+    let output = run.wait_with_output().unwrap();
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert!(
+        error.contains("lift.json: not written: there was no reading yet"),
+        "{error}"
+    );
+    drop(sensor);
+}

@@ -143,7 +143,7 @@ fn of_time(sums: &Sums, which: usize, records: u64, confidence: f64) -> Estimate
     } else {
         let none = Tally {
             hits: 0,
-            trials: records,
+            trials: if whole.value > 0.0 { records } else { 0 },
         };
         share(name, none, "hours", confidence)
     };
