@@ -66,6 +66,11 @@ fn key_in_words(key: &str) -> String {
         "level" => "σ_s, deviation of stops from their floor, m",
         "threshold" => "γ_s",
         "uneven" => "deviation of storeys, m",
+        "vague" => "deviation of a floor's height from a plan, m",
+        "floors" => "floors",
+        "storeys" => "storeys of the trip",
+        "next_storeys" => "storeys of the trip after it",
+        "window" => "stops over whose median ξ is scaled",
         other => return literal(other),
     }
     .to_owned()

@@ -57,12 +57,17 @@ pub fn plot(rows: &[Row], watch: Watch, seed: u64) -> Plot {
         plot.add(panel, Mark::Markers(points, Style::of(0)));
         plot.add(panel, Mark::Axes);
     }
+    let percent = 100.0 * rows[0].confidence;
     plot.set_caption(&[
         "shares by class".to_owned(),
         format!("{} records of each", thousands(rows[0].trials)),
         format!("times within {} s", rows[0].tolerance),
         format!("seed {seed}"),
-        format!("bars: exact {} % intervals", 100.0 * rows[0].confidence),
+        // That of rest told is a ratio's.
+        match watch {
+            Watch::Detect => format!("bars: exact {percent} % intervals"),
+            Watch::Monitor => format!("bars: {percent} % intervals"),
+        },
     ]);
     plot
 }
