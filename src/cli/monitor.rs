@@ -112,6 +112,12 @@ impl MonitorCommand {
             Kept::check(path, self.options.state())?;
         }
         let network = self.network.open()?;
+        // Before anything is printed: whoever reads it may send one.
+        let signals = self.save_state.as_ref().map(|_| Signals::watch());
+        let signals = signals
+            .transpose()
+            .context("signals")
+            .map_err(Failure::Run)?;
         // Heartbeats and events come from two threads, and each line is written whole.
         let out = Mutex::new(());
         let report = |line: String| {
@@ -140,7 +146,14 @@ impl MonitorCommand {
                 let beat = &beat;
                 scope.spawn(move || heartbeat::beat(period, &end, beat));
             }
-            self.watch(config, saved, &reading, &heartbeat, report)
+            self.watch(
+                config,
+                saved,
+                &reading,
+                signals.as_ref(),
+                &heartbeat,
+                report,
+            )
         });
         let delivered = network.map_or(0, Network::close);
         match (watched?, delivered) {
@@ -159,15 +172,11 @@ impl MonitorCommand {
         config: MonitorOptions,
         saved: Option<SavedState>,
         reading: &recording::Reading,
+        signals: Option<&Signals>,
         heartbeat: &Heartbeat,
         report: impl FnMut(String) -> Result<bool, Failure>,
     ) -> Result<bool, Failure> {
-        let signals = self.save_state.as_ref().map(|_| Signals::watch());
-        let signals = signals
-            .transpose()
-            .context("signals")
-            .map_err(Failure::Run)?;
-        let input = Stdin::new(signals.as_ref());
+        let input = Stdin::new(signals);
         let input = input.context("standard input").map_err(Failure::Run)?;
         let input = BufReader::with_capacity(1 << 16, input);
         let mut lines = if self.expected_moving {
@@ -212,7 +221,7 @@ impl MonitorCommand {
         }
         let known = self.rate.or(saved.as_ref().map(|saved| saved.rate));
         let Some((first, rate)) = readings.begin(known)? else {
-            let is_told = signals.as_ref().is_some_and(|it| it.came().is_some());
+            let is_told = signals.is_some_and(|it| it.came().is_some());
             return match &self.save_state {
                 // What a monitor went on from is still there.
                 Some(path) if is_told && !path.exists() => Err(Failure::Run(anyhow!(

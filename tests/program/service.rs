@@ -6,6 +6,8 @@ use super::{outcome, project};
 #[cfg(unix)]
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
+#[cfg(unix)]
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 /// The heart beats before the first reading, counts the readings, and goes on while none comes.
@@ -264,26 +266,23 @@ fn a_saved_monitor_goes_on_as_it_was_or_says_why_not() {
     assert!(error.contains("the state cannot be saved"), "{error}");
 }
 
-/// A sensor that hangs in the middle of a line keeps no monitor from ending.
+/// What a monitor says that saves its state and is told to end once it has printed so many lines, though its sensor sends no
+/// more than this. The signal is heard then: it is looked for before anything is printed.
 #[cfg(unix)]
-#[test]
-fn half_a_line_is_not_waited_for_for_ever() {
-    let folder = tempfile::tempdir().unwrap();
+fn stopped(folder: &Path, flags: &[&str], sent: &str, lines: usize) -> String {
     let mut run = Command::new(env!("CARGO_BIN_EXE_liftsim"))
-        .current_dir(folder.path())
-        .args(["monitor", "--rate", "100", "--begins", "rest"])
-        .args(["--save-state", "lift.json"])
+        .current_dir(folder)
+        .args(["monitor", "--begins", "rest", "--save-state", "lift.json"])
+        .args(flags)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    let lines: String = (0..400).map(|i| format!("0.0{}\n", i % 3)).collect();
     let mut sensor = run.stdin.take().unwrap();
-    sensor.write_all(format!("{lines}0.0").as_bytes()).unwrap();
+    sensor.write_all(sent.as_bytes()).unwrap();
     let mut out = BufReader::new(run.stdout.take().unwrap());
-    // Its second event comes after some seconds of the record: it has read what was there.
-    for _ in 0..2 {
+    for _ in 0..lines {
         out.read_line(&mut String::new()).unwrap();
     }
     let stop = ["-TERM".to_owned(), run.id().to_string()];
@@ -291,9 +290,20 @@ fn half_a_line_is_not_waited_for_for_ever() {
     let output = run.wait_with_output().unwrap();
     let error = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(1), "{error}");
+    drop(sensor);
+    error
+}
+
+/// A sensor that hangs in the middle of a line keeps no monitor from ending.
+#[cfg(unix)]
+#[test]
+fn half_a_line_is_not_waited_for_for_ever() {
+    let folder = tempfile::tempdir().unwrap();
+    let lines: String = (0..400).map(|i| format!("0.0{}\n", i % 3)).collect();
+    // Its second event comes after some seconds of the record: it has read what was there.
+    let error = stopped(folder.path(), &["--rate", "100"], &format!("{lines}0.0"), 2);
     assert!(error.contains("in the middle of a line"), "{error}");
     assert!(folder.path().join("lift.json").exists());
-    drop(sensor);
 }
 
 /// Readings without times say nothing of how many are missing: the clock of this machine does.
@@ -337,29 +347,7 @@ fn what_nobody_took_is_missing() {
 #[test]
 fn nothing_read_is_nothing_saved() {
     let folder = tempfile::tempdir().unwrap();
-    let mut run = Command::new(env!("CARGO_BIN_EXE_liftsim"))
-        .current_dir(folder.path())
-        .args(["monitor", "--begins", "rest", "--heartbeat", "0.1"])
-        .args(["--save-state", "lift.json"])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let sensor = run.stdin.take().unwrap();
-    let mut out = BufReader::new(run.stdout.take().unwrap());
-    // A heart that beats twice hears signals.
-    for _ in 0..2 {
-        out.read_line(&mut String::new()).unwrap();
-    }
-    let stop = ["-TERM".to_owned(), run.id().to_string()];
-    assert!(Command::new("kill").args(stop).status().unwrap().success());
-    let output = run.wait_with_output().unwrap();
-    let error = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(1), "{error}");
-    assert!(
-        error.contains("lift.json: not written: there was no reading yet"),
-        "{error}"
-    );
-    drop(sensor);
+    let error = stopped(folder.path(), &["--heartbeat", "0.1"], "", 1);
+    let said = "lift.json: not written: there was no reading yet";
+    assert!(error.contains(said), "{error}");
 }
