@@ -12,9 +12,9 @@ pub struct Curve {
     pub points: Vec<Point>,
 }
 
-/// Lines in their bands, and markers over all of them. Bands and lines pass through limits only where `joined`. A curve
-/// that lies under others is wider, so that its edge is seen.
-pub fn add_bands(plot: &mut Plot, panel: usize, curves: &[Curve], joined: bool) {
+/// Lines in their bands, and markers over all of them. Where a limit stands for an estimate both have a gap: between its
+/// neighbours the truth may lie anywhere below. A curve that lies under others is wider, so that its edge is seen.
+pub fn add_bands(plot: &mut Plot, panel: usize, curves: &[Curve]) {
     let covers: Vec<usize> = (0..curves.len())
         .map(|index| covers_of(&plot.panels[panel].y, &curves[index..]))
         .collect();
@@ -25,13 +25,11 @@ pub fn add_bands(plot: &mut Plot, panel: usize, curves: &[Curve], joined: bool) 
             .sized(style.size + 0.5 * more)
     };
     for (Curve { points, style }, covers) in curves.iter().zip(&covers) {
-        let band = points
-            .iter()
-            .filter(|point| joined || point.limit.is_none());
-        let band: Vec<Point> = band.copied().collect();
-        let line = band.iter().map(Point::place).collect();
-        plot.add(panel, Mark::Band(band, style.faded(0.18)));
-        plot.add(panel, Mark::Line(line, widened(style.solid(), *covers)));
+        for band in stretches(points, |point| point.limit.is_some()) {
+            let line = band.iter().map(Point::place).collect();
+            plot.add(panel, Mark::Band(band, style.faded(0.18)));
+            plot.add(panel, Mark::Line(line, widened(style.solid(), *covers)));
+        }
     }
     for (Curve { points, style }, covers) in curves.iter().zip(&covers) {
         plot.add(
@@ -39,6 +37,12 @@ pub fn add_bands(plot: &mut Plot, panel: usize, curves: &[Curve], joined: bool) 
             Mark::Markers(points.clone(), widened(*style, *covers)),
         );
     }
+}
+
+/// What lies between gaps.
+pub(super) fn stretches<T: Clone>(points: &[T], is_gap: impl Fn(&T) -> bool) -> Vec<Vec<T>> {
+    let stretches = points.split(is_gap).filter(|it| !it.is_empty());
+    stretches.map(<[T]>::to_vec).collect()
 }
 
 /// How many of the later curves lie over nine tenths of the first and more.

@@ -23,6 +23,9 @@ impl Mark {
             Self::Line(points, style) => canvas.dashed(&frame.all(points), style),
             Self::Dense(points, style) => draw_dense(canvas, &frame.all(points), style.colour),
             Self::Band(points, style) => {
+                if let [point] = &points[..] {
+                    draw_bar(canvas, frame, point, &style.wide(4.0));
+                }
                 let upper = points.iter().map(|p| frame.at((p.x, p.high)));
                 let lower = points.iter().rev().map(|p| frame.at((p.x, p.low)));
                 canvas.area(upper.chain(lower).collect(), style.colour);

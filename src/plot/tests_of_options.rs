@@ -7,12 +7,16 @@ fn options(keys: &str) -> Options {
 
 /// Rates 0, .25, .5 and 1 at 0, 1, 2 and 3, each ± .1 within [0, 1].
 fn rates() -> Plot {
-    let point = |(x, y): (f64, f64)| {
+    curve_of(&[0.0, 0.25, 0.5, 1.0])
+}
+
+/// The same of other rates.
+fn curve_of(rates: &[f64]) -> Plot {
+    let points = (0..).map(f64::from).zip(rates).map(|(x, &y)| {
         let [low, high] = [y - 0.1, y + 0.1].map(|end: f64| end.clamp(0.0, 1.0));
         Point::new(x, [low, y, high])
-    };
-    let points = [(0.0, 0.0), (1.0, 0.25), (2.0, 0.5), (3.0, 1.0)].map(point);
-    let x = Axis::linear(0.0, 3.0, 5).labelled("x");
+    });
+    let x = Axis::linear(0.0, rates.len() as f64 - 1.0, 5).labelled("x");
     let y = Axis::linear(0.0, 1.0, 5).labelled("y");
     let mut plot = Plot::stack(&x, [(200.0, y)]);
     let style = Style::of(0);
@@ -21,9 +25,8 @@ fn rates() -> Plot {
         0,
         &[Curve {
             style,
-            points: points.to_vec(),
+            points: points.collect(),
         }],
-        true,
     );
     plot.add(0, Mark::Axes);
     plot.add_legend([Entry::new("a curve", style, Key::MarkedLine)], Place::Free);
@@ -244,7 +247,6 @@ fn a_curve_under_another_is_wider() {
         &mut plot,
         0,
         &[curve(0, 0.5), curve(1, 0.501), curve(2, 0.9)],
-        true,
     );
     let widths = plot.marks.iter().filter_map(|(_, mark)| match mark {
         Mark::Line(_, style) => Some(style.width),
@@ -266,6 +268,28 @@ fn at(points: &[(f64, f64)], x: f64) -> Option<f64> {
 }
 
 proptest! {
+    /// Nothing is drawn across an estimate that has no place, and everything between two that have one.
+    #[test]
+    fn lines_and_bands_have_gaps_at_limits(quarters in prop::collection::vec(0..=4u8, 2..12)) {
+        let rates: Vec<f64> = quarters.iter().map(|&it| f64::from(it) / 4.0).collect();
+        let scaled = options("y_scale = 'probit'").apply(curve_of(&rates), None);
+        let (plot, _) = scaled.unwrap();
+        let is_limit = |x: usize| rates[x] == 0.0 || rates[x] == 1.0;
+        let joins = |mark: &Mark, x: usize| {
+            let at: Vec<f64> = match mark {
+                Mark::Line(points, _) => points.iter().map(|it| it.0).collect(),
+                Mark::Band(points, _) => points.iter().map(|it| it.x).collect(),
+                _ => return false,
+            };
+            at.windows(2).any(|it| it[0] < x as f64 + 0.5 && it[1] > x as f64 + 0.5)
+        };
+        for x in 1..rates.len() {
+            let found = plot.marks_of(0).filter(|mark| joins(mark, x - 1)).count();
+            let expected = if is_limit(x - 1) || is_limit(x) { 0 } else { 2 };
+            prop_assert_eq!(found, expected, "at {}", x);
+        }
+    }
+
     /// A line that is cut is there exactly where it runs through the panel; a band is what lies in it.
     #[test]
     fn cuts_keep_what_lies_inside(
@@ -276,7 +300,7 @@ proptest! {
             .map(|(x, (y, half))| Point::new(x, [y - half, *y, y + half])).collect();
         let mut plot = Plot::stack(&Axis::linear(0.0, 9.0, 5), [(100.0, Axis::linear(0.0, 1.0, 5))]);
         let style = Style::of(0);
-        add_bands(&mut plot, 0, &[Curve { style, points: points.clone() }], true);
+        add_bands(&mut plot, 0, &[Curve { style, points: points.clone() }]);
         let (x, y) = ([x_from, x_from + x_wide], [y_from, y_from + y_wide]);
         plot.show(Some(x), Some(y)).unwrap();
         let (mut lines, mut band) = (Vec::new(), Vec::new());

@@ -2,6 +2,7 @@
 //! their axes.
 
 use super::axis::{Axis, ends};
+use super::curves::stretches;
 use super::mark::{Limit, Mark, Point};
 use super::picture::{Panel, Plot};
 use super::scale::Scale;
@@ -13,10 +14,14 @@ impl Plot {
     /// The same with another scale of y in every panel whose y has numbers; whether there is one.
     pub(super) fn rescale(&mut self, scale: Scale) -> bool {
         let old: Vec<Axis> = self.panels.iter().map(|panel| panel.y.clone()).collect();
-        for (panel, mark) in &mut self.marks {
-            if let Some(from) = old[*panel].scale.filter(|from| *from != scale) {
-                mark.rescale(from, scale);
-            }
+        for (panel, mark) in std::mem::take(&mut self.marks) {
+            let from = old[panel].scale.filter(|from| *from != scale);
+            let moved = match from {
+                Some(from) => mark.rescaled(from, scale),
+                None => vec![mark],
+            };
+            self.marks
+                .extend(moved.into_iter().map(|mark| (panel, mark)));
         }
         // Panels that had one axis keep one.
         let ends: Vec<(f64, f64)> = (old.iter())
@@ -127,37 +132,47 @@ impl Axis {
 }
 
 impl Mark {
-    /// Moves it to another scale of y. What has no place there stands for its limit, or is left out.
-    fn rescale(&mut self, from: Scale, to: Scale) {
+    /// The same on another scale of y. Where an estimate has no place there its limit stands for it, or nothing, and lines
+    /// and bands have a gap.
+    fn rescaled(self, from: Scale, to: Scale) -> Vec<Self> {
         let place = |y: f64| to.place(from.value(y));
+        let placed = |points: Vec<(f64, f64)>| points.into_iter().map(|(x, y)| (x, place(y)));
+        let estimates = |mut points: Vec<Point>| {
+            points.iter_mut().for_each(|point| point.rescale(from, to));
+            points
+        };
+        let kept = |points| {
+            let mut points = estimates(points);
+            points.retain(|point| point.y.is_finite());
+            points
+        };
         match self {
-            Self::Line(points, _) | Self::Dense(points, _) => {
-                points.iter_mut().for_each(|point| point.1 = place(point.1));
-                points.retain(|point| point.1.is_finite());
+            Self::Line(points, style) => {
+                let points: Vec<(f64, f64)> = placed(points).collect();
+                let lines = stretches(&points, |point| !point.1.is_finite()).into_iter();
+                lines.map(|points| Self::Line(points, style)).collect()
             }
-            Self::Band(points, _) => {
-                // Down to the edge where the lower end has no place.
-                for point in points.iter_mut() {
-                    let low = place(point.low);
-                    point.rescale(from, to);
-                    if !low.is_finite() {
-                        point.low = -1e9;
-                    }
-                }
-                points.retain(|point| point.y.is_finite());
+            Self::Band(points, style) => {
+                let is_gap = |point: &Point| point.limit.is_some() || !point.y.is_finite();
+                let bands = stretches(&estimates(points), is_gap).into_iter();
+                bands.map(|points| Self::Band(points, style)).collect()
             }
-            Self::Bars(points, _) | Self::Markers(points, _) | Self::Points(points, _) => {
-                points.iter_mut().for_each(|point| point.rescale(from, to));
-                points.retain(|point| point.y.is_finite());
+            Self::Dense(points, style) => {
+                let points = placed(points).filter(|point| point.1.is_finite());
+                vec![Self::Dense(points.collect(), style)]
             }
-            Self::Level(y, _) => *y = place(*y),
+            Self::Bars(points, style) => vec![Self::Bars(kept(points), style)],
+            Self::Markers(points, style) => vec![Self::Markers(kept(points), style)],
+            Self::Points(points, style) => vec![Self::Points(kept(points), style)],
+            Self::Level(y, dash) => vec![Self::Level(place(y), dash)],
             Self::Cells(cells) => {
-                for (corner, opposite, _) in &mut *cells {
-                    (corner.1, opposite.1) = (place(corner.1), place(opposite.1));
-                }
-                cells.retain(|cell| cell.0.1.is_finite() && cell.1.1.is_finite());
+                let cells = cells.into_iter();
+                let cells =
+                    cells.map(|(a, b, colour)| ((a.0, place(a.1)), (b.0, place(b.1)), colour));
+                let cells = cells.filter(|(a, b, _)| a.1.is_finite() && b.1.is_finite());
+                vec![Self::Cells(cells.collect())]
             }
-            _ => {}
+            other => vec![other],
         }
     }
 

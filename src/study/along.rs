@@ -120,7 +120,7 @@ pub fn plot<'a>(
             let style = Style::of(curve).faded(0.6);
             plot.add(panel, Mark::Line(line.collect(), style));
         }
-        add_bands(&mut plot, panel, curves, false);
+        add_bands(&mut plot, panel, curves);
         plot.add(panel, Mark::Axes);
     }
     // One curve without a name of its own needs no legend.
@@ -226,8 +226,7 @@ impl<'a> Along<'a> {
     }
 }
 
-/// An estimate and its interval. On a logarithmic scale an arrow stands where nothing was counted: a band would reach to
-/// the edge.
+/// An estimate and its interval. On a logarithmic scale an arrow stands where nothing was counted.
 fn point([estimate, low, high]: [f64; 3], x: f64, kind: Kind) -> Point {
     let point = Point::new(x, [low, estimate, high]);
     let Kind::Positive(limit) = kind else {

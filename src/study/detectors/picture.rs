@@ -31,7 +31,7 @@ pub fn plot(rows: &[Row], table: &Table, seed: u64) -> Plot {
     plot.margins.left = 76.0;
     plot.add_to_all(&Mark::Grid);
     for (panel, start) in table.start.iter().enumerate() {
-        add_bands(&mut plot, panel, &curves(rows, table, start), true);
+        add_bands(&mut plot, panel, &curves(rows, table, start));
     }
     add_rates(&mut plot, rows, table);
     plot.add_to_all(&Mark::Axes);

@@ -67,6 +67,6 @@ fn add_distribution(plot: &mut Plot, rows: &[Row]) {
     plot.panels.push(Panel::new(150.0, x, y));
     let panel = plot.panels.len() - 1;
     plot.add(panel, Mark::Grid);
-    add_bands(plot, panel, &curves, false);
+    add_bands(plot, panel, &curves);
     plot.add(panel, Mark::Axes);
 }

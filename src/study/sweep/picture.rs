@@ -115,7 +115,7 @@ fn add_panel(
     if is_named {
         add_bars(plot, panel, group.curves);
     } else {
-        add_bands(plot, panel, &group.curves, true);
+        add_bands(plot, panel, &group.curves);
     }
     plot.add(panel, Mark::Axes);
 }
