@@ -12,8 +12,8 @@ pub struct Curve {
     pub points: Vec<Point>,
 }
 
-/// Lines in their bands, and markers over all of them. Where a limit stands for an estimate both have a gap: between its
-/// neighbours the truth may lie anywhere below. A curve that lies under others is wider, so that its edge is seen.
+/// Lines in their bands, and markers over all of them. Where a limit stands for an estimate both have a gap: the
+/// truth may lie anywhere beyond it. A curve that lies under others is wider, so that its edge is seen.
 pub fn add_bands(plot: &mut Plot, panel: usize, curves: &[Curve]) {
     let covers: Vec<usize> = (0..curves.len())
         .map(|index| covers_of(&plot.panels[panel].y, &curves[index..]))

@@ -1,5 +1,6 @@
 //! How a picture is to look: the keys of `[figure]`, and the flags of the same names. Counts are as they are.
 
+use super::axis::ends;
 use super::legend::{Key, Place};
 use super::mark::Mark;
 use super::overlay::{Overlay, OverlayError};
@@ -208,9 +209,13 @@ impl Options {
     ) -> Result<(Plot, Vec<String>), OptionsError> {
         let mut notes = Vec::new();
         if let Some(scale) = self.y_scale {
-            let before = plot.markers();
+            let (before, had_limits) = (plot.markers(), plot.has_limits());
             if !plot.rescale(scale) {
                 return Err(OptionsError::Names);
+            }
+            if plot.has_limits() && !had_limits {
+                let arrows = "arrows: limits where an estimate has no place on this scale";
+                plot.caption.push(vec![arrows.to_owned()]);
             }
             let lost = before - plot.markers();
             if lost > 0 {
@@ -308,18 +313,33 @@ impl Plot {
         used
     }
 
-    /// Leaves out the markers of curves that have a line in their panel; limits stay.
+    fn has_limits(&self) -> bool {
+        self.marks.iter().any(|(_, mark)| match mark {
+            Mark::Markers(points, _) | Mark::Points(points, _) => {
+                points.iter().any(|point| point.limit.is_some())
+            }
+            _ => false,
+        })
+    }
+
+    /// Leaves out the markers through which a line of their curve runs; limits and single points stay.
     fn drop_markers(&mut self) {
         let lines = self.marks.iter().filter_map(|(panel, mark)| match mark {
-            Mark::Line(_, style) => Some((*panel, style.colour.rgb)),
+            Mark::Line(points, style) if points.len() > 1 => {
+                let span = ends(points.iter().map(|point| point.0));
+                Some(((*panel, style.colour.rgb), span))
+            }
             _ => None,
         });
         let lines: Vec<_> = lines.collect();
         for (panel, mark) in &mut self.marks {
-            if let Mark::Markers(points, style) = mark
-                && lines.contains(&(*panel, style.colour.rgb))
-            {
-                points.retain(|point| point.limit.is_some());
+            if let Mark::Markers(points, style) = mark {
+                let curve = (*panel, style.colour.rgb);
+                let is_on_line = |x: f64| {
+                    let mut spans = lines.iter().filter(|line| line.0 == curve);
+                    spans.any(|(_, (from, to))| (*from..=*to).contains(&x))
+                };
+                points.retain(|point| point.limit.is_some() || !is_on_line(point.x));
             }
         }
         let entries = self.legend.iter_mut().flat_map(|it| &mut it.entries);

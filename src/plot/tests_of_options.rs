@@ -267,6 +267,29 @@ fn at(points: &[(f64, f64)], x: f64) -> Option<f64> {
     Some(pair[0].1 + share * (pair[1].1 - pair[0].1))
 }
 
+/// A point between limits is on no line, so that its marker stays; its interval is a bar, within the panel alone.
+#[test]
+fn a_lone_point_is_seen() {
+    let of = |keys: &str| {
+        let rates = curve_of(&[0.0, 0.25, 0.0, 0.25, 0.5]);
+        options(keys).apply(rates, None).unwrap().0
+    };
+    let places = |plot: &Plot| markers(plot).iter().map(|it| it.x).collect::<Vec<_>>();
+    let bands = |plot: &Plot| {
+        let lengths = plot.marks_of(0).filter_map(|mark| match mark {
+            Mark::Band(points, _) => Some(points.len()),
+            _ => None,
+        });
+        lengths.collect::<Vec<_>>()
+    };
+    let plot = of("y_scale = 'log'\nmarkers = false");
+    assert_eq!(places(&plot), [0.0, 1.0, 2.0]);
+    assert_eq!(bands(&plot), [1, 2]);
+    assert!(plot.caption.concat().concat().contains("arrows: limits"));
+    let plot = of("y_scale = 'log'\nx_range = [0.0, 3.0]\ny_range = [0.01, 0.1]");
+    assert_eq!(bands(&plot), [0, 0]);
+}
+
 proptest! {
     /// Nothing is drawn across an estimate that has no place, and everything between two that have one.
     #[test]

@@ -133,7 +133,7 @@ impl Axis {
 
 impl Mark {
     /// The same on another scale of y. Where an estimate has no place there its limit stands for it, or nothing, and lines
-    /// and bands have a gap.
+    /// and bands have a gap, unless they are dense.
     fn rescaled(self, from: Scale, to: Scale) -> Vec<Self> {
         let place = |y: f64| to.place(from.value(y));
         let placed = |points: Vec<(f64, f64)>| points.into_iter().map(|(x, y)| (x, place(y)));
@@ -182,7 +182,13 @@ impl Mark {
             Self::Line(points, style) => (pieces(x, y, &points).into_iter())
                 .map(|piece| Self::Line(piece, style))
                 .collect(),
-            Self::Band(points, style) => vec![Self::Band(cut_band(x, y, &points), style)],
+            Self::Band(points, style) => {
+                let cut = match points.len() {
+                    1 => cut_bars(x, y, points),
+                    _ => cut_band(x, y, &points),
+                };
+                vec![Self::Band(cut, style)]
+            }
             Self::Dense(mut points, style) => {
                 points.retain(|point| holds(x, point.0));
                 vec![Self::Dense(points, style)]
@@ -328,6 +334,10 @@ fn cut_band(x: &Axis, y: &Axis, points: &[Point]) -> Vec<Point> {
     }
     turned.extend(points.last());
     turned.retain(|point| holds(x, point.x));
+    // An edge alone is nothing.
+    if turned.len() == 1 {
+        turned.clear();
+    }
     turned
 }
 
