@@ -2,7 +2,7 @@
 
 use super::axis::ends;
 use super::legend::{Key, Place};
-use super::mark::Mark;
+use super::mark::{Mark, Point};
 use super::overlay::{Overlay, OverlayError};
 use super::picture::Plot;
 use super::scale::Scale;
@@ -209,7 +209,7 @@ impl Options {
     ) -> Result<(Plot, Vec<String>), OptionsError> {
         let mut notes = Vec::new();
         if let Some(scale) = self.y_scale {
-            let (before, had_limits) = (plot.markers(), plot.has_limits());
+            let (before, had_limits) = (plot.estimates().count(), plot.has_limits());
             if !plot.rescale(scale) {
                 return Err(OptionsError::Names);
             }
@@ -217,7 +217,7 @@ impl Options {
                 let arrows = "arrows: limits where an estimate has no place on this scale";
                 plot.caption.push(vec![arrows.to_owned()]);
             }
-            let lost = before - plot.markers();
+            let lost = before - plot.estimates().count();
             if lost > 0 {
                 notes.push(format!("points without a place on this scale of y: {lost}"));
             }
@@ -274,13 +274,17 @@ impl Options {
 }
 
 impl Plot {
-    /// How many markers there are.
-    fn markers(&self) -> usize {
-        let of = |(_, mark): &(usize, Mark)| match mark {
-            Mark::Markers(points, _) | Mark::Points(points, _) => points.len(),
-            _ => 0,
-        };
-        self.marks.iter().map(of).sum()
+    /// What has a marker.
+    fn estimates(&self) -> impl Iterator<Item = &Point> {
+        self.marks.iter().flat_map(|(_, mark)| match mark {
+            Mark::Markers(points, _) | Mark::Points(points, _) => &points[..],
+            _ => &[],
+        })
+    }
+
+    /// Whether there are arrows.
+    pub fn has_limits(&self) -> bool {
+        self.estimates().any(|point| point.limit.is_some())
     }
 
     /// Widens the margin at the left until the words along y have room.
@@ -311,15 +315,6 @@ impl Plot {
         let entries = self.legend.iter_mut().flat_map(|it| &mut it.entries);
         entries.for_each(|entry| change(&mut entry.style.colour));
         used
-    }
-
-    fn has_limits(&self) -> bool {
-        self.marks.iter().any(|(_, mark)| match mark {
-            Mark::Markers(points, _) | Mark::Points(points, _) => {
-                points.iter().any(|point| point.limit.is_some())
-            }
-            _ => false,
-        })
     }
 
     /// Leaves out the markers through which a line of their curve runs; limits and single points stay.

@@ -128,8 +128,7 @@ pub fn plot<'a>(
         let names = labels.iter().map(|label| literal(label));
         plot.add_legend(Entry::of_curves(names, Key::MarkedLine), Place::Free);
     }
-    let mut drawn = panels.iter().flat_map(|(_, curves)| points(curves));
-    let arrows = drawn.any(|point| point.limit.is_some());
+    let arrows = plot.has_limits();
     let arrows = arrows.then(|| "arrows: limits where nothing happened".to_owned());
     let parts: Vec<String> = caption.iter().cloned().chain(arrows).collect();
     plot.set_caption(&parts);

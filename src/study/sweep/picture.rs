@@ -73,7 +73,6 @@ pub fn plot(frame: &Frame, rows: &[Row], seed: u64) -> Result<Plot, FigureError>
     {
         plot.add_whitened_axis(unit);
     }
-    let has_limits = points(&groups).any(|point| point.limit.is_some());
     for (panel, group) in groups.into_iter().enumerate() {
         add_panel(&mut plot, panel, group, &levels, axis.is_named());
     }
@@ -86,7 +85,7 @@ pub fn plot(frame: &Frame, rows: &[Row], seed: u64) -> Result<Plot, FigureError>
         caption.push(format!("dashed: {excess} α, the most that a claim allows"));
     }
     plot.set_caption(&caption);
-    if has_limits {
+    if plot.has_limits() {
         let arrows = "arrows: upper limits where no trial gave a false alarm";
         plot.caption.push(vec![arrows.to_owned()]);
     }
